@@ -1,20 +1,20 @@
-//! What a kept result was made from.
+//! Results to be cached, and the inputs that they depend on.
 
 use camino::Utf8PathBuf;
 
 use crate::names::Names;
 use crate::stamp::Stamp;
 
-/// Results with everything that they were made from, to be kept. Files, directories and questions that several were made from are in it once.
+/// Results to be stored, with all their inputs. Files, directories and lookups that several results share are stored once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Catalogue {
     /// Every file that was read.
     pub files: Vec<FileFact>,
     /// Every directory that was listed.
     pub directories: Vec<DirectoryFact>,
-    /// The directories that were asked together, by their numbers: the same ones are asked for thousands of names.
+    /// Sets of directories that are searched together, as indices into `directories`. Thousands of lookups search the same set.
     pub directory_lists: Vec<Vec<usize>>,
-    /// Every question.
+    /// Every lookup.
     pub lookups: Vec<Lookup>,
     /// The results.
     pub records: Vec<Record>,
@@ -23,52 +23,54 @@ pub struct Catalogue {
 /// A file as it was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileFact {
-    /// As the run spelt it.
+    /// As the run spelled it.
     pub path: Utf8PathBuf,
-    /// What the system said of it.
+    /// The file's metadata when it was read.
     pub stamp: Stamp,
-    /// The blake3 hash of its bytes; `None` where it could not be read.
+    /// The blake3 hash of its bytes; `None` if it could not be read.
     pub hash: Option<[u8; 32]>,
 }
 
 /// A directory as it was listed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectoryFact {
-    /// As the run spelt it.
+    /// As the run spelled it.
     pub path: Utf8PathBuf,
     /// The names of its drawings, sorted.
     pub names: Names,
-    /// Where it really is, relative to the configuration where it lies below it: links on the way to it decide whether two files are one.
+    /// Canonical path, relative to the configuration's directory if inside it: symbolic links on the way decide whether two files are the
+    /// same.
     pub canonical: Box<str>,
-    /// Whether what is asked of it is asked again in any case: there are links among the names, or they changed while they were read.
+    /// Whether lookups in this directory are always repeated: some names are symbolic links, or the directory changed while it was read.
     pub is_doubtful: bool,
 }
 
 /// A result.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
-    /// What it is of: a drawing, mostly. No two are of the same.
+    /// What the result is about, mostly a drawing. Unique among the records.
     pub of: Box<str>,
-    /// The files that it was made from, by their numbers.
+    /// The files that were read, as indices into [`Catalogue::files`].
     pub files: Vec<usize>,
-    /// What was looked for, by the numbers of the questions.
+    /// The lookups that were made, as indices into [`Catalogue::lookups`].
     pub lookups: Vec<usize>,
-    /// The files that were written of it, by their numbers: it holds without them, but then they are to be written again.
+    /// The files that were written, as indices into [`Catalogue::files`]. If one is missing, the result still holds, but the file must be
+    /// written again.
     pub outputs: Vec<usize>,
-    /// The result itself, which only its maker can read.
+    /// The result itself; only the crate that stored it can decode it.
     pub payload: Vec<u8>,
 }
 
-/// A question to directories: which of their names may hold this path?
+/// A search in directories: which of their files may contain the path of this name?
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Lookup {
-    /// The number of the list of the directories.
+    /// Index into [`Catalogue::directory_lists`].
     pub directories: usize,
-    /// The path's name.
+    /// Name of the path.
     pub name: Box<str>,
 }
 
-/// Whether the name of a file is a drawing's.
+/// Whether a file name has the extension of a drawing.
 pub(crate) fn is_drawing(name: &str) -> bool {
     const EXTENSION: &str = "dxf";
     let stem = name.len().checked_sub(EXTENSION.len() + 1).filter(|stem| *stem > 0);

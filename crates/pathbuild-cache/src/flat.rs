@@ -1,30 +1,30 @@
-//! How kept results lie in a file: tables whose rows all have one size, then what the results themselves say, then all texts in a row. Nothing has to
-//! be taken apart to be looked at: a row is found by its number, and says by place and length where its texts are. Numbers are little-endian and
-//! of four bytes.
+//! The body of a results file: tables with rows of fixed size, then the payloads of the results, then all strings. Rows can be read in
+//! place: a row is addressed by its index and refers to its strings by offset and length. All numbers are little-endian and four bytes
+//! long.
 //!
-//! | table | a row |
+//! | table | row |
 //! | --- | --- |
-//! | [`FILES`], by path | path, stamp, whether there is a hash, hash |
-//! | [`DIRECTORIES`] | path, canonical path, doubt, the first of its names and their number |
+//! | [`FILES`], sorted by path | path, stamp, whether there is a hash, hash |
+//! | [`DIRECTORIES`] | path, canonical path, doubtful flag, first name and number of names |
 //! | [`NAMES`] | a name in a directory |
-//! | [`RECORDS`], by what they are of | what it is of, its files, its questions, its payload, its outputs: place and number of each |
-//! | [`RECORD_FILES`] | the number of a file |
-//! | [`RECORD_LOOKUPS`] | the number of a question |
-//! | [`LOOKUPS`] | list of directories, name |
-//! | [`RECORD_OUTPUTS`] | the number of a file |
-//! | [`DIRECTORY_LISTS`] | the first of its directories and their number |
-//! | [`LISTED_DIRECTORIES`] | the number of a directory |
+//! | [`RECORDS`], sorted by subject | subject, then offset and length of its files, lookups, payload and outputs |
+//! | [`RECORD_FILES`] | index of a file |
+//! | [`RECORD_LOOKUPS`] | index of a lookup |
+//! | [`LOOKUPS`] | directory list, name |
+//! | [`RECORD_OUTPUTS`] | index of a file |
+//! | [`DIRECTORY_LISTS`] | first directory and number of directories |
+//! | [`LISTED_DIRECTORIES`] | index of a directory |
 
 use std::collections::HashMap;
 
 use crate::facts::{Catalogue, DirectoryFact, FileFact, Record};
 use crate::stamp::Stamp;
 
-/// Size of a number, and of a place with its length.
+/// Size in bytes of a number, and of an offset with its length.
 pub(crate) const WORD: usize = 4;
 const SPAN: usize = 2 * WORD;
 
-/// The size of a table's rows.
+/// Row size of each table in bytes.
 pub(crate) const SIZES: [usize; TABLES] = [
     SPAN + Stamp::SIZE + WORD + HASH,
     3 * SPAN + WORD,
@@ -51,14 +51,14 @@ pub(crate) const RECORD_OUTPUTS: usize = 7;
 pub(crate) const DIRECTORY_LISTS: usize = 8;
 pub(crate) const LISTED_DIRECTORIES: usize = 9;
 
-/// What stands before the tables: how many rows each has, then the sizes of the payloads and the texts.
+/// Length of the table of contents: the row count of each table, then the sizes of the payloads and the strings.
 pub(crate) const COUNTS: usize = TABLES + 2;
 
-/// More than a file of kept results can hold.
+/// The catalogue exceeds what a results file can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TooMuch;
 
-/// Adds a catalogue.
+/// Appends a catalogue.
 pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), TooMuch> {
     let names: usize = catalogue.directories.iter().map(|directory| directory.names.len()).sum();
     let texts = catalogue.files.len() + names + catalogue.lookups.len() + catalogue.records.len();
@@ -84,17 +84,17 @@ pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), To
     flat.finish(bytes)
 }
 
-/// Tables while they are filled.
+/// Tables under construction.
 #[derive(Default)]
 struct Flat<'a> {
     tables: [Vec<u8>; TABLES],
     payloads: Vec<u8>,
     texts: String,
-    /// Where texts are: most files are what a result is of.
+    /// Interned strings: the path of most files is also the subject of a record.
     known: HashMap<&'a str, Span>,
 }
 
-/// A place and a length, or the first and the number of some rows.
+/// Offset and length of a string, or index of the first row and number of rows.
 type Span = [u32; 2];
 
 impl<'a> Flat<'a> {
@@ -112,7 +112,7 @@ impl<'a> Flat<'a> {
         Ok(())
     }
 
-    /// Adds all files in order of path; the new number of each.
+    /// Adds all files, sorted by path, and returns the new index of each.
     fn files(&mut self, files: &'a [FileFact]) -> Result<Vec<u32>, TooMuch> {
         let mut order: Vec<usize> = (0..files.len()).collect();
         order.sort_unstable_by(|a, b| files[*a].path.as_str().cmp(files[*b].path.as_str()));
@@ -157,7 +157,7 @@ impl<'a> Flat<'a> {
         Ok(())
     }
 
-    /// Adds rows of one number.
+    /// Adds rows that consist of one number.
     fn rows(
         &mut self,
         table: usize,

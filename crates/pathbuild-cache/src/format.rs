@@ -1,4 +1,5 @@
-//! What stands before everything in a file of kept results: by which it is known whose it is, and that it is whole. What follows is in [`flat`].
+//! The header of a results file: it identifies the results by their [`Key`] and protects them by a checksum. The body that follows is laid
+//! out in [`flat`].
 //!
 //! [`flat`]: crate::flat
 
@@ -6,61 +7,62 @@ use crate::facts::Catalogue;
 use crate::flat::{TooMuch, write};
 use crate::snapshot::Snapshot;
 
-/// What results are of: which program made them, with which settings, asked what.
+/// Identifies a set of cached results: program build, settings, and query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// The program's build.
+    /// Hash of the program's build.
     pub build: [u8; 32],
-    /// Everything else that a result depends on and that is in no file.
+    /// Hash of everything else that a result depends on and that is in no file.
     pub question: [u8; 32],
 }
 
-/// Why a file of the cache is not used.
+/// Why a results file is not used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unusable {
-    /// It is none, or not whole.
+    /// Not a results file, or incomplete.
     Damaged,
-    /// Another build of the program wrote it, or this one asked something else.
+    /// Written by another build of the program, or for another query.
     Foreign,
 }
 
 const MAGIC: &[u8; 16] = b"pathbuild cache\x04";
 
-/// The magic, the two halves of the key, the checksum.
+/// Length of the header: magic, both halves of the key, checksum.
 const HEAD: usize = 16 + 32 + 32 + CHECKSUM;
 const CHECKSUM: usize = 32;
 
 impl Key {
-    /// A key of texts.
+    /// Hashes the build and the query.
     pub fn new(build: &str, question: &str) -> Self {
         let hash = |text: &str| *blake3::hash(text.as_bytes()).as_bytes();
         Self { build: hash(build), question: hash(question) }
     }
 
-    /// The name of the file that results are kept in.
+    /// Name of the file that holds the results of this key.
     pub fn file_name(&self) -> String {
         let digits = blake3::Hash::from_bytes(self.question).to_hex();
         format!("{}{SUFFIX}", &digits[..DIGITS])
     }
 }
 
-/// Whether a name is one that [`Key::file_name`] gives.
+/// Whether [`Key::file_name`] could have returned this name.
 pub(crate) fn is_file_name(name: &str) -> bool {
     let digits = name.strip_suffix(SUFFIX);
-    digits.is_some_and(|it| {
-        it.len() == DIGITS && it.bytes().all(|it| it.is_ascii_digit() || (b'a'..=b'f').contains(&it))
+    digits.is_some_and(|digits| {
+        digits.len() == DIGITS
+            && digits.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
     })
 }
 
-/// What names of kept results end in.
+/// Extension of results files.
 const SUFFIX: &str = ".results";
-/// How many digits of the question's hash stand before that.
+/// Number of hexadecimal digits of the query's hash in a file name.
 const DIGITS: usize = 24;
 
-/// A catalogue as the bytes of a file.
+/// Encodes a catalogue as a complete results file.
 ///
 /// # Errors
-/// When it is larger than a file of kept results can be.
+/// If the catalogue is larger than a results file can be.
 pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, TooMuch> {
     let mut file = Vec::new();
     file.extend_from_slice(MAGIC);
@@ -73,7 +75,7 @@ pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, TooMuc
     Ok(file)
 }
 
-/// What a file keeps, if it is whole and under this key.
+/// Decodes a results file that is complete and belongs to this key.
 pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Snapshot, Unusable> {
     let found = key_of(&file).ok_or(Unusable::Damaged)?;
     if found != *key {
@@ -85,7 +87,7 @@ pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Snapshot, Unusable> {
     Snapshot::new(file, HEAD).ok_or(Unusable::Damaged)
 }
 
-/// The key in a file's head.
+/// The key in a file's header.
 pub(crate) fn key_of(file: &[u8]) -> Option<Key> {
     let rest = file.strip_prefix(MAGIC)?;
     let (build, rest) = rest.split_first_chunk()?;
@@ -93,7 +95,7 @@ pub(crate) fn key_of(file: &[u8]) -> Option<Key> {
     Some(Key { build: *build, question: *question })
 }
 
-/// Whether what stands behind a file's head is what was written.
+/// Whether the checksum in the header matches the body.
 fn is_whole(file: &[u8]) -> bool {
     let split = file.split_at_checked(HEAD);
     split.is_some_and(|(head, body)| head.ends_with(blake3::hash(body).as_bytes()))

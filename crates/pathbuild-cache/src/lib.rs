@@ -1,9 +1,11 @@
-//! Results that outlive a process. A result is kept with everything that it was made from: the files that were read, and the names that were
-//! looked for in directories, found or not. A later run takes it if all of that is as it was (a *verifying trace*), and makes it anew
-//! otherwise. Whether a file is as it was is told by its stamp, as Git does it; only where that is in doubt is the file read and hashed.
+//! A cache of results that outlives a process. A result is stored together with all its inputs: the files that were read, and the names
+//! that were looked up in directories, whether found or not. A later run reuses the result if none of the inputs has changed (a *verifying
+//! trace*) and recomputes it otherwise. Changes are detected by file stamps, as in Git; a file is read and hashed only if its stamp leaves
+//! doubt.
 //!
-//! Rules: a kept result may be missing, but never wrong. What is damaged, of another build or of another format is not used, and replaced. A run
-//! never fails because of the cache. Everything in it can be deleted at any time. (book: reference/configuration: no configuration, no cache)
+//! Rules: a cached result may be missing, but never wrong. A file that is damaged, or written by another build or in another format, is
+//! ignored and replaced. A run never fails because of the cache. Everything in it can be deleted at any time. (book:
+//! reference/configuration: no configuration, no cache)
 
 mod facts;
 mod flat;

@@ -1,7 +1,7 @@
-//! Directories as they are now.
+//! The current contents of directories.
 #![expect(
     clippy::disallowed_methods,
-    reason = "the stat index is about directories as the system has them, beside what the drawings say"
+    reason = "change detection reads the real directories, which are no input of a drawing"
 )]
 
 use std::collections::HashMap;
@@ -16,17 +16,17 @@ use crate::names::Names;
 /// The names of drawings in a directory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
-    /// The names, sorted once all are there.
+    /// The names; sorted once the listing is complete.
     pub names: Names,
-    /// Whether there are links among them, or some may be missing.
+    /// Whether some names are symbolic links, or some may be missing.
     pub is_doubtful: bool,
 }
 
-/// The drawings in directories that somebody listed already, by directory as the run spells it.
+/// Directories that the run has already listed, as the run spells their paths.
 pub type Listings = HashMap<Utf8PathBuf, Listing>;
 
 impl Listing {
-    /// Adds something in a directory that is no directory itself, if it is a drawing.
+    /// Adds a directory entry that is not itself a directory, if it is a drawing.
     pub fn add(&mut self, name: &str, is_link: bool) {
         if is_drawing(name) {
             self.is_doubtful |= is_link;
@@ -34,7 +34,7 @@ impl Listing {
         }
     }
 
-    /// A directory's. What is in one that cannot be listed is not known; one that is not there holds nothing.
+    /// Lists a directory. A missing directory is empty; one that cannot be read makes the listing doubtful.
     fn of(directory: &Utf8Path) -> Self {
         let mut listing = Self::default();
         let entries = match fs::read_dir(directory) {
@@ -49,7 +49,7 @@ impl Listing {
                 listing.is_doubtful = true;
                 continue;
             };
-            // As System lists them: of names that are no UTF-8 a lossy spelling.
+            // `System` lists names that are not UTF-8 in the same lossy spelling.
             if let Some(file_type) = entry.file_type().ok().filter(|file_type| !file_type.is_dir()) {
                 listing.add(&entry.file_name().to_string_lossy(), file_type.is_symlink());
             }
@@ -60,12 +60,12 @@ impl Listing {
 }
 
 impl DirectoryFact {
-    /// A directory as it is now. `base` is the configuration's directory.
+    /// Reads the current state of a directory. `base` is the configuration's directory.
     pub fn now(path: &Utf8Path, base: &Utf8Path) -> Self {
         Self::from_listing(path, base, None)
     }
 
-    /// The same, if it was listed already without listing it again.
+    /// Like [`now`](Self::now), but reuses an earlier listing if there is one.
     pub(crate) fn from_listing(path: &Utf8Path, base: &Utf8Path, listed: Option<Listing>) -> Self {
         let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
         let Listing { names, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));

@@ -1,41 +1,41 @@
-//! Names of files.
+//! A compact list of file names.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::Range;
 
-/// Names in some order, in one text: a directory of ten thousand drawings has as many.
+/// File names stored in one string: a directory may hold ten thousand drawings.
 #[derive(Clone, Default)]
 pub struct Names {
     text: String,
-    /// Where each is.
+    /// Where each name is in `text`.
     spans: Vec<Range<usize>>,
 }
 
 impl Names {
-    /// One more name.
+    /// Appends a name.
     pub fn push(&mut self, name: &str) {
         let begin = self.text.len();
         self.text.push_str(name);
         self.spans.push(begin..self.text.len());
     }
 
-    /// How many there are.
+    /// Number of names.
     pub fn len(&self) -> usize {
         self.spans.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no names.
     pub fn is_empty(&self) -> bool {
         self.spans.is_empty()
     }
 
-    /// All of them.
+    /// The names, in their current order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &str> {
         self.spans.iter().map(|span| &self.text[span.clone()])
     }
 
-    /// Puts them in order.
+    /// Sorts the names.
     pub fn sort_by(&mut self, compare: impl Fn(&str, &str) -> Ordering) {
         let Self { text, spans } = self;
         spans.sort_unstable_by(|a, b| compare(&text[a.clone()], &text[b.clone()]));

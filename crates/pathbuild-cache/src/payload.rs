@@ -1,20 +1,20 @@
-//! What a result says, as bytes of `postcard`, and back.
+//! Encoding of the results themselves, in `postcard`.
 
 use serde::{Deserialize, Serialize};
 
-/// Bytes that do not say what they should. The cache is not used then.
+/// The bytes do not decode to a value of the expected type. The cached result is then ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Corrupt;
 
-/// A value as bytes; `None` where it has no form in them.
+/// Encodes a value; `None` if `postcard` cannot represent it.
 pub fn encode<T: Serialize + ?Sized>(value: &T) -> Option<Vec<u8>> {
     postcard::to_allocvec(value).ok()
 }
 
-/// What [`encode`] wrote.
+/// Decodes what [`encode`] wrote.
 ///
 /// # Errors
-/// When the bytes are of something else, or go on behind it.
+/// If the bytes do not decode to this type, or if bytes remain.
 pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Corrupt> {
     match postcard::take_from_bytes(bytes) {
         Ok((value, [])) => Ok(value),

@@ -1,6 +1,6 @@
-//! Directories and files that belong to one person: made for their owner only, never made or read through links, and not used where they
-//! are somebody else's.
-#![expect(clippy::disallowed_methods, reason = "the cache's own files, which no result depends on")]
+//! Private directories and files: created with access for their owner only, never created or read through symbolic links, and not used if
+//! they belong to another user.
+#![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
 use std::fs::{self, DirBuilder, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
@@ -12,10 +12,10 @@ use pathbuild_diagnostic::reasons::{
 };
 use pathbuild_diagnostic::{Value, Word};
 
-/// Makes a directory with those above it that are missing; whether it was not there.
+/// Creates a directory and its missing parents. Returns whether it is new.
 ///
 /// # Errors
-/// When it cannot be made.
+/// If it cannot be created.
 pub(crate) fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
     if fs::symlink_metadata(directory).is_ok() {
         return Ok(false);
@@ -27,7 +27,7 @@ pub(crate) fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
     builder.create(directory).map(|()| true)
 }
 
-/// Why a directory is not used; nothing where it is not there yet.
+/// Why a directory must not be used; `None` if it is fine or does not exist yet.
 pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Word> {
     match fs::symlink_metadata(directory) {
         Ok(data) if data.is_symlink() => Some(&IS_LINK),
@@ -40,14 +40,14 @@ pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Word> {
     }
 }
 
-/// The bytes of a file, if it is a regular one of this person; `None` where there is none.
+/// The bytes of a regular file that belongs to this user; `None` if there is no such file.
 ///
 /// # Errors
-/// When it cannot be read, is something else, or has more than so many bytes.
+/// If it cannot be read, is something else, or is larger than `limit` bytes.
 pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value> {
     let mut options = OpenOptions::new();
     options.read(true);
-    // A link is not followed, and nobody waits for who writes into a pipe.
+    // Do not follow a symbolic link, and do not wait for the writer of a pipe.
     #[cfg(unix)]
     {
         let flags = rustix::fs::OFlags::NOFOLLOW | rustix::fs::OFlags::NONBLOCK;
@@ -65,16 +65,16 @@ pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value
     if data.len() > limit {
         return Err(Value::Word(&NEVER_SO_LARGE));
     }
-    // It may grow while it is read.
+    // The file may grow while it is read, so limit the read as well.
     let mut bytes = Vec::with_capacity(usize::try_from(data.len()).unwrap_or_default());
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| reason(&error))?;
     if bytes.len() as u64 > limit { Err(Value::Word(&NEVER_SO_LARGE)) } else { Ok(Some(bytes)) }
 }
 
-/// Makes a file that was not there, with a name of its own that begins with a point.
+/// Creates a new temporary file in a directory, with a unique hidden name derived from `name`.
 ///
 /// # Errors
-/// When it cannot be made.
+/// If it cannot be created.
 pub(crate) fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf8PathBuf, File)> {
     let mut options = OpenOptions::new();
     options.write(true).create_new(true);
@@ -91,24 +91,24 @@ pub(crate) fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf
     Err(io::Error::other("too many temporary files"))
 }
 
-/// Puts a file in the place of another, whole or not at all. What lay there, a link too, is replaced and not followed.
+/// Atomically replaces a file. An existing symbolic link is replaced, not followed.
 ///
 /// # Errors
-/// When it cannot be written; what was there still is.
+/// If it cannot be written; the previous file remains.
 pub(crate) fn replace(directory: &Utf8Path, name: &str, bytes: &[u8]) -> io::Result<()> {
     let (beside, mut file) = create_beside(directory, name)?;
     let written = file.write_all(bytes).and_then(|()| fs::rename(&beside, directory.join(name)));
     if written.is_err() {
-        // Best effort: the error that is reported is the one that came first.
+        // Best effort: the first error is the one to report.
         _ = fs::remove_file(&beside);
     }
     written
 }
 
-/// Removes a file. That somebody else removed it is no error.
+/// Removes a file. A file that is already gone is no error.
 ///
 /// # Errors
-/// When it cannot be removed.
+/// If it cannot be removed.
 pub(crate) fn remove(path: &Utf8Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -116,7 +116,7 @@ pub(crate) fn remove(path: &Utf8Path) -> io::Result<()> {
     }
 }
 
-/// So many names are tried for a file that must be new: killed runs of the same number may have left theirs.
+/// Number of names tried for a temporary file: killed runs with the same process id may have left theirs.
 const ATTEMPTS: u32 = 100;
 
 #[cfg(unix)]

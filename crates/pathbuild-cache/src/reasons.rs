@@ -1,37 +1,37 @@
-//! Why a kept result no longer holds, for people.
+//! Explains why a cached result no longer holds.
 
 use camino::Utf8PathBuf;
 
 use crate::snapshot::Snapshot;
 use crate::verify::{Covers, DirectoryChange, FileState, Verdict};
 
-/// Something that a result was made from and that is not as it was.
+/// An input of a result that has changed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
-    /// A file has other bytes, or is gone.
+    /// A file has different bytes, or is gone.
     File {
-        /// As the run spelt it.
+        /// As the run spelled it.
         path: Utf8PathBuf,
         /// Whether it is gone.
         is_gone: bool,
     },
-    /// A file came or went that may hold a path which was looked for.
+    /// A file that may contain a path which was looked up has appeared or disappeared.
     Name {
-        /// Where.
+        /// The file.
         file: Utf8PathBuf,
-        /// The path.
+        /// Name of the path that was looked up.
         path: Box<str>,
-        /// Whether it went.
+        /// Whether the file disappeared.
         is_gone: bool,
     },
-    /// A directory has links in it, or on the way to it: what was looked for there is always looked for again.
+    /// A directory contains symbolic links or is reached through one: lookups in it are always repeated.
     Links {
         /// The directory.
         directory: Utf8PathBuf,
     },
 }
 
-/// Why a record does not hold, each reason once; nothing where it does.
+/// Lists why a record no longer holds, without duplicates; empty if it holds.
 pub fn reasons(kept: &Snapshot, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
     let record = kept.record(record);
     let changed = record.files().filter(|file| verdict.files[*file] == FileState::Changed);
@@ -48,7 +48,7 @@ pub fn reasons(kept: &Snapshot, verdict: &Verdict, record: usize, covers: Covers
     }
     reasons.sort();
     reasons.dedup();
-    // Of a file that was read and is gone, one line says enough.
+    // For a file that was read and is gone, one reason is enough.
     let gone: Vec<Utf8PathBuf> = reasons.iter().filter_map(Reason::gone_file).cloned().collect();
     reasons.retain(|reason| !matches!(reason, Reason::Name { file, .. } if gone.contains(file)));
     reasons

@@ -1,5 +1,5 @@
-//! Kept results, looked at as they lie in their file. Places and lengths are looked through once when the file was read; after that whatever
-//! is out of bounds, which cannot be, is empty.
+//! Read access to cached results in the form in which they lie in their file. All offsets and lengths are checked once, when the file is
+//! loaded; later accesses out of bounds, which cannot happen, yield empty values.
 
 use std::ops::Range;
 
@@ -11,10 +11,10 @@ use crate::flat::{
 };
 use crate::stamp::Stamp;
 
-/// Results with everything that they were made from, as they were kept. The default is that of nothing.
+/// Cached results with all their inputs. The default is an empty snapshot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
-    /// The file up to the texts.
+    /// The file up to the strings.
     bytes: Vec<u8>,
     tables: [Range<usize>; TABLES],
     payloads: Range<usize>,
@@ -47,7 +47,7 @@ pub struct KeptRecord<'a> {
 struct Row<'a>(&'a [u8]);
 
 impl Snapshot {
-    /// What a file keeps behind its head; `None` where something is out of bounds.
+    /// Parses the file from the end of its header on; `None` if an offset or an index is out of bounds.
     pub(crate) fn new(mut file: Vec<u8>, head: usize) -> Option<Self> {
         let counts = Row(file.get(head..head + COUNTS * WORD)?);
         let mut end = head + COUNTS * WORD;
@@ -70,64 +70,64 @@ impl Snapshot {
         kept.is_in_bounds().then_some(kept)
     }
 
-    /// How many files there are.
+    /// Number of files.
     pub fn files(&self) -> usize {
         self.rows(FILES)
     }
 
-    /// A file by its number; they are in order of path.
+    /// A file by its index. Files are sorted by path.
     pub fn file(&self, number: usize) -> KeptFile<'_> {
         KeptFile { kept: self, row: self.row(FILES, number) }
     }
 
-    /// The number of the file of a path.
+    /// Index of the file with this path.
     pub fn file_of(&self, path: &Utf8Path) -> Option<usize> {
         self.search(FILES, path.as_str())
     }
 
-    /// How many directories there are.
+    /// Number of directories.
     pub fn directories(&self) -> usize {
         self.rows(DIRECTORIES)
     }
 
-    /// A directory by its number.
+    /// A directory by its index.
     pub fn directory(&self, number: usize) -> KeptDirectory<'_> {
         KeptDirectory { kept: self, row: self.row(DIRECTORIES, number) }
     }
 
-    /// How many results there are.
+    /// Number of results.
     pub fn records(&self) -> usize {
         self.rows(RECORDS)
     }
 
-    /// A result by its number; they are in order of what they are of.
+    /// A result by its index. Results are sorted by subject.
     pub fn record(&self, number: usize) -> KeptRecord<'_> {
         KeptRecord { kept: self, row: self.row(RECORDS, number) }
     }
 
-    /// The number of the result of something. `likely`: the one that it may be.
+    /// Index of the result about this subject. `hint` is tried first.
     pub fn record_of(&self, of: &str, likely: usize) -> Option<usize> {
         let is_likely = likely < self.records() && self.record(likely).of() == of;
         if is_likely { Some(likely) } else { self.search(RECORDS, of) }
     }
 
-    /// How many different questions there are.
+    /// Number of distinct lookups.
     pub fn lookups(&self) -> usize {
         self.rows(LOOKUPS)
     }
 
-    /// A question by its number: the number of the list of directories, and a name.
+    /// A lookup by its index: the index of its directory list, and the name.
     pub fn lookup(&self, number: usize) -> (usize, &str) {
         let row = self.row(LOOKUPS, number);
         (row.number(0), self.text(row, 1))
     }
 
-    /// How many lists of directories there are.
+    /// Number of directory lists.
     pub fn directory_lists(&self) -> usize {
         self.rows(DIRECTORY_LISTS)
     }
 
-    /// The numbers of the directories in a list.
+    /// Indices of the directories in a list.
     pub fn directory_list(&self, number: usize) -> impl ExactSizeIterator<Item = usize> {
         self.numbers(LISTED_DIRECTORIES, self.row(DIRECTORY_LISTS, number).range(0))
     }
@@ -141,17 +141,17 @@ impl Snapshot {
         Row(self.bytes.get(begin..begin + SIZES[table]).unwrap_or_default())
     }
 
-    /// The text whose place and length stand from this number of a row on.
+    /// The string whose offset and length begin at this column.
     fn text(&self, row: Row<'_>, at: usize) -> &str {
         self.texts.get(row.range(at)).unwrap_or_default()
     }
 
-    /// The numbers in the rows of another table that a row names.
+    /// The numbers in a range of single-column rows.
     fn numbers(&self, table: usize, rows: Range<usize>) -> impl ExactSizeIterator<Item = usize> {
         rows.map(move |number| self.row(table, number).number(0))
     }
 
-    /// The row that begins with a text.
+    /// Binary search for the row whose first column is this string.
     fn search(&self, table: usize, text: &str) -> Option<usize> {
         let (mut low, mut high) = (0, self.rows(table));
         while low < high {
@@ -165,7 +165,7 @@ impl Snapshot {
         (low < self.rows(table) && self.text(self.row(table, low), 0) == text).then_some(low)
     }
 
-    /// Whether every place and number in a row is of something that is there.
+    /// Whether every offset and index refers to something that exists.
     fn is_in_bounds(&self) -> bool {
         let all = |table: usize, is_sound: &dyn Fn(Row<'_>) -> bool| {
             (0..self.rows(table)).all(|number| is_sound(self.row(table, number)))
@@ -193,17 +193,17 @@ impl Snapshot {
 }
 
 impl<'a> KeptFile<'a> {
-    /// As the run spelt it.
+    /// As the run spelled it.
     pub fn path(self) -> &'a Utf8Path {
         Utf8Path::new(self.kept.text(self.row, 0))
     }
 
-    /// What the system said of it.
+    /// The file's metadata when it was read.
     pub fn stamp(self) -> Stamp {
         Stamp::from_bytes(self.row.bytes(2))
     }
 
-    /// The blake3 hash of its bytes; `None` where it could not be read, or nobody did.
+    /// The blake3 hash of its bytes; `None` if it was not, or could not be, read.
     pub fn hash(self) -> Option<[u8; HASH]> {
         const AT: usize = 2 + Stamp::SIZE / WORD;
         (self.row.number(AT) == 1).then(|| self.row.bytes(AT + 1))
@@ -211,49 +211,49 @@ impl<'a> KeptFile<'a> {
 }
 
 impl<'a> KeptDirectory<'a> {
-    /// As the run spelt it.
+    /// As the run spelled it.
     pub fn path(self) -> &'a Utf8Path {
         Utf8Path::new(self.kept.text(self.row, 0))
     }
 
-    /// Where it really was.
+    /// Canonical path when it was listed.
     pub fn canonical(self) -> &'a str {
         self.kept.text(self.row, 2)
     }
 
-    /// Whether what is asked of it is asked again in any case.
+    /// Whether lookups in this directory are always repeated.
     pub fn is_doubtful(self) -> bool {
         self.row.word(4) != 0
     }
 
-    /// Its names, sorted.
+    /// Its file names, sorted.
     pub fn names(self) -> impl ExactSizeIterator<Item = &'a str> {
         self.row.range(5).map(move |number| self.kept.text(self.kept.row(NAMES, number), 0))
     }
 }
 
 impl<'a> KeptRecord<'a> {
-    /// What it is of.
+    /// What the result is about.
     pub fn of(self) -> &'a str {
         self.kept.text(self.row, 0)
     }
 
-    /// The numbers of the files that it was made from.
+    /// Indices of the files that were read.
     pub fn files(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
         self.kept.numbers(RECORD_FILES, self.row.range(2))
     }
 
-    /// The numbers of the questions that were asked.
+    /// Indices of the lookups that were made.
     pub fn lookups(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
         self.kept.numbers(RECORD_LOOKUPS, self.row.range(4))
     }
 
-    /// The numbers of the files that were written of it.
+    /// Indices of the files that were written.
     pub fn outputs(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
         self.kept.numbers(RECORD_OUTPUTS, self.row.range(8))
     }
 
-    /// The result itself, which only its maker can read.
+    /// The result itself; only the crate that stored it can decode it.
     pub fn payload(self) -> &'a [u8] {
         let Range { start, end } = self.row.range(6);
         let payloads = self.kept.payloads.start;
@@ -270,7 +270,7 @@ impl Row<'_> {
         self.word(at) as usize
     }
 
-    /// From a place on as far as the length behind it says.
+    /// The offset at this column with the length in the next one.
     fn range(self, at: usize) -> Range<usize> {
         let begin = self.number(at);
         begin..begin.saturating_add(self.number(at + 1))

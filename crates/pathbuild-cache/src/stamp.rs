@@ -1,10 +1,11 @@
-//! Whether a file is as it was, without reading it: what the system says of it.
+//! File stamps: detect from the file system's metadata whether a file has changed, without reading it.
 //!
-//! As in Git, equal stamps mean an equal file only if the file had rested for a while when it was read: one that changes again within the
-//! same tick of the file system's clock keeps its stamp. Whatever had not rested is kept without a stamp, and is read and hashed next time.
+//! As in Git, equal stamps prove that a file is unchanged only if it had been at rest for a while when it was read: a file that changes
+//! again within the same tick of the file system's clock keeps its stamp. Files that were not at rest are stored without a stamp, and are
+//! read and hashed by the next run.
 #![expect(
     clippy::disallowed_methods,
-    reason = "the stat index is about files as the system has them, beside the drawings' bytes"
+    reason = "change detection reads the metadata of the real files, which are no input of a drawing"
 )]
 
 use std::fs::{self, File, Metadata};
@@ -15,30 +16,30 @@ use camino::Utf8Path;
 
 use crate::private;
 
-/// What the system says of a file, as bytes that are compared as a whole: size, times of its last changes in whole seconds, the rest.
+/// A file's metadata as opaque bytes that are compared as a whole: size, times of its last changes in whole seconds, the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp([u8; Stamp::SIZE]);
 
-/// The time by the clock that stamps the files of a directory, which need not be this machine's.
+/// The time by the clock of a directory's file system, which may differ from this machine's clock.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(SystemTime);
 
-/// The name of the file whose time is looked at.
+/// Name of the temporary file whose modification time is read.
 pub(crate) const CLOCK: &str = "clock";
 
-/// The coarsest tick of a file system in use (FAT).
+/// Coarsest time resolution of a file system in use (FAT).
 const TICK: Duration = Duration::from_secs(2);
 
 impl Stamp {
     pub(crate) const SIZE: usize = 48;
 
-    /// That of no file at all.
+    /// Stamp of a file that does not exist.
     pub const MISSING: Self = Self([0xFF; Self::SIZE]);
 
-    /// One that no file has.
+    /// A stamp that no file has.
     pub const UNKNOWN: Self = Self([0; Self::SIZE]);
 
-    /// That of a file, of what a link leads to; unknown where the system does not tell it.
+    /// Stamp of a file, following symbolic links; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
     pub fn of(file: &Utf8Path) -> Self {
         match fs::metadata(file) {
             Ok(data) => Self::of_data(&data),
@@ -47,28 +48,28 @@ impl Stamp {
         }
     }
 
-    /// That of an open file; unknown where the system does not tell it.
+    /// Stamp of an open file; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
     pub fn of_open(file: &File) -> Self {
         file.metadata().map_or(Self::UNKNOWN, |data| Self::of_data(&data))
     }
 
-    /// The same, to be kept by a run that began to read at `begun`: unknown if the file had not rested by then.
+    /// The stamp to store for a run that began reading at `begun`: [`UNKNOWN`](Self::UNKNOWN) if the file was not at rest by then.
     #[must_use]
     pub fn settled(self, begun: Clock) -> Self {
         let is_of_file = self != Self::MISSING && self != Self::UNKNOWN;
         if is_of_file && !self.has_rested(begun) { Self::UNKNOWN } else { self }
     }
 
-    /// Whether a file was last changed so long before a time that a later change would show.
+    /// Whether the file's last change is old enough that a later one would alter the stamp.
     fn has_rested(self, Clock(begun): Clock) -> bool {
         let number =
             |index: usize| self.0[8 * index..].first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
-        // Before 1970 is not believed.
+        // Times before 1970 are not trusted.
         let is_before = |seconds: u64| {
             let time = i64::try_from(seconds)
                 .ok()
                 .and_then(|_| UNIX_EPOCH.checked_add(Duration::from_secs(seconds)));
-            // Parts of a second count as a whole one.
+            // Fractions of a second are rounded up.
             time.and_then(|time| time.checked_add(TICK + Duration::from_secs(1)))
                 .is_some_and(|time| time < begun)
         };
@@ -88,20 +89,20 @@ impl Stamp {
         for (slot, number) in stamp.chunks_exact_mut(8).zip(numbers(data)) {
             slot.copy_from_slice(&number.to_le_bytes());
         }
-        // Neither of the two that stand for something else: a kind is never 0 nor all ones.
+        // This is neither `MISSING` nor `UNKNOWN`: the last number is never zero and never all ones.
         Self(stamp)
     }
 }
 
 impl Clock {
-    /// What time it is where the files of a directory are stamped: that of a file made there.
+    /// Current time of a directory's file system: the modification time of a new file in it.
     ///
     /// # Errors
-    /// When none can be made.
+    /// If no file can be created there.
     pub fn of(directory: &Utf8Path) -> io::Result<Self> {
         let (probe, file) = private::create_beside(directory, CLOCK)?;
         let time = file.metadata().and_then(|data| data.modified());
-        // It may not even have been made.
+        // The file may not have been created at all.
         _ = fs::remove_file(&probe);
         time.map(Self)
     }

@@ -1,6 +1,6 @@
-//! Where results lie: in the user's cache directory, under the tree's real path, so that no repository brings its own; or in a directory that
-//! the user named. Any number of processes may read and write there: files are written beside and renamed, so that a file is always one that
-//! somebody finished, and the last one counts. (book: reference/configuration)
+//! Where results are stored: in the user's cache directory, in a directory named after the tree's real path, so that no repository can
+//! bring its own cache; or in a directory that the user named. Any number of processes may read and write there: files are replaced
+//! atomically, so every file is complete, and the last writer wins. (book: reference/configuration)
 
 use std::io;
 
@@ -16,34 +16,34 @@ use crate::snapshot::Snapshot;
 use crate::stamp::Clock;
 use crate::upkeep::is_ours;
 
-/// Where the results of trees are kept.
+/// Where the results of all trees are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Home {
-    /// The directory of pathbuild in the user's cache directory: each tree has a directory there.
+    /// pathbuild's directory in the user's cache directory; each tree has a subdirectory.
     User(Utf8PathBuf),
-    /// A directory that the user named. It is believed whatever tree it was made for, so that it holds for a copy too.
+    /// A directory that the user named. It is trusted whichever tree it was made for, so that it also serves copies of that tree.
     Named(Utf8PathBuf),
 }
 
-/// Where the results of one tree are kept.
+/// Where the results of one tree are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TreeStore {
     directory: Utf8PathBuf,
-    /// The real path of the tree, where results are only for it.
+    /// Real path of the tree; `None` if the user named the directory.
     tree: Option<Utf8PathBuf>,
 }
 
-/// In which file of a tree's directory the tree's path is.
+/// Name of the file that records the tree's path.
 pub(crate) const TREE: &str = "tree";
-/// Larger results are not read: a file that somebody put there must not fill the memory.
+/// Size limit of results files in bytes: a planted file must not exhaust the memory.
 pub(crate) const LARGEST: u64 = 1 << 30;
-/// The same of the other files.
+/// Size limit of the other files in bytes.
 pub(crate) const SMALL: u64 = 1 << 16;
-/// What marks a directory as a cache.
+/// Name of the file that marks a directory as a cache.
 pub(crate) const TAG: &str = "CACHEDIR.TAG";
 
 impl TreeStore {
-    /// That of the tree whose configuration is in this directory. Nothing is made yet.
+    /// The store of the tree with this configuration directory. Creates nothing yet.
     pub fn of_tree(home: &Home, tree: &Utf8Path) -> Self {
         match home {
             Home::Named(directory) => Self { directory: directory.clone(), tree: None },
@@ -54,12 +54,12 @@ impl TreeStore {
         }
     }
 
-    /// Where it is.
+    /// The directory of the results.
     pub fn directory(&self) -> &Utf8Path {
         &self.directory
     }
 
-    /// Why it is not used: it is a link, somebody else's, or a directory of other things.
+    /// Why the store must not be used: its directory is a symbolic link, belongs to another user, or holds other files.
     pub fn refusal(&self) -> Option<&'static Word> {
         let holds_others = || {
             let mut listed = self.directory.read_dir_utf8().into_iter().flatten().filter_map(Result::ok);
@@ -73,10 +73,10 @@ impl TreeStore {
         private::refusal(&self.directory).or_else(|| (!is_right()).then_some(&HOLDS_OTHERS))
     }
 
-    /// What is kept under a key; `None` where nothing is.
+    /// Loads the results of a key; `None` if there are none.
     ///
     /// # Errors
-    /// Why what is there cannot be used.
+    /// Why the results file cannot be used.
     pub fn load(&self, key: &Key) -> Result<Option<Snapshot>, Unusable> {
         match private::read(&self.directory.join(key.file_name()), LARGEST) {
             Ok(Some(file)) => format::decode(key, file).map(Some),
@@ -85,10 +85,10 @@ impl TreeStore {
         }
     }
 
-    /// Keeps results under a key, instead of what was there.
+    /// Stores results under a key, replacing earlier ones.
     ///
     /// # Errors
-    /// When it cannot be written; what was there still is.
+    /// If they cannot be written; the earlier ones remain.
     pub fn store(&self, key: &Key, catalogue: &Catalogue) -> io::Result<()> {
         let too_much = || io::Error::other("there is more to keep than a file can hold");
         let bytes = format::encode(key, catalogue).map_err(|TooMuch| too_much())?;
@@ -99,18 +99,18 @@ impl TreeStore {
         private::replace(&self.directory, &key.file_name(), &bytes)
     }
 
-    /// What time it is by the clock of its file system.
+    /// Current time of the directory's file system.
     ///
     /// # Errors
-    /// When nothing can be written there.
+    /// If nothing can be written there.
     pub fn clock(&self) -> io::Result<Clock> {
         Clock::of(&self.directory)
     }
 
-    /// Makes the directory, with what keeps it out of backups; whether it was not there.
+    /// Creates the directory, and the tag that keeps it out of backups. Returns whether the directory is new.
     ///
     /// # Errors
-    /// When it cannot be made.
+    /// If it cannot be created.
     pub fn make(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
         let tag = private::read(&self.directory.join(TAG), SMALL);
@@ -124,24 +124,24 @@ impl TreeStore {
     }
 }
 
-/// Whether the file that marks a cache is pathbuild's: others mark theirs by the same signature.
+/// Whether a cache tag was written by pathbuild: other programs use the same signature line.
 pub(crate) fn is_own_tag(tag: &[u8]) -> bool {
     tag == TAG_TEXT.as_bytes()
 }
 
-/// Whether the file that names a tree is pathbuild's: the directory has its name from that tree.
+/// Whether the directory's tree file was written by pathbuild: the directory is named after that tree.
 pub(crate) fn is_own_tree(directory: &Utf8Path) -> bool {
     let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
     let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
     tree.is_some_and(|tree| directory.file_name() == Some(name_of(Utf8Path::new(&tree)).as_str()))
 }
 
-/// The name of the directory in which results of a tree are kept in a user's cache directory.
+/// Name of a tree's subdirectory in the user's cache directory.
 fn name_of(tree: &Utf8Path) -> String {
     blake3::hash(tree.as_str().as_bytes()).to_hex()[..NAME_LENGTH].to_owned()
 }
 
-/// So many digits of a hash tell trees apart.
+/// Number of hexadecimal digits in the name of a tree's subdirectory.
 const NAME_LENGTH: usize = 32;
 
 const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\

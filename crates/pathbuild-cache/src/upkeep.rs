@@ -1,5 +1,5 @@
-//! Looking after what is kept: how much there is, whether it is whole, and removing it.
-#![expect(clippy::disallowed_methods, reason = "the cache's own files, which no result depends on")]
+//! Maintenance of the cache: listing, checking and removing results.
+#![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
 use std::fs;
 use std::io;
@@ -14,33 +14,33 @@ use crate::private;
 use crate::stamp::CLOCK;
 use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag, is_own_tree};
 
-/// A file of kept results.
+/// A results file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Where it is.
+    /// Its path.
     pub path: Utf8PathBuf,
-    /// Its size in bytes.
+    /// Size in bytes.
     pub size: u64,
-    /// Why it cannot be used; `None` where it can.
+    /// Why the file cannot be used; `None` if it can.
     pub fault: Option<Unusable>,
 }
 
-/// What could not be removed.
+/// A file or directory that could not be removed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotRemoved {
-    /// The file, or the directory.
+    /// Its path.
     pub path: Utf8PathBuf,
-    /// Why not.
+    /// Why it could not be removed.
     pub reason: Value,
 }
 
-/// How long results that nobody asked for are kept when the cache is pruned.
+/// Age after which pruning removes results that have not been rewritten.
 const UNUSED: Duration = Duration::from_hours(30 * 24);
-/// After which time a file that a process was writing must have been left behind.
+/// Age after which a temporary file must have been left by a killed process.
 const LEFT_BEHIND: Duration = Duration::from_hours(1);
 
 impl TreeStore {
-    /// Every file of results, in order of name, and whether this build of the program can use it.
+    /// All results files, sorted by name, each with whether this build of the program can use it.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
         let mut entries: Vec<Entry> = names(self.directory())
             .filter(|name| format::is_file_name(name))
@@ -55,11 +55,11 @@ impl TreeStore {
         entries
     }
 
-    /// Removes what no longer serves: what cannot be used, what was not written for a month, and what a process left that was killed. Gives
-    /// back how many files that were.
+    /// Removes useless files: those that cannot be used, those not rewritten for a month, and temporary files of killed processes. Returns
+    /// how many files were removed.
     ///
     /// # Errors
-    /// When one of them cannot be removed, or it is no cache: then nothing is.
+    /// If one of them cannot be removed, or if the directory is not a cache; then nothing is removed.
     pub fn prune(&self, build: &Key) -> Result<usize, NotRemoved> {
         refuse_others(self.directory())?;
         let unused = self.entries(build).into_iter();
@@ -71,10 +71,10 @@ impl TreeStore {
         Ok(all.len())
     }
 
-    /// Removes all of it; whether there was anything.
+    /// Removes the whole store. Returns whether it existed.
     ///
     /// # Errors
-    /// When it cannot be removed, or is no cache: then nothing is.
+    /// If it cannot be removed, or if it is not a cache; then nothing is removed.
     pub fn clean(&self) -> Result<bool, NotRemoved> {
         let is_there = fs::symlink_metadata(self.directory()).is_ok();
         if is_there {
@@ -85,10 +85,10 @@ impl TreeStore {
 }
 
 impl Home {
-    /// Removes the results of trees that are gone; how many trees that were.
+    /// Removes the results of trees that no longer exist. Returns the number of trees.
     ///
     /// # Errors
-    /// When they cannot be removed.
+    /// If the results of a tree cannot be removed.
     pub fn prune(&self) -> Result<usize, NotRemoved> {
         let Self::User(caches) = self else { return Ok(0) };
         let (mut removed, mut not_removed) = (0, None);
@@ -98,7 +98,7 @@ impl Home {
             if tree.is_some_and(|tree| !Utf8Path::new(&tree).as_std_path().exists()) {
                 match clean(&directory) {
                     Ok(()) => removed += 1,
-                    // The others go all the same.
+                    // Continue with the other trees.
                     Err(error) => not_removed = Some(error),
                 }
             }
@@ -107,13 +107,13 @@ impl Home {
     }
 }
 
-/// Whether a file in a directory of kept results is one that pathbuild makes there.
+/// Whether pathbuild creates files of this name in a results directory.
 pub(crate) fn is_ours(directory: &Utf8Path, name: &str) -> bool {
     let is_named_so = format::is_file_name(name) || is_temporary(name) || name == TAG;
     is_named_so || name == TREE && is_own_tree(directory)
 }
 
-/// As [`private::create_beside`] names what becomes one of those files.
+/// Whether the name is one that [`private::create_beside`] gives to a temporary results file.
 fn is_temporary(name: &str) -> bool {
     let word = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -125,10 +125,10 @@ fn is_temporary(name: &str) -> bool {
     })
 }
 
-/// Removes what pathbuild made in a directory, and the directory where nothing else is in it.
+/// Removes pathbuild's files from a directory, and the directory itself if it is then empty.
 fn clean(directory: &Utf8Path) -> Result<(), NotRemoved> {
     refuse_others(directory)?;
-    // What says that it is a cache goes last.
+    // The tag that marks the directory as a cache goes last.
     let ours: Vec<String> = names(directory).filter(|name| name != TAG && is_ours(directory, name)).collect();
     for name in ours.into_iter().chain([TAG.to_owned()]) {
         remove(&directory.join(name))?;
@@ -141,7 +141,7 @@ fn clean(directory: &Utf8Path) -> Result<(), NotRemoved> {
     }
 }
 
-/// Nothing is removed through a link, or from a directory that pathbuild has not made: names like its own may be anybody's.
+/// Refuses directories reached through a symbolic link or not created by pathbuild: other programs may use the same file names.
 fn refuse_others(directory: &Utf8Path) -> Result<(), NotRemoved> {
     let refused = |word| NotRemoved { path: directory.to_owned(), reason: Value::Word(word) };
     if let Some(word) = private::refusal(directory) {
@@ -149,7 +149,7 @@ fn refuse_others(directory: &Utf8Path) -> Result<(), NotRemoved> {
     }
     let tag = directory.join(TAG);
     let tag = private::read(&tag, SMALL).map_err(|reason| NotRemoved { path: tag, reason })?;
-    // Another run may be about to write it, or just have removed it: then there is nothing else but what pathbuild makes.
+    // Another process may be about to write the tag, or may just have removed it; all other files must then be ours.
     let is_cache =
         tag.map_or_else(|| names(directory).all(|name| is_ours(directory, &name)), |tag| is_own_tag(&tag));
     if !is_cache {

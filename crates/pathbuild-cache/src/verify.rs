@@ -1,4 +1,4 @@
-//! Which results still hold: those whose files are as they were, and to whose questions directories still give the same answers.
+//! Decides which cached results still hold: their files must be unchanged, and their lookups must still give the same answers.
 use std::collections::BTreeSet;
 
 use camino::Utf8Path;
@@ -9,45 +9,45 @@ use crate::listing::{Listing, Listings};
 use crate::snapshot::{KeptDirectory, KeptFile, Snapshot};
 use crate::stamp::Stamp;
 
-/// Whether a file of this name may hold the path of that name.
+/// Whether the file of the first name may contain the path of the second name.
 pub type Covers<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 
-/// Bytes, and the stamp that they were read under.
+/// A file's bytes, and the stamp under which they were read.
 pub type Stamped = (Vec<u8>, Stamp);
 
-/// What became of what was kept.
+/// The outcome of verifying a snapshot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// For each record, whether it was asked for and still holds, whatever became of its outputs.
+    /// For each record, whether it was requested and still holds; its outputs do not matter.
     pub holds: Vec<bool>,
-    /// For each record, asked for or not, whether nothing is known against it.
+    /// For each record, requested or not, whether no input is known to have changed.
     pub is_sound: Vec<bool>,
-    /// For each file, what became of it.
+    /// State of each file.
     pub files: Vec<FileState>,
-    /// Each directory as it is now.
+    /// The current state of each directory.
     pub directories: Vec<DirectoryFact>,
-    /// Whether every stamp and every directory is as it was, so that nothing need be written anew.
+    /// Whether every stamp and every directory is unchanged, so that the snapshot need not be rewritten.
     pub is_current: bool,
 }
 
-/// How what was kept is looked at.
+/// How a snapshot is compared with the file system.
 #[derive(Clone, Copy)]
 pub struct Looking<'a> {
-    /// The directory that names are relative to.
+    /// Directory that paths are relative to.
     pub base: &'a Utf8Path,
-    /// Which file may hold which path.
+    /// Which file may contain which path.
     pub covers: Covers<'a>,
-    /// Which records are looked at, by what they are of.
+    /// Which records are requested, by subject.
     pub is_asked: &'a (dyn Fn(&str) -> bool + Sync),
-    /// Whether a file may be looked at.
+    /// Whether a file may be accessed.
     pub is_allowed: &'a (dyn Fn(&Utf8Path) -> bool + Sync),
-    /// The bytes of a file, of an output or not, and the stamp that it had before and after they were read: unknown if that was not the same.
+    /// Reads a file; the flag tells whether it is an output. The stamp is unknown if it changed during the read.
     pub read: &'a (dyn Fn(&Utf8Path, bool) -> Option<Stamped> + Sync),
-    /// What the content of an output is hashed to: some is written by people.
+    /// Hashes the content of an output; outputs may have parts that users edit.
     pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
 }
 
-/// Holds what was kept against the files as they are now. Directories that are among the listings are not listed again.
+/// Compares a snapshot with the file system. Directories in `listings` are not listed again.
 pub fn verify(kept: &Snapshot, looking: Looking<'_>, mut listings: Listings) -> Verdict {
     let is_asked: Vec<bool> =
         (0..kept.records()).map(|number| (looking.is_asked)(kept.record(number).of())).collect();
@@ -71,7 +71,7 @@ pub fn verify(kept: &Snapshot, looking: Looking<'_>, mut listings: Listings) -> 
     Verdict { holds, is_sound, files, directories, is_current }
 }
 
-/// What became of the files of the records that are asked for: to ask the system for ten thousand is most of the work.
+/// States of the files of the requested records. Querying the metadata of ten thousand files dominates a run without changes.
 fn files(kept: &Snapshot, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileState> {
     let mut roles = vec![Role::None; kept.files()];
     for (number, _) in is_asked.iter().enumerate().filter(|(_, is_asked)| **is_asked) {
@@ -87,7 +87,7 @@ fn files(kept: &Snapshot, is_asked: &[bool], looking: Looking<'_>) -> Vec<FileSt
     roles.par_iter().enumerate().with_min_len(256).map(state).collect()
 }
 
-/// What a file is to the records that are asked for.
+/// How the requested records use a file.
 #[derive(Clone, Copy)]
 enum Role {
     None,
@@ -95,7 +95,7 @@ enum Role {
     Output,
 }
 
-/// For each record whether no file that was looked at has changed, and every question has the same answer.
+/// For each record, whether none of its checked files has changed and all its lookups give the same answers.
 fn sound(kept: &Snapshot, files: &[FileState], changes: &[DirectoryChange], covers: Covers<'_>) -> Vec<bool> {
     let changed =
         |list| kept.directory_list(list).map(|number| &changes[number]).filter(|change| change.is_some());
@@ -114,16 +114,16 @@ fn sound(kept: &Snapshot, files: &[FileState], changes: &[DirectoryChange], cove
     (0..kept.records()).map(is_sound).collect()
 }
 
-/// What became of a file.
+/// State of a file compared with the snapshot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileState {
-    /// Its stamp is what it was.
+    /// The stamp is unchanged.
     Resting,
-    /// Its stamp is another, or was not known, and its bytes are what they were: this is the stamp that they were read under.
+    /// The stamp differs or was unknown, but the bytes are unchanged; they were read under this new stamp.
     Restored(Stamp),
-    /// It is not what it was.
+    /// The bytes differ, or the file is gone.
     Changed,
-    /// Nobody asked.
+    /// No requested record uses it.
     Unlooked,
 }
 
@@ -134,7 +134,7 @@ fn state(
     hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32],
 ) -> FileState {
     let path = file.path();
-    // The stamp is that of what links lead to, wherever.
+    // Check first: a stamp is that of the target of symbolic links, which may be anywhere.
     if !(looking.is_allowed)(path) {
         return FileState::Changed;
     }
@@ -149,13 +149,13 @@ fn state(
     }
 }
 
-/// What became of a directory.
+/// Difference between a directory and its snapshot.
 pub(crate) enum DirectoryChange {
-    /// Nothing.
+    /// Same names, no links.
     None,
-    /// These names came or went.
+    /// Names that were added or removed.
     Names(Vec<Box<str>>),
-    /// Links decide what it is: whatever was asked of it is asked again.
+    /// Symbolic links are involved: all lookups in this directory are repeated.
     Links,
 }
 
@@ -176,7 +176,7 @@ impl DirectoryChange {
         !matches!(self, Self::None)
     }
 
-    /// Whether the answer to a question may be another.
+    /// Whether a lookup of this path may now give another answer.
     fn concerns(&self, path: &str, covers: Covers<'_>) -> bool {
         match self {
             Self::None => false,

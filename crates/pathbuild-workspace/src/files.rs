@@ -1,5 +1,5 @@
-//! Files that the program itself reads and writes: the configuration, reports, baselines. Drawings and programs go through the
-//! database, which has to know every file that a result depends on.
+//! Files that the program reads and writes for itself: configuration, reports, baselines. Drawings and programs go through the database,
+//! which must know every file that a result depends on.
 #![expect(clippy::disallowed_methods, reason = "see above")]
 
 use std::fs;
@@ -16,25 +16,25 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::workspace::Workspace;
 
-/// Whether anything but a directory has that name: what cannot be read is told when it is read.
+/// Whether a file exists under this name and is not a directory. Unreadable files are reported when they are read.
 pub fn is_there(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }
 
-/// Whether anything at all has that name, were it a link to nothing.
+/// Whether the name is taken, even by a dangling symbolic link.
 pub fn is_named(file: &Utf8Path) -> bool {
     file.as_std_path().symlink_metadata().is_ok()
 }
 
-/// How many bytes a file has.
+/// Size of a file in bytes.
 pub fn size(file: &Utf8Path) -> Option<u64> {
     file.as_std_path().metadata().ok().map(|data| data.len())
 }
 
-/// The text of a file, in UTF-8.
+/// Reads a file as UTF-8 text.
 ///
 /// # Errors
-/// Why it cannot be read. It must be a regular file of at most `limit` bytes.
+/// The reason why it cannot be read. It must be a regular file of at most `limit` bytes.
 pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, Value> {
     let bytes = system.read(file, limit).map_err(|error| match error {
         ReadError::Missing => Value::Word(&NO_FILE),
@@ -45,11 +45,11 @@ pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, 
     String::from_utf8(bytes).map_err(|_| Value::Word(&NOT_UTF_8))
 }
 
-/// Writes files that must not be there yet, with the directories that lead to them; if one of them is there or cannot be written, none. Of a
-/// stranger's tree nothing leads out.
+/// Creates files together with their missing parent directories. If one of them exists already or cannot be written, none is created. In an
+/// untrusted tree, files outside the tree are refused.
 ///
 /// # Errors
-/// For each file that cannot be written a diagnostic that says why.
+/// A diagnostic for each file that cannot be written.
 pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(), Vec<Diagnostic>> {
     let confined = context.settings.confined.as_ref();
     let leads_out =
@@ -66,7 +66,7 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     }
     for (index, (file, content)) in files.iter().enumerate() {
         if let Err(error) = create_new(file, content) {
-            // Else the next try would find them there.
+            // Undo, so that the next attempt does not find these files.
             files[..index].iter().for_each(|(made, _)| _ = fs::remove_file(made));
             return Err(vec![cannot_write(file, reason(&error))]);
         }
@@ -74,14 +74,14 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     Ok(())
 }
 
-/// Nothing is left under its name where it cannot be written whole.
+/// Creates a file and writes its content; removes the file again if writing fails.
 fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
     file.parent().map_or(Ok(()), fs::create_dir_all)?;
     let made = fs::File::create_new(file)?;
     write_whole(made, content).inspect_err(|_| _ = fs::remove_file(file))
 }
 
-/// The file is closed then: Windows removes no open one.
+/// Takes the file by value to close it on return: Windows does not remove open files.
 fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
     file.write_all(content)
 }
@@ -90,15 +90,15 @@ fn already_there(file: &Utf8Path) -> Diagnostic {
     cannot_write(file, Value::Word(&IS_THERE))
 }
 
-/// Writes a file whole or not at all. What is no file, such as a device or a pipe, is written to as it is: it was named.
+/// Atomically replaces a file. A device or a pipe cannot be replaced and is written to directly.
 ///
 /// # Errors
-/// A diagnostic that says why it cannot be written.
+/// A diagnostic with the reason why the file cannot be written.
 pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
         return Err(Box::new(cannot_write(file, Value::Word(&NO_DIRECTORY))));
     }
-    let is_stream = file.as_std_path().metadata().is_ok_and(|it| !it.is_file() && !it.is_dir());
+    let is_stream = file.as_std_path().metadata().is_ok_and(|data| !data.is_file() && !data.is_dir());
     let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
     let written = if is_stream && is_allowed {
         let written = open_stream(file).and_then(|stream| write_whole(stream, text.as_bytes()));
@@ -109,7 +109,7 @@ pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), B
     written.map_err(|reason| Box::new(cannot_write(file, reason)))
 }
 
-/// Opens a device or a pipe to write into it. Nothing waits until somebody reads the pipe; whoever reads slowly is waited for.
+/// Opens a device or a pipe for writing. Fails if the pipe has no reader, but waits for a slow reader.
 #[cfg(unix)]
 fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
     use rustix::fs::{Mode, OFlags};
@@ -125,12 +125,12 @@ fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
     fs::File::options().write(true).open(path)
 }
 
-/// Why a file that was named cannot be read; `limit` is that of `[limits] file-size`.
+/// Diagnostic for a file that cannot be read; `limit` is the value of `[limits] file-size`.
 pub fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
     unreadable_by(file, error, limit, "file-size")
 }
 
-/// Why a file cannot be read, of which the limit has this key.
+/// Like [`unreadable`], for a file whose size limit has this key.
 pub fn unreadable_by(file: &Utf8Path, error: &ReadError, limit: u64, key: &'static str) -> Diagnostic {
     let diagnostic = match error {
         ReadError::Missing => Diagnostic::new(&files::MISSING),
@@ -146,7 +146,7 @@ pub fn unreadable_by(file: &Utf8Path, error: &ReadError, limit: u64, key: &'stat
     diagnostic.in_file(file)
 }
 
-/// PB004.
+/// PB004: a file cannot be written.
 pub fn cannot_write(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
     Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)

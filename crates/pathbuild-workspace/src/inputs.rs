@@ -1,4 +1,4 @@
-//! What a command is asked to work on.
+//! The inputs of a command.
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -10,7 +10,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Names of files, whatever they end in.
+    /// Names files, whatever their extensions.
     pub fn places<'a>(files: impl IntoIterator<Item = &'a Utf8PathBuf>) -> Self {
         let place = |file: &Utf8PathBuf| {
             if file.components().count() > 1 { file.to_string() } else { format!("./{file}") }
@@ -18,13 +18,13 @@ impl Inputs {
         Self { inputs: files.into_iter().map(place).collect() }
     }
 
-    /// Each of them.
+    /// The inputs, classified.
     pub fn iter(&self) -> impl Iterator<Item = Input<'_>> {
         self.inputs.iter().map(|text| Input::new(text))
     }
 }
 
-/// One of them.
+/// A single input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input<'a> {
     /// A drawing or directory: it ends in .dxf, contains a path separator, or is `.` or `..`.
@@ -34,7 +34,7 @@ pub enum Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// Tells which one a text means.
+    /// Classifies an input.
     pub fn new(text: &'a str) -> Self {
         let is_place = is_drawing(Utf8Path::new(text))
             || text.contains(std::path::is_separator)
@@ -42,7 +42,7 @@ impl<'a> Input<'a> {
         if is_place { Self::Place(Utf8Path::new(text)) } else { Self::Name(text) }
     }
 
-    /// The directory or program from which upwards its configuration is looked for; of a name the working directory (empty).
+    /// Directory or program at which the upward search for the configuration begins; for a name this is the working directory (empty).
     pub(crate) fn beginning(self, is_directory: impl Fn(&Utf8Path) -> bool) -> &'a Utf8Path {
         match self {
             Self::Place(place) if is_drawing(place) => place.parent().unwrap_or(Utf8Path::new("")),
@@ -52,7 +52,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Whether it is a file that is made of drawings, or by hand: a program can lie outside of the tree whose configuration holds for it.
+    /// Whether it is a file other than a drawing. A program may lie outside the tree whose configuration applies to it.
     pub(crate) fn is_program(self, is_directory: impl Fn(&Utf8Path) -> bool) -> bool {
         matches!(self, Self::Place(place) if !is_drawing(place) && !is_directory(place))
     }

@@ -1,6 +1,6 @@
-//! What a `pathbuild.toml` describes: the configuration, finding drawings, sessions over the database, results kept between runs, the jobs
-//! of `check` and `emit`, the watch loop. It parses no arguments and prints nothing: what somebody who waits may want to hear goes to a
-//! [`Reporter`] or a `watch::Listener`. (book: reference/configuration)
+//! Everything that a `pathbuild.toml` describes: configuration, discovery of drawings, database sessions, results cached between runs, the
+//! jobs of `check` and `emit`, and the watch loop. This crate neither parses arguments nor prints: progress goes to a [`Reporter`] or a
+//! `watch::Listener`. (book: reference/configuration)
 
 pub mod check;
 pub mod config;
@@ -14,7 +14,7 @@ pub mod machine;
 pub mod posting;
 mod reporter;
 pub mod session;
-// Nobody else changes what a page in a browser was given.
+// In the browser all files come from the page, so there is nothing to watch.
 #[cfg(not(target_family = "wasm"))]
 pub mod watch;
 mod workspace;

@@ -1,11 +1,11 @@
-//! What `[machine]` says.
+//! Limits of the machine, from the `[machine]` table.
 
 use pathbuild_gcode::verify::{Machine, Travel};
 
 use crate::config::types::Extent;
 use crate::workspace::Workspace;
 
-/// The machine of the configuration; `None` where nothing is known of it.
+/// The machine of the configuration; `None` if nothing is configured.
 pub fn machine(context: &Workspace) -> Option<Machine> {
     let settings = &context.settings.machine;
     let placed = [settings.x.value, settings.y.value, settings.z.value];
@@ -23,7 +23,7 @@ pub fn machine(context: &Workspace) -> Option<Machine> {
     (machine != Machine::default()).then_some(machine)
 }
 
-/// The ends of an axis.
+/// Lower and upper end of an axis; unlimited if not configured.
 fn ends(extent: Option<Extent>) -> (f64, f64) {
     extent.map_or((f64::NEG_INFINITY, f64::INFINITY), |extent| (extent.from, extent.to))
 }

@@ -1,24 +1,24 @@
-//! What is said while work goes on. Results are returned; this is for whoever waits for them.
+//! Progress messages. Results are returned; these messages are for the waiting user.
 
 use std::fmt::Debug;
 
-/// Hears how a run goes on.
+/// Receives progress messages of a run.
 pub trait Reporter: Debug {
     /// A line about the run.
     fn status(&self, line: &str);
-    /// A line that few want to know.
+    /// A line of detail, shown only on request.
     fn detail(&self, line: &str);
-    /// So many pieces of work begin, and are over when what is given back is dropped.
+    /// Starts a progress display of `total` items; it ends when the returned value is dropped.
     fn progress(&self, total: usize) -> Box<dyn Advance>;
 }
 
-/// Counts pieces of work.
+/// Counts finished items.
 pub trait Advance: Debug + Send + Sync {
-    /// One more is done. Any thread may say so.
+    /// Counts one more finished item. May be called from any thread.
     fn advance(&self);
 }
 
-/// Tells nobody.
+/// Discards all messages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

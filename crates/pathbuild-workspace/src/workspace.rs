@@ -10,51 +10,51 @@ use crate::config::{Origin, Settings};
 use crate::reporter::{Reporter, Silent};
 use crate::session::relative;
 
-/// What a run works in.
+/// The environment of a run: settings, files, languages and directories.
 #[derive(Debug)]
 pub struct Workspace {
-    /// What the configuration and the command line say.
+    /// Settings from the configuration and the command line.
     pub settings: Settings,
-    /// The files.
+    /// The file system.
     pub system: Arc<dyn System>,
-    /// The language of everything that is said, where a person has chosen one for all trees.
+    /// Language of all output, if the user has chosen one for all trees.
     pub own_lang: Option<Lang>,
-    /// The language of the system's locale, for messages where neither a person nor the configuration has chosen one.
+    /// Language of the system's locale, used for messages if neither the user nor the configuration chooses one.
     pub system_lang: Option<Lang>,
-    /// The directory that relative names mean.
+    /// Directory that relative paths are relative to.
     pub working_directory: Utf8PathBuf,
-    /// With how many threads to work; `None`: as many as there are cores.
+    /// Number of worker threads; `None` means one per core.
     pub jobs: Option<u16>,
-    /// Where results of runs are kept for later ones; `None`: nowhere.
+    /// Where results are cached; `None` disables the cache.
     pub cache: Option<Home>,
-    /// Who hears how the run goes on.
+    /// Receives progress of the run.
     pub reporter: Rc<dyn Reporter>,
 }
 
 impl Workspace {
-    /// Whether the configuration says what to do without arguments.
+    /// Whether the configuration names a library, so that commands work without arguments.
     pub fn has_library(&self) -> bool {
         !self.settings.general.library.value.is_empty()
     }
 
-    /// Whether results are kept for later runs: there must be a configuration.
+    /// Whether results are cached for later runs; this requires a configuration.
     pub fn keeps_results(&self) -> bool {
         self.cache_place().is_some()
     }
 
-    /// Where they are kept.
+    /// The cache of this tree.
     pub fn cache_place(&self) -> Option<TreeStore> {
         Some(TreeStore::of_tree(self.cache.as_ref()?, self.settings.directory()?))
     }
 
-    /// The configuration of the working directory, as an argument names it, where it does not hold because what is worked on lies outside
-    /// of its tree.
+    /// Path of the working directory's configuration if it does not apply to this run, because the inputs lie outside its tree. Relative to
+    /// the working directory.
     pub fn configuration_not_used(&self) -> Option<Utf8PathBuf> {
         let file = self.settings.not_used.as_deref()?;
         Some(relative(file, &self.working_directory))
     }
 
-    /// The same with or without `compatible`. It keeps no results and reports nothing.
+    /// A copy with `compatible` switched on or off. It caches nothing and reports nothing.
     pub fn in_mode(&self, is_compatible: bool) -> Self {
         let mut settings = self.settings.clone();
         settings.general.compatible.value = is_compatible;
@@ -70,14 +70,14 @@ impl Workspace {
         }
     }
 
-    /// The language of messages. Comments in programs have that of [`Settings::comment_lang`].
+    /// Language of messages. Comments in programs use [`Settings::comment_lang`].
     pub fn lang(&self) -> Lang {
         let configured = &self.settings.general.lang;
         let fallback = self.system_lang.filter(|_| configured.origin == Origin::Default);
         self.own_lang.or(fallback).unwrap_or(configured.value)
     }
 
-    /// One of two phrases.
+    /// Picks the phrase in the language of messages.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
         match self.lang() {
             Lang::En => en,
@@ -85,7 +85,7 @@ impl Workspace {
         }
     }
 
-    /// One of two phrases with a value where `{}` stands.
+    /// Picks a phrase and inserts a value in place of `{}`.
     pub fn phrase(&self, en: &str, de: &str, value: &str) -> String {
         self.choose(en, de).replace("{}", value)
     }

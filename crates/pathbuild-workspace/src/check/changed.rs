@@ -1,4 +1,4 @@
-//! The drawings that changed, and what depends on them.
+//! Changed drawings, and which results depend on them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
@@ -10,50 +10,50 @@ use pathbuild_db::{Db, Trace};
 use super::Past;
 use crate::session::{Coverage, Dependencies, Session};
 
-/// What results depend on, as far as that may have changed.
+/// Inputs of results that may have changed.
 #[derive(Debug, Default)]
-pub(super) struct Reached {
+pub(super) struct ReachedInputs {
     files: BTreeSet<Utf8PathBuf>,
-    /// Where something was looked for.
+    /// Directories in which lookups were made.
     directories: BTreeSet<Utf8PathBuf>,
 }
 
-/// The drawings that changed, came or went.
-pub(super) struct Changed {
+/// Drawings that were changed, added or removed.
+pub(super) struct ChangedDrawings {
     files: BTreeSet<Utf8PathBuf>,
-    /// Their names, by directory.
+    /// File names of these drawings, by directory.
     names: BTreeMap<Utf8PathBuf, Vec<String>>,
     coverage: Coverage,
 }
 
-impl Reached {
-    /// What a result that was made now depends on.
+impl ReachedInputs {
+    /// Adds the inputs of a result computed in this run.
     pub(super) fn add(&mut self, session: &Session<'_>, traces: &[Trace]) {
         for trace in traces {
             trace.files.iter().for_each(|file| add(&mut self.files, file.path(session.db())));
-            let directories = trace.lookups.iter().flat_map(|sought| &sought.directories);
+            let directories = trace.lookups.iter().flat_map(|lookup| &lookup.directories);
             directories.for_each(|directory| add(&mut self.directories, directory));
         }
     }
 
-    /// The same of a result that was kept.
+    /// Adds the inputs of a cached result.
     pub(super) fn add_kept(&mut self, facts: &Dependencies<'_>) {
         facts.files.iter().for_each(|file| add(&mut self.files, file));
         facts.lookups.iter().for_each(|(directory, _)| add(&mut self.directories, directory));
     }
 }
 
-/// Most are there already.
+/// Inserts a path; copies it only if it is new, because most paths are already in the set.
 fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
     if !paths.contains(path) {
         paths.insert(path.to_owned());
     }
 }
 
-impl Changed {
-    /// Those of what is reached that changed since then.
-    pub(super) fn new(session: &Session<'_>, past: &dyn Past, reached: Reached) -> Self {
-        let Reached { mut files, directories } = reached;
+impl ChangedDrawings {
+    /// Those of the given inputs that have changed since `past`.
+    pub(super) fn new(session: &Session<'_>, past: &dyn Past, reached: ReachedInputs) -> Self {
+        let ReachedInputs { mut files, directories } = reached;
         let mut gone = BTreeSet::new();
         for directory in &directories {
             let now = drawings(session, directory);
@@ -68,34 +68,34 @@ impl Changed {
         Self { names: by_directory(&files), files, coverage: Coverage::new(session.workspace()) }
     }
 
-    /// Whether a result that was made now depends on one of them.
+    /// Whether a result computed in this run depends on one of the drawings.
     pub(super) fn concerns(&self, session: &Session<'_>, traces: &[Trace]) -> bool {
         let db = session.db();
         traces.iter().any(|trace| {
             trace.files.iter().any(|file| self.files.contains(file.path(db)))
-                || trace.lookups.iter().any(|sought| {
-                    sought.directories.iter().any(|directory| self.answers(directory, sought.name.as_str()))
+                || trace.lookups.iter().any(|lookup| {
+                    lookup.directories.iter().any(|directory| self.answers(directory, lookup.name.as_str()))
                 })
         })
     }
 
-    /// The same of a result that was kept.
+    /// Whether a cached result depends on one of the drawings.
     pub(super) fn concerns_kept(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
             || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
     }
 
-    /// Whether one of them may be what was looked for in a directory.
+    /// Whether one of the drawings may answer a lookup of `name` in this directory.
     fn answers(&self, directory: &Utf8Path, name: &str) -> bool {
         let names = self.names.get(directory);
         names.is_some_and(|names| names.iter().any(|file| self.coverage.may_hold(file, name)))
     }
 }
 
-/// The names of the drawings in a directory, hidden ones too.
+/// File names of the drawings in a directory, hidden ones included.
 fn drawings(session: &Session<'_>, directory: &Utf8Path) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
-    // What cannot be listed is told by whoever looks for something in it.
+    // Errors are ignored here: the lookups in this directory report them.
     _ = session.db().system().each_entry(directory, &mut |entry| {
         if entry.is_exact && Session::is_drawing(Utf8Path::new(entry.name)) {
             names.insert(entry.name.to_owned());

@@ -1,36 +1,36 @@
-//! Checking drawings: what is found in each, with what it was found from.
+//! Checks drawings and records the inputs of each result.
 
 use crate::session::{Asking, DrawingResult, Session, by_place};
 use pathbuild_db::{Database, Role, SourceFile, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-/// So many drawings are checked before what was read from them is dropped.
+/// Number of drawings checked between evictions of parsed data.
 const BATCH: usize = 512;
 
-/// What is found in drawings, each with what it was found from.
+/// Checks all paths of the drawings. Returns each result with its inputs.
 pub fn check_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let asked: Vec<CheckTarget<'_>> = files.iter().map(|file| (*file, None)).collect();
-    check_paths(session, &asked, with_all_values)
+    let targets: Vec<CheckTarget<'_>> = files.iter().map(|file| (*file, None)).collect();
+    check_paths(session, &targets, with_all_values)
 }
 
-/// A drawing, with the paths that are asked for if that is not all.
+/// A drawing, with the requested paths unless all are requested.
 type CheckTarget<'a> = (SourceFile, Option<&'a [PathName]>);
 
-/// The same of drawings of which only some paths may be asked for.
+/// Like [`check_drawings`], for drawings of which only some paths may be requested.
 pub(super) fn check_paths(
     session: &mut Session<'_>,
-    asked: &[CheckTarget<'_>],
+    targets: &[CheckTarget<'_>],
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let files: Vec<SourceFile> = asked.iter().map(|(file, _)| *file).collect();
+    let files: Vec<SourceFile> = targets.iter().map(|(file, _)| *file).collect();
     session.read_ahead(&files);
-    session.in_batches(asked, BATCH, |session, asked| {
-        session.each(asked, |asking, asked| check_drawing(asking, asked, with_all_values))
+    session.in_batches(targets, BATCH, |session, targets| {
+        session.each(targets, |asking, target| check_drawing(asking, target, with_all_values))
     })
 }
 
@@ -65,14 +65,14 @@ fn check_drawing(
     }
     (result(db, names, diagnostics, reached), traces)
 }
-/// Adds to what is found in a drawing's paths what is wrong with the files that they reach.
+/// Adds to the diagnostics of a drawing's paths those of the files that the paths reach.
 fn result(
     db: &Database,
     names: &[PathName],
     mut diagnostics: Vec<Diagnostic>,
     mut reached: Vec<SourceFile>,
 ) -> DrawingResult {
-    // Of most there is nothing to say, so that there is nothing to put in order.
+    // Most files have no diagnostics; skipping them first makes the sort cheap.
     reached.retain(|file| !check_file(db, *file).is_empty());
     reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
     reached.dedup();
@@ -80,7 +80,7 @@ fn result(
     DrawingResult { names: names.to_vec(), diagnostics }
 }
 
-/// What a drawing's results were found from whatever its paths are, where that is noted.
+/// Inputs of a drawing's result that do not depend on its paths; empty if inputs are not traced.
 fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
     if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }

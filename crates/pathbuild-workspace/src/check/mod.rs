@@ -1,4 +1,4 @@
-//! Checking drawings, paths and directories. Writes nothing. (book: reference/commands, `check`)
+//! `check`: checks drawings, paths and directories, without writing anything. (book: reference/commands, `check`)
 
 mod changed;
 mod drawings;
@@ -25,37 +25,38 @@ use crate::workspace::Workspace;
 
 pub use drawings::check_drawings;
 use drawings::check_paths;
-use results::{Concerned, Results, of};
+use results::{ChangeFilter, Results, of};
 
-/// What is to be checked.
+/// A request to check drawings.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// Drawings, paths and directories; without any, the library.
+    /// The drawings, paths and directories to check; if empty, the whole library.
     pub inputs: &'a Inputs,
-    /// Whether with every combination of the variables' values, not with one example of each.
+    /// Whether to check all combinations of the variables' values instead of one example value of each.
     pub with_all_values: bool,
-    /// Only what depends on drawings that changed since then is shown.
+    /// If set, show only results that depend on drawings changed since that state.
     pub changed: Option<&'a dyn Past>,
 }
 
-/// The files as they were at another time, such as in a revision.
+/// The files at an earlier time, such as in a Git revision.
 pub trait Past: Debug {
-    /// Of each file whether it was another one then, or none. What is not known has changed.
+    /// For each file, whether it has changed since or did not exist. Files about which nothing is known count as changed.
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
 
-    /// The names of the drawings that were in a directory.
+    /// File names of the drawings that the directory contained.
     fn drawings(&self, directory: &Utf8Path) -> &[String];
 
-    /// A file that says what is checked and how, or where links lead, and says something else now. These directories were walked through.
+    /// A file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are those that were
+    /// searched.
     fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
 }
 
-/// What came of a check.
+/// The outcome of a check.
 #[derive(Clone, Debug, Default)]
 pub struct Checked {
-    /// Everything that was found, in any order and as often as it was met.
+    /// All diagnostics, unsorted, with duplicates.
     pub diagnostics: Vec<Diagnostic>,
-    /// What was looked at, in order of name.
+    /// The checked drawings, sorted by name.
     pub files: Vec<CheckedFile>,
 }
 
@@ -64,14 +65,14 @@ pub struct Checked {
 pub struct CheckedFile {
     /// The drawing.
     pub file: Utf8PathBuf,
-    /// Its paths, as the drawing spells them, in file order.
+    /// Its paths in file order, as the drawing spells them.
     pub paths: Vec<PathName>,
 }
 
 /// A drawing, or some of its paths.
 struct CheckTarget {
     drawing: Utf8PathBuf,
-    /// `None`: all.
+    /// `None` means all paths.
     names: Option<Vec<PathName>>,
 }
 
@@ -81,12 +82,12 @@ impl CheckTarget {
     }
 }
 
-/// A request for drawings that changed names single drawings or paths: what depends on others is only looked for in directories.
+/// A request limited to changed drawings names single drawings or paths. Dependents are found only for whole directories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotDirectories;
 
 impl Request<'_> {
-    /// A session for it.
+    /// Opens a session that suits this request.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() || self.changed.is_some() {
             Session::traced(workspace)
@@ -95,10 +96,10 @@ impl Request<'_> {
         }
     }
 
-    /// Checks in its session; results are taken from earlier runs, and kept for later ones.
+    /// Runs the check. Results are taken from the cache where they still hold, and new ones are stored.
     ///
     /// # Errors
-    /// Only what depends on changed drawings is wanted, and the inputs are not directories only.
+    /// If the request is limited to changed drawings and the inputs are not all directories.
     pub fn run(&self, session: &mut Session<'_>) -> Result<Checked, NotDirectories> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
@@ -107,54 +108,56 @@ impl Request<'_> {
         let results = Results::open(session, self, &mut found);
         let mut checked = check(session, self, &found, &results)?;
         checked.diagnostics = session.with_hints(checked.diagnostics);
-        leave((results, found));
+        leak((results, found));
         Ok(checked)
     }
 }
 
-/// Checks what is not known.
+/// Checks whatever the cache does not answer.
 fn check(
     session: &mut Session<'_>,
     request: &Request<'_>,
     found: &Found,
     results: &Results,
 ) -> Result<Checked, NotDirectories> {
-    let Answers { wanted, each: answers, mut made } =
+    let Answers { selection, each: answers, mut fresh } =
         session.settled(|session| answers(session, request, found, results));
-    if request.changed.is_some() && !(wanted.named.is_empty() && wanted.paths.is_empty()) {
+    if request.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
         return Err(NotDirectories);
     }
-    let (q_projects, made_of_pairs) = session.settled(|session| results.q_projects(session, &wanted));
-    made.extend(made_of_pairs);
-    results.keep(session, &made);
-    let names = answers.iter().map(|(asked, _)| of(&asked.drawing, asked.names.as_deref()));
-    let names = names.chain(q_projects.iter().map(|(of, _)| Cow::Borrowed(&**of)));
-    let concerned = Concerned::new(session, results, &made, since(session, request, found), names);
+    let (q_projects, fresh_pairs) = session.settled(|session| results.q_projects(session, &selection));
+    fresh.extend(fresh_pairs);
+    results.keep(session, &fresh);
+    let names = answers.iter().map(|(target, _)| of(&target.drawing, target.names.as_deref()));
+    let names = names.chain(q_projects.iter().map(|(subject, _)| Cow::Borrowed(&**subject)));
+    let filter = ChangeFilter::new(session, results, &fresh, since(session, request, found), names);
     let mut checked = Checked { diagnostics: found.problems.clone(), ..Checked::default() };
-    checked.diagnostics.extend(wanted.problems);
+    checked.diagnostics.extend(selection.problems);
     if !session.is_compatible() {
-        let named = answers.iter().skip(wanted.drawings.len()).take(wanted.named.len());
-        checked.diagnostics.extend(named.filter_map(|(asked, said)| session.no_path(&asked.drawing, said)));
+        let named = answers.iter().skip(selection.drawings.len()).take(selection.named.len());
+        checked
+            .diagnostics
+            .extend(named.filter_map(|(target, result)| session.no_path(&target.drawing, result)));
     }
     if !checked.diagnostics.iter().any(Diagnostic::is_error) {
         let parts = answers.iter().map(|(_, result)| result.parts());
         checked.diagnostics.extend(session.no_path_anywhere(parts));
     }
     for (CheckTarget { drawing, names }, result) in answers {
-        if !concerned.contains(&of(&drawing, names.as_deref())) {
+        if !filter.contains(&of(&drawing, names.as_deref())) {
             continue;
         }
         checked.files.push(CheckedFile { file: drawing, paths: result.names });
         checked.diagnostics.extend(result.diagnostics);
     }
     checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
-    let q_projects = q_projects.into_iter().filter(|(of, _)| concerned.contains(of));
-    checked.diagnostics.extend(q_projects.flat_map(|(_, found)| found));
-    leave(made);
+    let q_projects = q_projects.into_iter().filter(|(subject, _)| filter.contains(subject));
+    checked.diagnostics.extend(q_projects.flat_map(|(_, diagnostics)| diagnostics));
+    leak(fresh);
     Ok(checked)
 }
 
-/// Since when drawings have to be told apart: not at all where something changed that concerns all of them.
+/// The state since which changed drawings are selected; `None` if everything is selected because a change affects all drawings.
 fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &Found) -> Option<&'a dyn Past> {
     let past = request.changed?;
     let directories: Vec<Utf8PathBuf> =
@@ -169,56 +172,56 @@ fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &Found) -> Opt
     None
 }
 
-/// What the arguments mean, and what is found in that.
+/// The resolved arguments, and the result of each drawing.
 struct Answers {
-    wanted: Wanted,
+    selection: Wanted,
     each: Vec<(CheckTarget, DrawingResult)>,
-    /// What this run found itself.
-    made: Vec<FreshResult>,
+    /// Results computed in this run.
+    fresh: Vec<FreshResult>,
 }
 
 fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, results: &Results) -> Answers {
-    let (wanted, mut made) = results.wanted(session, found);
-    let asked = asked(session, &wanted);
+    let (selection, mut fresh) = results.select(session, found);
+    let targets = targets(session, &selection);
     let mut known: Vec<Option<DrawingResult>> =
-        asked.iter().map(|asked| results.known(&of(&asked.drawing, asked.names.as_deref()))).collect();
-    let open: Vec<usize> = (0..asked.len()).filter(|index| known[*index].is_none()).collect();
-    results.tell_known(session, asked.len() - open.len(), asked.len());
+        targets.iter().map(|target| results.known(&of(&target.drawing, target.names.as_deref()))).collect();
+    let open: Vec<usize> = (0..targets.len()).filter(|index| known[*index].is_none()).collect();
+    results.report_known(session, targets.len() - open.len(), targets.len());
     let paths: Vec<(SourceFile, Option<&[PathName]>)> =
-        open.iter().map(|index| (asked[*index].file(session), asked[*index].names.as_deref())).collect();
+        open.iter().map(|index| (targets[*index].file(session), targets[*index].names.as_deref())).collect();
     let checked = check_paths(session, &paths, request.with_all_values);
     for ((result, traces), index) in checked.into_iter().zip(open) {
-        let CheckTarget { drawing, names } = &asked[index];
+        let CheckTarget { drawing, names } = &targets[index];
         if session.is_traced() {
-            made.push(results::new(&of(drawing, names.as_deref()), traces, &result));
+            fresh.push(results::new(&of(drawing, names.as_deref()), traces, &result));
         }
         known[index] = Some(result);
     }
-    Answers { wanted, each: asked.into_iter().zip(known.into_iter().flatten()).collect(), made }
+    Answers { selection, each: targets.into_iter().zip(known.into_iter().flatten()).collect(), fresh }
 }
 
-/// Each drawing, and for the paths that were named by themselves the drawings that define them, without those that are checked as a whole.
-fn asked(session: &Session<'_>, wanted: &Wanted) -> Vec<CheckTarget> {
+/// The targets to check: each drawing, and for paths named individually the drawings that define them, unless these are checked as a whole.
+fn targets(session: &Session<'_>, selection: &Wanted) -> Vec<CheckTarget> {
     let db = session.db();
-    let named = wanted.named.iter().map(|file| file.path(db));
-    let whole = wanted.drawings.iter().chain(named);
-    let mut asked: Vec<CheckTarget> =
+    let named = selection.named.iter().map(|file| file.path(db));
+    let whole = selection.drawings.iter().chain(named);
+    let mut targets: Vec<CheckTarget> =
         whole.map(|drawing| CheckTarget { drawing: drawing.clone(), names: None }).collect();
-    if !wanted.paths.is_empty() {
-        let is_whole: HashSet<Utf8PathBuf> = asked.iter().map(|asked| asked.drawing.clone()).collect();
+    if !selection.paths.is_empty() {
+        let is_whole: HashSet<Utf8PathBuf> = targets.iter().map(|target| target.drawing.clone()).collect();
         let mut single: BTreeMap<&Utf8PathBuf, Vec<PathName>> = BTreeMap::new();
-        for WantedPath { file, name } in &wanted.paths {
+        for WantedPath { file, name } in &selection.paths {
             single.entry(file.path(db)).or_default().push(name.clone());
         }
         let single = single.into_iter().filter(|(drawing, _)| !is_whole.contains(*drawing));
-        asked.extend(
+        targets.extend(
             single.map(|(drawing, names)| CheckTarget { drawing: drawing.clone(), names: Some(names) }),
         );
     }
-    asked
+    targets
 }
 
-/// What the last checks found, for telling why it no longer holds. `None` where no results are kept.
+/// Results of the last checks, to explain why they no longer hold. `None` if no results are cached.
 pub fn kept_results(workspace: &Workspace) -> Option<ResultStore> {
     open(workspace, false, Scope::All, Listings::new())
 }
@@ -233,7 +236,7 @@ fn open(
     ResultStore::open(workspace, Question { whose: Concerns::Check, text: &text, scope, listings })
 }
 
-/// The run is over: to take a million values apart would take longer than to end.
-fn leave<T>(over: T) {
-    std::mem::forget(over);
+/// Leaks instead of dropping: freeing a million values takes longer than process exit.
+fn leak<T>(value: T) {
+    std::mem::forget(value);
 }

@@ -1,4 +1,4 @@
-//! What earlier checks found: only drawings whose results no longer hold are checked.
+//! Cached results of earlier checks: only drawings whose results no longer hold are checked again.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -8,7 +8,7 @@ use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-use super::changed::{Changed, Reached};
+use super::changed::{ChangedDrawings, ReachedInputs};
 use super::{Past, Request, open};
 use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{
@@ -16,14 +16,14 @@ use crate::session::{
     Wanted, q_project_pairs,
 };
 
-/// What earlier checks kept; nothing where nothing is kept.
+/// The cached results of earlier checks, if there is a cache.
 pub(super) struct Results(Option<ResultStore>);
 
-/// A pair by its name among the results, and what is said of it.
-type Judged = (String, Vec<Diagnostic>);
+/// A Q-project pair by its subject in the cache, with its diagnostics.
+type PairResult = (String, Vec<Diagnostic>);
 
 impl Results {
-    /// What is known of the drawings that may be meant.
+    /// Loads the cached results of the drawings that the request may select.
     pub(super) fn open(session: &Session<'_>, request: &Request<'_>, found: &mut Found) -> Self {
         if !session.is_traced() {
             return Self(None);
@@ -36,18 +36,18 @@ impl Results {
         results
     }
 
-    /// What is known under a name.
-    pub(super) fn known(&self, of: &str) -> Option<DrawingResult> {
-        DrawingResult::decode(self.0.as_ref()?.payload(of)?).ok()
+    /// The cached result of a subject.
+    pub(super) fn known(&self, subject: &str) -> Option<DrawingResult> {
+        DrawingResult::decode(self.0.as_ref()?.payload(subject)?).ok()
     }
 
-    /// The names of a drawing's paths.
+    /// The cached paths of a drawing.
     fn names(&self, drawing: &Utf8Path) -> Option<DrawingResult> {
         self.known(drawing.as_str()).or_else(|| self.known(&of_names(drawing)))
     }
 
-    /// What the arguments mean, and what was read for that.
-    pub(super) fn wanted(&self, session: &Session<'_>, found: &Found) -> (Wanted, Vec<FreshResult>) {
+    /// Resolves the arguments. Also returns the results that had to be computed for that.
+    pub(super) fn select(&self, session: &Session<'_>, found: &Found) -> (Wanted, Vec<FreshResult>) {
         let db = session.db();
         let mut named: Vec<Utf8PathBuf> = found.candidates().map(|file| file.path(db).clone()).collect();
         named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
@@ -55,17 +55,17 @@ impl Results {
         let named = Drawings::new(session, named, |drawing| self.names(drawing));
         let names =
             |file: SourceFile| named.get(file.path(db)).map_or(&[][..], |drawing| &drawing.said.names);
-        let wanted = session.meant(found, &found.arguments, &names);
+        let selection = session.meant(found, &found.arguments, &names);
         let read = named.iter().filter(|drawing| drawing.is_read && session.is_traced());
-        let made = read.map(|Drawing { path, said, .. }| {
+        let fresh = read.map(|Drawing { path, said, .. }| {
             let trace = Trace { files: vec![session.file(path)], lookups: Vec::new() };
             new(&of_names(path), vec![trace], said)
         });
-        (wanted, made.collect())
+        (selection, fresh.collect())
     }
 
-    /// Says, to whoever wants to know more, how much is as it was in an earlier run.
-    pub(super) fn tell_known(&self, session: &Session<'_>, known: usize, all: usize) {
+    /// Reports, as a detail, how many drawings have cached results that still hold.
+    pub(super) fn report_known(&self, session: &Session<'_>, known: usize, all: usize) {
         let context = session.workspace();
         if self.0.is_some() {
             let phrase = context
@@ -74,105 +74,108 @@ impl Results {
         }
     }
 
-    /// What Q-projects and their drawings say against each other, each pair by its name among the results; and what was found now.
+    /// Compares Q-projects with their drawings. Returns the diagnostics of each pair by its subject in the cache, and the results computed
+    /// now.
     pub(super) fn q_projects(
         &self,
         session: &Session<'_>,
-        wanted: &Wanted,
-    ) -> (Vec<Judged>, Vec<FreshResult>) {
-        let (mut found, mut made) = (Vec::new(), Vec::new());
+        selection: &Wanted,
+    ) -> (Vec<PairResult>, Vec<FreshResult>) {
+        let (mut found, mut fresh) = (Vec::new(), Vec::new());
         let (mut open, mut names): (Vec<Pair>, Vec<String>) = (Vec::new(), Vec::new());
-        let named = wanted.named.iter().map(|file| file.path(session.db()));
-        for [drawing, q_project] in q_project_pairs(wanted.drawings.iter().chain(named)) {
-            let of = format!("{drawing}\0{q_project}");
-            if let Some(result) = self.known(&of) {
-                found.push((of, result.diagnostics));
+        let named = selection.named.iter().map(|file| file.path(session.db()));
+        for [drawing, q_project] in q_project_pairs(selection.drawings.iter().chain(named)) {
+            let subject = format!("{drawing}\0{q_project}");
+            if let Some(result) = self.known(&subject) {
+                found.push((subject, result.diagnostics));
             } else {
                 open.push([drawing, q_project].map(|path| session.db().file(path)));
-                names.push(of);
+                names.push(subject);
             }
         }
-        for ((diagnostics, of), pair) in session.judge_q_projects(&open).into_iter().zip(names).zip(&open) {
+        for ((diagnostics, subject), pair) in
+            session.judge_q_projects(&open).into_iter().zip(names).zip(&open)
+        {
             let result = DrawingResult { names: Vec::new(), diagnostics };
             if session.is_traced() {
                 let trace = Trace { files: pair.to_vec(), lookups: Vec::new() };
-                made.push(new(&of, vec![trace], &result));
+                fresh.push(new(&subject, vec![trace], &result));
             }
-            found.push((of, result.diagnostics));
+            found.push((subject, result.diagnostics));
         }
-        (found, made)
+        (found, fresh)
     }
 
-    /// Keeps what was found now.
-    pub(super) fn keep(&self, session: &Session<'_>, made: &[FreshResult]) {
+    /// Stores the results computed in this run.
+    pub(super) fn keep(&self, session: &Session<'_>, fresh: &[FreshResult]) {
         if let Some(result_store) = &self.0 {
-            session.timings().measure(&KEEPING, || result_store.keep(session, made));
+            session.timings().measure(&KEEPING, || result_store.keep(session, fresh));
         }
     }
 }
 
-/// The name of the results of a drawing, or of some of its paths.
+/// Cache subject of a drawing's result, or of the result of some of its paths.
 pub(super) fn of<'a>(drawing: &'a Utf8Path, paths: Option<&[PathName]>) -> Cow<'a, str> {
     let Some(paths) = paths else { return drawing.as_str().into() };
     let names: String = paths.iter().flat_map(|path| ["\0", path.as_str()]).collect();
     format!("{drawing}\0{names}").into()
 }
 
-/// The name of what only says which paths a drawing has.
+/// Cache subject of the list of a drawing's paths.
 fn of_names(drawing: &Utf8Path) -> Cow<'_, str> {
     of(drawing, Some(&[]))
 }
 
-/// A result to be kept.
-pub(super) fn new(of: &str, traces: Vec<Trace>, result: &DrawingResult) -> FreshResult {
-    FreshResult { of: of.into(), traces, payload: result.encode(), ..FreshResult::default() }
+/// Prepares a result for the cache.
+pub(super) fn new(subject: &str, traces: Vec<Trace>, result: &DrawingResult) -> FreshResult {
+    FreshResult { of: subject.into(), traces, payload: result.encode(), ..FreshResult::default() }
 }
 
-/// Which results are shown.
-pub(super) struct Concerned<'a> {
+/// Selects the results that are shown.
+pub(super) struct ChangeFilter<'a> {
     session: &'a Session<'a>,
     results: &'a Results,
-    made: HashMap<&'a str, &'a FreshResult>,
-    /// `None`: all are.
-    changed: Option<Changed>,
+    fresh: HashMap<&'a str, &'a FreshResult>,
+    /// `None` shows all results.
+    changed: Option<ChangedDrawings>,
 }
 
-impl<'a> Concerned<'a> {
-    /// Of the results of these names those that depend on what changed since then.
+impl<'a> ChangeFilter<'a> {
+    /// If `past` is given, selects those of the named results that depend on files changed since then.
     pub(super) fn new<'n>(
         session: &'a Session<'a>,
         results: &'a Results,
-        made: &'a [FreshResult],
+        fresh: &'a [FreshResult],
         past: Option<&dyn Past>,
         names: impl Iterator<Item = Cow<'n, str>>,
     ) -> Self {
-        let made = made.iter().map(|made| (&*made.of, made)).collect();
-        let mut concerned = Self { session, results, made, changed: None };
-        concerned.changed = past.map(|past| Changed::new(session, past, concerned.reached(names)));
-        concerned
+        let fresh = fresh.iter().map(|result| (&*result.of, result)).collect();
+        let mut filter = Self { session, results, fresh, changed: None };
+        filter.changed = past.map(|past| ChangedDrawings::new(session, past, filter.reached(names)));
+        filter
     }
 
-    pub(super) fn contains(&self, of: &str) -> bool {
+    pub(super) fn contains(&self, subject: &str) -> bool {
         let Some(changed) = &self.changed else { return true };
-        if let Some(made) = self.made.get(of) {
-            return changed.concerns(self.session, &made.traces);
+        if let Some(result) = self.fresh.get(subject) {
+            return changed.concerns(self.session, &result.traces);
         }
-        self.facts(of).is_none_or(|facts| changed.concerns_kept(&facts))
+        self.facts(subject).is_none_or(|facts| changed.concerns_kept(&facts))
     }
 
-    fn reached<'n>(&self, names: impl Iterator<Item = Cow<'n, str>>) -> Reached {
-        let mut reached = Reached::default();
-        for of in names {
-            if let Some(made) = self.made.get(&*of) {
-                reached.add(self.session, &made.traces);
-            } else if let Some(facts) = self.facts(&of) {
+    fn reached<'n>(&self, names: impl Iterator<Item = Cow<'n, str>>) -> ReachedInputs {
+        let mut reached = ReachedInputs::default();
+        for subject in names {
+            if let Some(result) = self.fresh.get(&*subject) {
+                reached.add(self.session, &result.traces);
+            } else if let Some(facts) = self.facts(&subject) {
                 reached.add_kept(&facts);
             }
         }
         reached
     }
 
-    fn facts(&self, of: &str) -> Option<Dependencies<'_>> {
-        self.results.0.as_ref()?.facts(of)
+    fn facts(&self, subject: &str) -> Option<Dependencies<'_>> {
+        self.results.0.as_ref()?.facts(subject)
     }
 }

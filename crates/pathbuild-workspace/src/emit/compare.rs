@@ -1,4 +1,4 @@
-//! Is what lies on disk what would be written? (book: reference/commands, `emit --check`)
+//! Compares files on disk with what would be written. (book: reference/commands, `emit --check`)
 
 use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
@@ -11,8 +11,8 @@ use super::deliver::{Output, State, has_same_probes};
 use crate::posting::PostProcessor;
 use crate::session::OutputKind;
 
-/// Compares a file with what is on disk: byte for byte, or by its moves, so that comments, formulas, line ends, head and foot may be those
-/// of another program. Comes with where the moves part, or why they cannot be read. What is larger than any program is none.
+/// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, head and
+/// foot. Also returns where the moves differ first, or why they cannot be read. A file larger than `limit` counts as different.
 pub(super) fn compare(
     system: &dyn System,
     output: &Output,
@@ -33,7 +33,7 @@ pub(super) fn compare(
     if !moves_only {
         return (State::Outdated, Vec::new());
     }
-    // What cannot be read can only be compared byte for byte.
+    // Without a reader for the dialect, only bytes can be compared.
     let Some(reading) = Reading::of(poster) else { return (State::Outdated, Vec::new()) };
     let problems = difference(&present, &output.text, &reading);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
@@ -41,7 +41,7 @@ pub(super) fn compare(
     (state, problems)
 }
 
-/// How programs are read to be compared.
+/// How programs are read for comparison.
 struct Reading {
     dialect: Dialect,
     tolerance: Tolerance,
@@ -57,17 +57,18 @@ impl Reading {
     }
 }
 
-/// What keeps a program on disk from being read, else where its moves differ first. Numbers that are equal to one unit of their last digit
-/// are equal, whatever an interpreter makes of them: an arc so short that it ends, rounded, where it begins is a circle to it. What is
-/// written in other lines is compared by what it does.
+/// Returns why a program on disk cannot be read, or else where its moves differ first. Lines are compared before moves: numbers that differ
+/// by one unit of their last digit are equal however they are interpreted, even where rounding turns a very short arc into a full circle.
+/// Only programs with different lines are interpreted.
 fn difference(present: &[u8], expected: &[u8], reading: &Reading) -> Vec<Diagnostic> {
-    let [found, wanted] = [present, expected].map(String::from_utf8_lossy);
-    if verify::same_move_lines(&found, &wanted) {
+    let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
+    if verify::same_move_lines(&found_text, &expected_text) {
         return Vec::new();
     }
     let read = |text| interpret(text, reading.dialect, &interpret::Options::default());
     let found = read(present);
-    let errors: Vec<Diagnostic> = found.problems.iter().filter(|it| it.is_error()).cloned().collect();
+    let errors: Vec<Diagnostic> =
+        found.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
     if !errors.is_empty() {
         return errors;
     }
@@ -75,6 +76,6 @@ fn difference(present: &[u8], expected: &[u8], reading: &Reading) -> Vec<Diagnos
     difference.iter().map(verify::Difference::diagnostic).collect()
 }
 
-/// One unit of the last printed digit: two programs may have rounded what lies between two numbers differently.
+/// One unit of the last printed digit: two programs may have rounded a value between two such numbers differently.
 const TOLERANCE: Tolerance =
     Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };

@@ -1,24 +1,24 @@
-//! The paths that `[emit] targets` means. (book: reference/configuration)
+//! Matches paths against `[emit] targets`. (book: reference/configuration)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
 
 use crate::config::{Origin, Settings};
 
-/// What paths are held against, one after the other.
+/// Matches path names against the configured patterns, one after the other.
 pub struct Configured<'a> {
     settings: &'a Settings,
-    /// For each pattern whether a path matched it.
+    /// For each pattern, whether a path has matched it.
     is_met: Vec<bool>,
 }
 
 impl<'a> Configured<'a> {
-    /// No path was seen yet.
+    /// Starts with no pattern matched.
     pub fn new(settings: &'a Settings) -> Self {
         Self { settings, is_met: vec![false; settings.emit.targets.value.len()] }
     }
 
-    /// Whether the path of this name is meant.
+    /// Whether a pattern matches the path of this name.
     pub fn means(&mut self, name: &str) -> bool {
         let mut is_target = false;
         for (pattern, is_met) in self.settings.emit.targets.value.iter().zip(&mut self.is_met) {
@@ -29,7 +29,7 @@ impl<'a> Configured<'a> {
         is_target
     }
 
-    /// A pattern that nothing matched is a mistake in the configuration.
+    /// Warns about patterns that matched nothing: they are mistakes in the configuration.
     pub fn unmet(&self) -> impl Iterator<Item = Diagnostic> {
         let targets = &self.settings.emit.targets;
         let unmet = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);

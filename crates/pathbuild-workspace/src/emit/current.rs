@@ -1,4 +1,4 @@
-//! Whether a program on disk moves as its drawing says now. (book: language/probes)
+//! Checks whether a program on disk still matches its drawing. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};
@@ -15,17 +15,17 @@ use super::{Provenances, writing};
 use crate::session::{OutputKind, Session, WantedPath};
 use crate::workspace::Workspace;
 
-/// What a program is, held against its drawing.
+/// How a program compares with its drawing.
 #[derive(Debug)]
 pub enum Current {
-    /// The drawing gives the same moves.
+    /// The drawing produces the same moves.
     Same,
-    /// It gives others.
+    /// The drawing produces different moves.
     Other {
         /// The drawing.
         drawing: Utf8PathBuf,
     },
-    /// It gives the same moves, but `emit` writes other lines.
+    /// The drawing produces the same moves, but `emit` writes different lines.
     Edited {
         /// The drawing.
         drawing: Utf8PathBuf,
@@ -34,19 +34,19 @@ pub enum Current {
     },
     /// The drawing has errors.
     Wrong(Vec<Diagnostic>),
-    /// Moves cannot be told without these options.
+    /// The moves depend on these missing options.
     NeedsOptions(Vec<MissingOption>),
-    /// Its drawing is not found.
+    /// The drawing was not found.
     NoDrawing {
-        /// As the program names it.
+        /// Its name as given in the program.
         drawing: Box<str>,
     },
-    /// The program does not say what it was made from.
+    /// The program does not identify its drawing.
     Unknown,
 }
 
-/// Holds a native program against its drawing: the one that is named, else the one that its title names, beside it or where paths are looked
-/// for.
+/// Compares a native program with its drawing. Without `named`, the drawing is the one in the program's title, searched for beside the
+/// program and then where paths are looked up.
 pub fn current(
     session: &mut Session<'_>,
     text: &[u8],
@@ -64,10 +64,10 @@ pub fn current(
     })
 }
 
-/// The path of that name in the drawing that a title means.
+/// Finds the path that a program's title refers to.
 ///
 /// # Errors
-/// PB006 where the directory of the program shows a bug.
+/// PB006 if reading the program's directory triggers a bug.
 fn defining(
     session: &Session<'_>,
     path: &str,
@@ -124,10 +124,10 @@ fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance, text: 
     }
 }
 
-/// The text of a native program's file as `emit` writes it with the present options; empty of a sheet.
+/// Text of a native program as `emit` would write it with the current options; empty for setup sheets.
 ///
 /// # Errors
-/// PB005: where it is too large.
+/// PB005 if it is too large.
 pub fn native_text(
     workspace: &Workspace,
     program: &Program,

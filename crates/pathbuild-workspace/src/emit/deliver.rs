@@ -1,4 +1,4 @@
-//! Making the files of one path, and writing, comparing or printing them. It runs on many threads and prints nothing.
+//! Generates the files of one program, and writes, compares or prints them. Runs on worker threads and prints nothing itself.
 
 use std::ops::Add;
 use std::sync::Arc;
@@ -27,100 +27,100 @@ use crate::posting::{Inserted, PostProcessor, tool_table};
 use crate::session::{OutputKind, Writing, hash_output, without_places, without_values};
 use crate::workspace::Workspace;
 
-/// What is done with the files.
+/// What to do with the generated files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
-    /// They are written.
+    /// Write them.
     Write {
-        /// Whether measured values are overwritten.
+        /// Whether to overwrite measured values.
         force: bool,
     },
-    /// They are compared with what lies on disk.
+    /// Compare them with the files on disk.
     Compare {
-        /// Whether by their moves, not byte for byte.
+        /// Whether to compare moves only instead of bytes.
         moves_only: bool,
     },
-    /// They are printed.
+    /// Print them.
     Print,
 }
 
-/// What became of a path's files.
+/// The outcome of generating the files of one program.
 #[derive(Debug, Default)]
 pub struct Delivered {
-    /// The path, or the name of those that are joined.
+    /// Name of the path, or of the joined program.
     pub path: Box<str>,
-    /// Each file.
+    /// Each file with its outcome.
     pub files: Vec<(Utf8PathBuf, State)>,
-    /// What should lie there, as [`hash_output`] tells it.
+    /// Expected content of each file, hashed by [`hash_output`].
     pub(super) hashes: Vec<[u8; 32]>,
-    /// The program's length in mm.
+    /// Length of the program in mm.
     pub length: f64,
-    /// The program's time.
+    /// Machining time in minutes.
     pub minutes: f64,
-    /// What went wrong, or where moves differ.
+    /// Errors, and differences in moves.
     pub problems: Vec<Diagnostic>,
-    /// Whether there is something wrong with the program itself, so that nothing is written of it.
+    /// Whether the program itself has errors, so that nothing is written.
     pub(super) is_refused: bool,
-    /// Out of what the program was made; `None` where none was.
+    /// Identifies the inputs of the program; `None` if there is no program.
     pub(super) provenance: Option<Provenance>,
-    /// What a post notes.
+    /// Notes of the post-processor.
     pub notes: Vec<Note>,
-    /// The command that a post wants to be run, and the file that it is for.
+    /// The command that the post-processor wants to run, with its output file.
     pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
-    /// Files that a post put in, or could not.
+    /// Files that the post-processor inserted or failed to insert.
     pub(super) inserted: Vec<Inserted>,
 }
 
 impl Delivered {
-    /// Adds what became of the files once they were made.
+    /// Adds the outcome of each file after writing.
     pub(super) fn add(&mut self, written: Self) {
         self.files.extend(written.files);
         self.hashes.extend(written.hashes);
         self.problems.extend(written.problems);
     }
 
-    /// Whether a file lies on disk now as it should be.
+    /// Whether the file on disk is now up to date.
     pub fn has_written(&self, file: &Utf8Path) -> bool {
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
         self.files.iter().any(|(path, state)| path == file && is_there(state))
     }
 }
 
-/// What became of a file.
+/// The outcome of a single file.
 #[derive(Debug)]
 pub enum State {
-    /// It was written.
+    /// Written.
     Written,
-    /// It was there already.
+    /// Already up to date, not written.
     Unchanged,
-    /// What lies on disk is what would be written.
+    /// Compared: equal to what would be written.
     Current,
-    /// It is not.
+    /// Compared: different.
     Outdated,
-    /// There is nothing on disk.
+    /// Compared: does not exist.
     Missing,
-    /// Its text, to be printed.
+    /// Content to print.
     Printed(Vec<u8>),
 }
 
 impl Task {
-    /// Whether files of a kind are a part of it: measured values and sheets are no moves.
+    /// Whether this task covers files of this kind. A comparison of moves skips measured values and setup sheets.
     pub(super) fn compares(self, kind: OutputKind) -> bool {
         self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())
     }
 
-    /// The sheets that belong to it: who prints a program prints nothing else.
+    /// Sheet formats that belong to this task. Printing outputs the program alone.
     pub(super) fn sheets(self, settings: &Settings) -> SheetFormat {
         if self == Self::Print { SheetFormat::No } else { settings.emit.sheet.value }
     }
 
-    /// Whether times are part of the result.
+    /// Whether the results contain times.
     pub(super) fn writes_times(self) -> bool {
         self != Self::Compare { moves_only: true }
     }
 }
 
-/// How programs are written: natively, or through a post.
+/// How programs are written: natively or through a post-processor.
 pub(super) struct OutputSettings<'a> {
     pub(super) writing: Writing,
     pub(super) poster: Option<&'a PostProcessor>,
@@ -130,7 +130,7 @@ pub(super) struct OutputSettings<'a> {
 }
 
 impl<'a> OutputSettings<'a> {
-    /// As the configuration says.
+    /// Takes the settings from the configuration.
     pub(super) fn new(workspace: &Workspace, poster: Option<&'a PostProcessor>) -> Self {
         let provenances = Provenances::new(&workspace.settings, poster);
         let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), poster);
@@ -144,15 +144,15 @@ impl<'a> OutputSettings<'a> {
     }
 }
 
-/// What a job becomes: no files where something keeps one of them from being written.
+/// The generated files of a job; empty if any of them cannot be written.
 #[derive(Default)]
 pub(super) struct JobFiles {
-    /// What is known of its program.
+    /// Everything about the program except the outcome of its files.
     pub(super) delivered: Delivered,
     pub(super) outputs: Vec<Output>,
 }
 
-/// The files of a job. Native files have been read back and compared with the program. (book: program/reading)
+/// Generates the files of a job. Native files are read back and compared with the program. (book: program/reading)
 pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobFiles {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return JobFiles::default() };
@@ -179,12 +179,12 @@ pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobF
     JobFiles { delivered, outputs }
 }
 
-/// Length and time of programs together, where rapid moves have this feed in mm/min.
+/// Sum of the programs' lengths and times; `rapid` is the feed of rapid moves in mm/min.
 pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
     programs.iter().map(|program| statistics(program, rapid).sum()).fold(Total::default(), Add::add)
 }
 
-/// PB005: programs have been held against the limit while they were written. What lies on disk is not read beyond it.
+/// PB005: the output file is too large. Files on disk are not read beyond this limit either.
 fn exceeding(db: &Database, job: &Job, output: &Output, writing: &Writing) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
         .with("name", output.path.file_name().unwrap_or_default())
@@ -194,7 +194,7 @@ fn exceeding(db: &Database, job: &Job, output: &Output, writing: &Writing) -> Di
         .in_path(&job.path)
 }
 
-/// The sheets among a job's files.
+/// Generates the setup sheets of a job.
 fn sheets(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Vec<Output>, Box<Diagnostic>> {
     let mut outputs = Vec::new();
     for (kind, path) in &job.files {
@@ -207,7 +207,7 @@ fn sheets(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Vec<Ou
     Ok(outputs)
 }
 
-/// Rapid moves of a program into material, and what the machine cannot do: it is not written then.
+/// Errors that keep a program from being written: rapid moves into material, and moves beyond the machine's capabilities.
 fn unsafe_moves(
     db: &Database,
     job: &Job,
@@ -218,7 +218,7 @@ fn unsafe_moves(
     found.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
     found.retain(Diagnostic::is_error);
     for problem in &mut found {
-        // The line would be the number of a step.
+        // The line is a step number here, which says nothing to the user.
         problem.place.line = None;
         problem.file = Some(job.drawing(db).path(db).clone());
         problem.path = Some(job.path.clone());
@@ -226,7 +226,7 @@ fn unsafe_moves(
     (!found.is_empty()).then_some(found)
 }
 
-/// Writes, compares or prints what a job becomes.
+/// Writes, compares or prints the files of a job.
 pub(super) fn finish(
     system: &dyn System,
     mut outputs: Vec<Output>,
@@ -235,7 +235,7 @@ pub(super) fn finish(
     delivered: &mut Delivered,
 ) {
     let (poster, limit) = (means.poster, means.writing.most_bytes as u64);
-    // Of what this version writes, whatever of another version lies there: else that would be what should be there from now on.
+    // Hash what this version writes, not a kept file of another version: that file must not become the expected content.
     let hashes: Vec<[u8; 32]> =
         outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
     if task != Task::Print {
@@ -265,7 +265,7 @@ pub(super) fn finish(
     }
 }
 
-/// What another version of pathbuild wrote stays, where it is the same program.
+/// Keeps the file of another pathbuild version if it contains the same program.
 fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     if is_of_other_version(system, &output.path)
         && let Ok(present) = system.read(&output.path, limit)
@@ -275,21 +275,21 @@ fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     }
 }
 
-/// Whether another version of pathbuild wrote a program.
+/// Whether a program on disk was written by another version of pathbuild.
 pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
     let head = system.head(program, HEAD).unwrap_or_default();
     Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }
 
-/// PB005: what comes of cutting moves is limited like the moves themselves, which were counted before they were made. `steps`: pieces, and
-/// comments between them, which are no moves.
+/// PB005: cutting moves into pieces (z-split) exceeds a limit. Moves were counted before cutting, so the pieces are counted here. `steps`
+/// is the number of pieces and of the comments between them.
 fn too_many_pieces(steps: u64, program: &Program, writing: &Writing) -> Option<Diagnostic> {
     if steps <= program.steps.len() as u64 {
         return None;
     }
     let comments = program.steps.iter().filter(|step| matches!(step, Step::Comment(_))).count() as u64;
     let moves = steps - comments;
-    // Foretold are moves with a comment each.
+    // The limit is defined for moves that each have a comment; these steps have none.
     let size = memory(steps) / 2;
     if moves > writing.most_moves {
         let problem = Diagnostic::new(&files::LIMIT).with("key", "embedding-moves");
@@ -309,7 +309,7 @@ fn outside_probes(outside: &Outside) -> Diagnostic {
         .with("at", Point::new(outside.at.x, outside.at.y))
 }
 
-/// A file to be written.
+/// A generated file.
 pub(super) struct Output {
     pub(super) kind: OutputKind,
     pub(super) path: Utf8PathBuf,
@@ -334,7 +334,7 @@ fn outputs(
         (None, [program]) => {
             native(job, program, provenance, means, at, delivered).map_err(|problem| vec![*problem])
         }
-        // Paths are joined through a post only.
+        // Only a post-processor can join paths.
         (None, _) => Ok(Vec::new()),
     }
 }
@@ -354,11 +354,12 @@ fn native(
     }
     match correction.outside(program) {
         Some(outside) => delivered.problems.push(at(outside_probes(&outside))),
-        // Outside the probes it is no wonder that some of them correct nothing.
+        // Probes outside the program are reported already; that some of them are unused follows from it.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
-        let text = kind.text(program, provenance, &means.writing).map_err(|it| Box::new(at(*it)))?;
+        let text =
+            kind.text(program, provenance, &means.writing).map_err(|problem| Box::new(at(*problem)))?;
         let Some(text) = text else { return Ok(None) };
         too_long_line(&text, path).map_or(Ok(()), |problem| Err(Box::new(at(problem))))?;
         kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
@@ -367,7 +368,7 @@ fn native(
     job.files.iter().map(output).filter_map(Result::transpose).collect()
 }
 
-/// PB609: probes that would be measured for nothing.
+/// PB609: warns about probes that correct no move.
 fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Item = Diagnostic> {
     let unused = native::unused_probes(program, correction).into_iter();
     unused.map(|probe| Diagnostic {
@@ -376,7 +377,7 @@ fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Ite
     })
 }
 
-/// PB005: what is longer would not be read back, nor by anybody else.
+/// PB005: a line is so long that neither pathbuild nor any other program would read it back.
 fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     let (number, line) = (1_u64..).zip(text.split('\n')).find(|(_, line)| line.len() > LONGEST_LINE)?;
     let problem = Diagnostic::new(&files::OUTPUT_LINE_TOO_LONG).with("line", number);
@@ -384,7 +385,7 @@ fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     Some(problem.with("length", line.len()).with("limit", LONGEST_LINE))
 }
 
-/// What the post makes of programs; it reads that back itself.
+/// Generates the program through the post-processor, which reads its output back itself.
 fn posted(
     job: &Job,
     programs: &[Arc<Program>],
@@ -403,27 +404,28 @@ fn posted(
     program.remarks.extend(left_out.map(Into::into));
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
     let output = poster.write(&program, Some(path), &mut delivered.inserted);
-    let output =
-        output.map_err(|problems| problems.into_iter().map(|it| in_job(it, job)).collect::<Vec<_>>())?;
+    let output = output
+        .map_err(|problems| problems.into_iter().map(|problem| in_job(problem, job)).collect::<Vec<_>>())?;
     delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
     delivered.notes.extend(output.notes);
     delivered.post_build = output.post_build.map(|command| (command, path.clone()));
     Ok(Output { kind: *kind, path: path.clone(), text: output.text })
 }
 
-/// A problem of a post with the path that it was met in.
+/// Adds the path to a diagnostic of the post-processor.
 fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
 }
 
-/// Writes outputs, each with the hash of what this version writes.
+/// Writes files; each comes with the hash of the content that this version generates.
 fn write<'a>(
     system: &dyn System,
     outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
     force: bool,
     delivered: &mut Delivered,
 ) -> Result<(), Box<Diagnostic>> {
-    let mut values = outputs.clone().map(|(output, _)| output).filter(|it| it.kind == OutputKind::Values);
+    let mut values =
+        outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
     if !force && let Some(lost) = values.find(|output| would_lose_values(system, output)) {
         let name = lost.path.file_name().unwrap_or_default();
         return Err(Box::new(
@@ -441,20 +443,20 @@ fn write<'a>(
     Ok(())
 }
 
-/// Whether there are values that somebody measured, for other probes than now.
+/// Whether the file contains measured values for other probes than the current ones.
 fn would_lose_values(system: &dyn System, output: &Output) -> bool {
     let Some(present) = present(system, &output.path) else { return false };
     let has_values = without_values(present.as_bytes()) != present.trim_end();
     has_values && !is_for_probes(&present, &output.text)
 }
 
-/// Whether a file of values is there and is for these probes.
+/// Whether the file of values exists and matches the current probes.
 pub(super) fn has_same_probes(system: &dyn System, output: &Output) -> bool {
     present(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
 }
 
-/// Whether a file of values is for the probes of another. One that does not say where they are in the emitted drawing was written by an
-/// older version or by the original tool.
+/// Whether two files of values are for the same probes. A file without the probes' places in the emitted drawing was written by an older
+/// version or by the original tool.
 fn is_for_probes(present: &str, written: &[u8]) -> bool {
     let (present, written) = (without_values(present.as_bytes()), without_values(written));
     present == written || present == without_places(&written)
@@ -465,7 +467,7 @@ fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
     Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
 }
 
-/// PB004.
+/// PB004: a file cannot be written.
 pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
     Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason)
 }

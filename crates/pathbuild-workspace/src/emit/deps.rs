@@ -1,4 +1,4 @@
-//! What files were made from, as `make` and `ninja` read it. (book: reference/commands, `emit --deps`)
+//! Dependency files for `make` and `ninja`. (book: reference/commands, `emit --deps`)
 
 use std::fmt::Write;
 use std::iter::repeat_n;
@@ -13,8 +13,8 @@ use super::job::Job;
 use crate::posting::{Inserted, PostProcessor};
 use crate::session::Session;
 
-/// Writes the file: for each path a rule of the files that it becomes, and the drawings, the configuration and the post that they are made
-/// from. `inserted`: of each job what the post put in, relative to the post's directory. Where a name has no spelling nothing is written.
+/// Writes one rule per job, from its drawings, the configuration and the post definition to its output files. `inserted` lists, for each
+/// job, the files that the post-processor inserted, relative to the definition's directory. Nothing is written if a name cannot be spelled.
 pub(super) fn write(
     session: &Session<'_>,
     file: &Utf8Path,
@@ -46,24 +46,24 @@ pub(super) fn write(
     written.err().map(|reason| cannot_write(file.as_str(), reason))
 }
 
-/// What make takes for its own, however it is written: an assignment, even of a command's output (`!=`), patterns of rules and of files, what
-/// need not be newer, a home directory, a part of an archive, and a line that goes on.
+/// Whether `make` interprets the name however it is escaped: assignments (even `!=`), patterns and wildcards, order-only prerequisites,
+/// home directories, archive members, and line continuations.
 fn has_no_spelling(name: &str) -> bool {
     name.contains(['=', '%', '|', '*', '?', '[']) || name.starts_with('~') || name.ends_with([')', '\\'])
 }
 
-/// A name in which nothing is taken for more than itself, as make reads it, and Ninja where it has a way to write it. There is none to write a
-/// line feed or another control character: escaped they name a file that is not there.
+/// Escapes a name for `make`, and for Ninja where it can express it. Line feeds and other control characters cannot be expressed; their
+/// escaped form names a file that does not exist.
 fn escaped(path: &Utf8Path) -> String {
     let mut escaped = String::with_capacity(path.as_str().len());
     let mut backslashes = 0;
     for character in path.as_str().chars() {
-        // Those in front of what is escaped would escape each other.
+        // Double the preceding backslashes, which would otherwise escape each other.
         let further = match character {
-            // Behind the letter of a drive, where else Windows has none, make knows it.
+            // On Windows a colon occurs only after a drive letter, which `make` recognizes.
             ':' if cfg!(windows) => 0,
             ' ' | '#' | ':' => backslashes + 1,
-            // A command would follow. Make looks for it twice.
+            // An unescaped semicolon starts a command. `make` unescapes it twice.
             ';' => 3 * (backslashes + 1),
             _ => 0,
         };

@@ -1,4 +1,4 @@
-//! What is to be done for one path: which files it becomes.
+//! Jobs: a program to be generated, and the files that it consists of.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -17,27 +17,27 @@ use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
 
-/// A path without errors, or several that become one program, and the files that come of it.
+/// A path without errors, or several that are joined into one program, with the files to generate.
 #[derive(Debug, PartialEq)]
 pub(super) struct Job {
-    /// What an earlier run did.
+    /// What is cached of it.
     pub(super) known: Known,
-    /// The paths, in the order in which they are milled. There is one at least.
+    /// The paths in milling order; never empty.
     pub(super) targets: Vec<Target>,
-    /// The drawings that were read for them, the first path's own first: those that they are made from, and those that were searched in vain.
+    /// The drawings that were read for them, starting with the first path's own. Includes drawings that were searched without success.
     pub(super) sources: Vec<SourceFile>,
-    /// The path's name, as the drawing spells it; of joined paths the name that they were given.
+    /// Name of the path as the drawing spells it, or the name of the joined program.
     pub(super) path: Box<str>,
-    /// The name of its files without what tells them apart, with the directory.
+    /// Output directory and common stem of the file names.
     pub(super) stem: Utf8PathBuf,
-    /// Its files.
+    /// The files, with their kinds.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
-    /// What the program says that it is, behind its provenance.
+    /// Title of the program, which follows its provenance.
     pub(super) title: String,
 }
 
 impl Job {
-    /// That of paths of which everything is known.
+    /// A job whose paths have a cached result.
     pub(super) fn known(targets: Vec<Target>, KnownJob { path, stem, files, program }: KnownJob) -> Self {
         let known = program.map_or(Known::Plan, |program| Known::Program(Box::new(program)));
         Self { known, targets, sources: Vec::new(), path, stem, files, title: String::new() }
@@ -54,7 +54,7 @@ impl Job {
         format!("{} ({})", self.path, self.drawing(db).path(db))
     }
 
-    /// Takes its files for its target; PB514 where another target has one of them, and still becomes something.
+    /// Claims the job's file names. PB514 if another target that still yields a program has claimed one of them.
     pub(super) fn claim(
         &self,
         session: &Session<'_>,
@@ -79,40 +79,39 @@ impl Job {
         true
     }
 
-    /// What came of it when it was not finished.
+    /// The outcome of a job that was aborted.
     pub(super) fn given_up(&self, session: &Session<'_>, problem: Diagnostic) -> Delivered {
         let problem = problem.in_file(self.drawing(session.db()).path(session.db())).in_path(&self.path);
         Delivered { problems: vec![problem], ..Delivered::default() }
     }
 }
 
-/// What is known of a job from earlier runs.
+/// What earlier runs left in the cache about a job.
 #[derive(Debug, PartialEq)]
 pub(super) enum Known {
-    /// Nothing.
     Nothing,
-    /// Which files it becomes: it was refused because another path becomes one of them too.
+    /// Only the names of its files: the job was dropped because another path claims one of them.
     Plan,
-    /// What came of it.
+    /// Its outcome.
     Program(Box<KnownProgram>),
 }
 
-/// What makes jobs of paths.
+/// Turns checked paths into jobs.
 pub(super) struct Maker<'a> {
     pub(super) session: &'a Session<'a>,
-    /// The post that programs are written through.
+    /// The post-processor to write programs through.
     pub(super) poster: Option<&'a PostProcessor>,
-    /// The name of the one program that all paths become.
+    /// Name of the one program that all paths are joined into.
     pub(super) join: Option<&'a str>,
-    /// What the sheet is written as.
+    /// Format of the setup sheet.
     pub(super) sheet: SheetFormat,
 }
 
 impl Maker<'_> {
-    /// The job for paths that become one program, if all are right.
+    /// The job for the paths of one program; `None` if any of them has errors.
     ///
     /// # Errors
-    /// Why right paths become no program.
+    /// Why no program can be generated from error-free paths.
     pub(super) fn job(&self, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
         match (self.join, checked) {
             (Some(name), checked) => self.joined(name, checked),
@@ -154,7 +153,7 @@ impl Maker<'_> {
         Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
     }
 
-    /// A post's text has no formulas: probes would be measured for nothing.
+    /// Refuses probes with a post-processor: its output cannot contain formulas, so they would be measured for nothing.
     fn refuse_probes(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<(), Box<Diagnostic>> {
         if self.poster.is_none() || !emitted.has_probes {
             return Ok(());
@@ -190,25 +189,25 @@ impl Maker<'_> {
     }
 }
 
-/// The drawings that were read for paths, each once.
+/// The drawings that were read for the paths, without duplicates.
 fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
     let mut seen = HashSet::new();
     let read = checked.iter().flat_map(|checked| &trace(db, checked.target).files).copied();
     read.filter(|file| seen.insert(*file)).collect()
 }
 
-/// Without a comma and a drawing, so that nothing takes it for a program that a drawing alone becomes, and for stale when it does not.
+/// Contains neither a comma nor a drawing's name, so that the program is not mistaken for a single drawing's stale program.
 fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
     let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
     format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
 }
 
-/// The file that a post's program is written to.
+/// File name of a program written through a post-processor.
 pub(super) fn program_name(stem: &str, poster: &PostProcessor) -> String {
     format!("{stem}_Milling.{}", poster.extension())
 }
 
-/// Where the files of a drawing's paths go: beside it, or where the configuration says.
+/// Directory of the files of a drawing's paths: that of the drawing, unless the configuration names one.
 pub(super) fn output_directory(session: &Session<'_>, drawing: SourceFile) -> Utf8PathBuf {
     match &session.workspace().settings.general.out_dir.value {
         Some(directory) => session.normal(directory),
@@ -216,7 +215,7 @@ pub(super) fn output_directory(session: &Session<'_>, drawing: SourceFile) -> Ut
     }
 }
 
-/// Takes out the jobs of which two would write the same file: all of these are refused (PB514).
+/// Removes jobs of which two would write the same file, and returns them (PB514).
 pub(super) fn take_clashes(
     session: &Session<'_>,
     jobs: &mut Vec<Job>,
@@ -227,7 +226,7 @@ pub(super) fn take_clashes(
     jobs.extract_if(.., |_| index.next().is_some_and(|index| refused.contains(&index))).collect()
 }
 
-/// The jobs that would write the same file as another. Case does not count, since on some systems it does not.
+/// Indices of jobs that would write the same file as another. Case is ignored, as some file systems do.
 fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic>) -> BTreeSet<usize> {
     let mut owners: BTreeMap<String, (&Utf8Path, Vec<usize>)> = BTreeMap::new();
     for (index, job) in jobs.iter().enumerate() {
@@ -237,7 +236,7 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
     }
     let mut refused = BTreeSet::new();
     for (path, owners) in owners.into_values().filter(|(_, owners)| owners.len() > 1) {
-        // Of several files that both would write the first tells all.
+        // For two jobs that share several files, the first file is enough.
         if owners.iter().any(|owner| !refused.contains(owner)) {
             let db = session.db();
             let problem = Diagnostic::new(&messages::SAME_OUTPUT)
@@ -252,7 +251,7 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
     refused
 }
 
-/// A file's name in a directory, unless no file can have it. `rest`: the part of it that is not a drawing's.
+/// Joins a file name to a directory, unless the system forbids the name. `rest` is the part that does not stem from the drawing's name.
 fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if stem_fault(name, rest) {
         return Err(Box::new(cannot_write(name, Value::Word(&NO_FILE_NAME))));

@@ -1,4 +1,4 @@
-//! Making programs: what is known of earlier runs is not made again.
+//! Plans and generates programs; results of earlier runs are reused.
 
 use std::collections::HashMap;
 
@@ -13,53 +13,52 @@ use super::write_queue::deliver_all;
 use super::{Request, options};
 use crate::session::{CheckedTarget, Found, Session};
 
-/// What a run makes, and from what.
+/// Context of a run of `emit`.
 pub(super) struct Making<'a> {
     pub(super) request: &'a Request<'a>,
-    /// What is known from earlier runs; `None` where everything is made.
+    /// Cached results of earlier runs; `None` if everything is regenerated.
     pub(super) store: Option<Store>,
     pub(super) found: Found,
 }
 
-/// What came of a run.
+/// The outcome of a run.
 pub(super) struct RunResult {
     pub(super) asked: Selection,
-    /// What was not known.
+    /// Results that were not cached.
     pub(super) answers: Vec<Answer>,
     pub(super) jobs: Vec<Job>,
-    /// Jobs that claim files of others, and are not done.
+    /// Jobs that were dropped because they claim files of other jobs.
     pub(super) refused: Vec<Job>,
-    /// What became of each job.
+    /// The outcome of each job.
     pub(super) delivered: Vec<Delivered>,
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
-/// What was found now about paths that become one program.
+/// The result of checking the paths of one program.
 pub(super) struct Answer {
-    /// Each of the paths.
     pub(super) checked: Vec<CheckedTarget>,
-    /// Why they become nothing, though they are right.
+    /// Why no program is generated although the paths have no errors.
     pub(super) refusals: Vec<Diagnostic>,
 }
 
 impl Answer {
-    /// What is wrong with the paths, and with the drawings that they are made from.
+    /// Diagnostics of the paths and of the drawings that they use.
     pub(super) fn found(&self, session: &Session<'_>) -> Vec<Diagnostic> {
         self.checked.iter().flat_map(|checked| found(session, checked)).collect()
     }
 }
 
-/// What is wrong with a path, and with the drawings that it is made from.
+/// Diagnostics of a path and of the drawings that it uses.
 pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
     let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
     of_files.chain(&checked.diagnostics).cloned().collect()
 }
 
 impl Making<'_> {
-    /// Makes the programs of which not enough is known, and writes, compares or prints them.
+    /// Generates the programs that are not cached, and writes, compares or prints all of them.
     ///
     /// # Errors
-    /// Why the arguments make no sense.
+    /// If the arguments make no sense; the text says why.
     pub(super) fn make(&self, session: &mut Session<'_>) -> Result<RunResult, String> {
         let Request { task, poster, join, .. } = *self.request;
         let mut diagnostics = self.found.problems.clone();
@@ -95,7 +94,7 @@ impl Making<'_> {
         Ok(RunResult { asked, answers, jobs, refused, delivered, diagnostics })
     }
 
-    /// The paths of each program.
+    /// Groups the targets by program.
     fn programs(&self, targets: &[Target]) -> Vec<Vec<Target>> {
         match self.request.join {
             Some(_) if targets.is_empty() => Vec::new(),
@@ -105,7 +104,7 @@ impl Making<'_> {
     }
 }
 
-/// Finding out what paths become.
+/// State while planning which files the paths become.
 struct Planning<'a> {
     making: &'a Making<'a>,
     session: &'a Session<'a>,
@@ -114,7 +113,7 @@ struct Planning<'a> {
 }
 
 impl Planning<'_> {
-    /// The jobs of programs, by what is known of their paths, and of the others by what is found now.
+    /// The jobs of these programs, from the cache where possible.
     fn jobs(&mut self, programs: &[Vec<Target>]) -> Result<Vec<Job>, String> {
         let Request { task, join, .. } = *self.making.request;
         let (mut jobs, mut open) = (Vec::new(), Vec::new());
@@ -129,7 +128,7 @@ impl Planning<'_> {
                 None => open.push(targets.clone()),
             }
         }
-        // Their moves may be known of a run that asked for no times.
+        // The cached moves may stem from a run that needed no times.
         let rapid = self.session.workspace().settings.general.rapid.value;
         if !jobs.is_empty() && rapid.is_none() && task.writes_times() {
             return Err(options::missing_values(self.session.workspace(), ["rapid"]));
@@ -138,7 +137,7 @@ impl Planning<'_> {
         Ok(jobs)
     }
 
-    /// The same by what is found now.
+    /// Checks the programs and returns their jobs.
     fn made(&mut self, programs: &[Vec<Target>]) -> Result<Vec<Job>, String> {
         let Request { task, poster, join, .. } = *self.making.request;
         let mut checked = self.session.check(&programs.concat());
@@ -169,13 +168,13 @@ impl Planning<'_> {
     }
 }
 
-/// Puts jobs in the order of their targets.
+/// Sorts jobs in the order of their targets.
 fn in_order(jobs: &mut [Job], targets: &[Target]) {
     let places: HashMap<Target, usize> = targets.iter().copied().zip(0..).collect();
     jobs.sort_by_key(|job| places[&job.targets[0]]);
 }
 
-/// Does the jobs of which not everything is known; what became of each.
+/// Generates the jobs that are not cached. Returns the outcome of every job.
 pub(super) fn deliver(
     session: &mut Session<'_>,
     jobs: &[Job],

@@ -1,4 +1,4 @@
-//! Programs of paths: made, then written, compared or printed. (book: reference/commands, `emit`; book: program/gcode)
+//! `emit`: generates the programs of paths, and writes, compares or prints them. (book: reference/commands, `emit`; book: program/gcode)
 
 mod compare;
 mod compatible;
@@ -47,38 +47,38 @@ use stale::Dealt;
 use store::{Run, Store};
 use targets::Selection;
 
-/// What is to become programs.
+/// A request to emit programs.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// Drawings, paths and directories; without any, what `[emit] targets` means.
+    /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
     pub inputs: &'a Inputs,
-    /// What is done with the files.
+    /// What to do with the generated files.
     pub task: Task,
-    /// The post that programs are written through; `None`: natively.
+    /// The post-processor to write programs through; `None` writes native programs.
     pub poster: Option<&'a PostProcessor>,
-    /// The name of the one program that all paths become, in the order of the inputs.
+    /// Joins all paths, in the order of the inputs, into one program of this name.
     pub join: Option<&'a str>,
-    /// The file for `make` and `ninja`.
+    /// Dependency file to write for `make` and `ninja`.
     pub deps: Option<&'a Utf8Path>,
-    /// Whether stale programs are removed.
+    /// Whether to remove stale programs.
     pub removes_stale: bool,
 }
 
-/// What came of it.
+/// The outcome of `emit`.
 #[derive(Debug)]
 pub struct Emission {
-    /// What became of the files of each program, in the order of the targets.
+    /// The outcome of each program, in the order of the targets.
     pub delivered: Vec<Delivered>,
-    /// The stale programs that were removed.
+    /// Stale programs that were removed.
     pub removed: Vec<Utf8PathBuf>,
-    /// Adjusted programs that are of another program than the path's now.
+    /// Adjusted programs that no longer match their path's program.
     pub outdated: Vec<Utf8PathBuf>,
-    /// Everything that was found, in any order and as often as it was met.
+    /// All diagnostics, unsorted, with duplicates.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Request<'_> {
-    /// A session for it.
+    /// Opens a session that suits this request.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
         if workspace.keeps_results() && !self.is_always_made() {
             Session::traced(workspace)
@@ -87,14 +87,14 @@ impl Request<'_> {
         }
     }
 
-    /// Whether nothing that is known from earlier runs is enough.
+    /// Whether everything must be regenerated, regardless of the cache.
     fn is_always_made(&self) -> bool {
         matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
             || self.poster.is_some_and(PostProcessor::runs_post_build)
     }
 
-    /// Makes the programs, in its session.
+    /// Emits the programs in a session opened by [`session`](Self::session).
     ///
     /// # Errors
     /// Why the request makes no sense.
@@ -134,7 +134,7 @@ impl Request<'_> {
         Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
     }
 
-    /// What earlier runs kept about the drawings that may be meant.
+    /// Loads the cached results of the drawings that the request may select.
     fn store(&self, session: &Session<'_>, found: &mut Found) -> Option<Store> {
         if !session.is_traced() {
             return None;
@@ -149,7 +149,7 @@ impl Request<'_> {
     }
 }
 
-/// Says, to whoever wants to know more, how much is as it was in an earlier run.
+/// Reports, as a detail, how much was cached.
 fn tell_known(context: &Workspace, asked: &Selection, answers: &[Answer]) {
     let open: usize = answers.iter().map(|answer| answer.checked.len()).sum();
     let drawings = asked.drawings().count();
@@ -164,7 +164,7 @@ fn tell_known(context: &Workspace, asked: &Selection, answers: &[Answer]) {
     }
 }
 
-/// Of targets whose programs lie on disk, whether these are what would be written now, or what keeps a program from being made.
+/// For each target with a program on disk, whether that program is up to date, or the errors that keep it from being generated.
 pub(crate) fn on_disk(
     session: &mut Session<'_>,
     poster: Option<&PostProcessor>,
@@ -181,10 +181,10 @@ pub(crate) fn on_disk(
     jobs.iter().zip(delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
 }
 
-/// Whether all files of a program are current.
+/// Whether all files of a program are up to date.
 ///
 /// # Errors
-/// Why there are no files, where the program was not made.
+/// The errors of a program that was not generated.
 fn is_current(delivered: Delivered) -> Result<bool, Vec<Diagnostic>> {
     if delivered.files.is_empty() && delivered.problems.iter().any(Diagnostic::is_error) {
         return Err(delivered.problems);
@@ -193,14 +193,14 @@ fn is_current(delivered: Delivered) -> Result<bool, Vec<Diagnostic>> {
     Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
 }
 
-/// Which path each file was written for, by its name without regard to case.
+/// The target that each file was written for. File names are in lower case.
 pub type Owners = HashMap<String, Target>;
 
-/// Writes the programs of some targets, for who keeps its session; what is wrong with them as programs. Checks have said what is wrong with their
-/// drawings.
+/// Writes the programs of these targets in a long-lived session and returns what is wrong with the programs themselves; drawing errors are
+/// reported by `check`.
 ///
 /// # Errors
-/// Options that programs need and nobody gives.
+/// Which options are missing.
 pub fn write(
     session: &mut Session<'_>,
     poster: Option<&PostProcessor>,

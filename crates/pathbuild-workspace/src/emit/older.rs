@@ -1,4 +1,4 @@
-//! Programs of paths that could not be written: what lies there is of an earlier state of the drawing. (PB522)
+//! Reports programs on disk whose paths could not be written now: they show an earlier state of the drawing. (PB522)
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -17,8 +17,8 @@ use super::stale::is_gcode;
 use crate::posting::PostProcessor;
 use crate::session::Session;
 
-/// The programs on disk of targets of which nothing was written or compared now, each as a piece of its own: a comparison counts it as not
-/// current.
+/// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison counts
+/// it as out of date.
 pub(super) fn programs(
     session: &Session<'_>,
     request: &Request<'_>,
@@ -51,7 +51,7 @@ pub(super) fn programs(
     }
 }
 
-/// The programs in output directories, which are listed once each.
+/// Programs in output directories, each of which is listed once.
 #[derive(Default)]
 struct Listings {
     programs: HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>,
@@ -59,7 +59,7 @@ struct Listings {
 }
 
 impl Listings {
-    /// Those in a directory whose names begin so, in any case.
+    /// Programs in a directory whose names begin with `stem`, ignoring case.
     fn beginning(
         &mut self,
         (session, poster): (&Session<'_>, Option<&PostProcessor>),
@@ -96,7 +96,7 @@ fn older(program: Utf8PathBuf, path: &str, task: Task) -> Delivered {
     Delivered { path: path.into(), files, problems: vec![problem], ..Delivered::default() }
 }
 
-/// Their names begin with the drawing's or the path's, whatever R was; of which path they are, they say themselves.
+/// The names begin with that of the drawing or of the path, whatever R was; the head of each program names its path.
 fn of_target(
     session: &Session<'_>,
     target: Target,
@@ -119,7 +119,7 @@ fn of_target(
     programs.into_iter().filter(is_of_target).collect()
 }
 
-/// The program that targets were joined into earlier.
+/// The program that the targets were joined into earlier.
 fn of_joined(
     session: &Session<'_>,
     first: Target,

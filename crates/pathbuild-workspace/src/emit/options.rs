@@ -1,4 +1,4 @@
-//! The options that programs need.
+//! Options that programs need.
 
 use pathbuild_db::MissingOption;
 use pathbuild_diagnostic::Diagnostic;
@@ -10,7 +10,7 @@ use crate::config::types;
 use crate::session::{CheckedTarget, Writing};
 use crate::workspace::Workspace;
 
-/// A value that a program needs and nobody gives is wrong usage; what has errors is not asked for it.
+/// Reports missing values that an error-free path needs. This is an error in usage.
 pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]) -> Option<String> {
     let sound = || checked.iter().filter(|checked| !checked.diagnostics.iter().any(Diagnostic::is_error));
     let is_missing = |option: &MissingOption| sound().any(|checked| checked.missing_options.contains(option));
@@ -21,7 +21,7 @@ pub(super) fn missing(context: &Workspace, task: Task, checked: &[CheckedTarget]
     (!names.is_empty()).then(|| missing_values(context, names))
 }
 
-/// What is missing, by its names in the configuration, and where to give it: a line for each, and one where no configuration holds.
+/// Explains which values are missing and where to give them, one line each, with a further line if no configuration applies.
 pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'static str>) -> String {
     let template = context.choose(
         "missing: {what}; give --{name}, or set `{name}` in pathbuild.toml",
@@ -32,7 +32,7 @@ pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'sta
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// A configuration that does not hold here is named rather than let keys be set in it.
+/// Names a configuration that does not apply here, so that users do not set keys in vain.
 fn no_configuration(context: &Workspace) -> Option<String> {
     if context.settings.file.is_some() {
         return None;
@@ -67,7 +67,7 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
     }
 }
 
-/// How files are written.
+/// Settings for writing files.
 pub fn writing(context: &Workspace) -> Writing {
     let limits = &context.settings.limits;
     Writing {
@@ -78,7 +78,7 @@ pub fn writing(context: &Workspace) -> Writing {
     }
 }
 
-/// How texts are written.
+/// Settings for writing native programs.
 fn write_options(context: &Workspace) -> WriteOptions {
     let general = &context.settings.general;
     let charset = match general.charset.value {

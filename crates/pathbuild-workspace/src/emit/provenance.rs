@@ -1,4 +1,4 @@
-//! Out of what programs are made: the line by which a sheet at the machine can be traced. (book: program/gcode)
+//! Provenance of programs: the line that traces a program, or a setup sheet, back to its inputs. (book: program/gcode)
 
 use std::borrow::Borrow;
 use std::fmt::Debug;
@@ -10,16 +10,16 @@ use pathbuild_toolpath::Program;
 use crate::config::Settings;
 use crate::posting::PostProcessor;
 
-/// What the provenance of all programs of a run has in common.
+/// The part of the provenance that all programs of a run share.
 #[derive(Clone, Debug)]
 pub struct Provenances {
-    /// Everything in the configuration that a program's text depends on beside its moves.
+    /// All options besides the moves that influence a program's text.
     options: Vec<u8>,
     dialect: Option<Dialect>,
 }
 
 impl Provenances {
-    /// That of programs that are written with these settings, natively or through a post.
+    /// Provenance of programs written with these settings, natively or through a post-processor.
     pub fn new(settings: &Settings, poster: Option<&PostProcessor>) -> Self {
         let general = &settings.general;
         let mut options = Vec::new();
@@ -35,7 +35,7 @@ impl Provenances {
         Self { options, dialect }
     }
 
-    /// That of the programs of one file.
+    /// Provenance of the programs in one file.
     pub fn of<P: Borrow<Program>>(&self, programs: &[P]) -> Provenance {
         Provenance::of_programs(programs, &self.options, self.dialect)
     }

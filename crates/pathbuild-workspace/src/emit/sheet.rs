@@ -1,4 +1,4 @@
-//! What a sheet says of a program, from the same queries as the program. (book: program/sheet)
+//! Setup sheets of programs, from the same queries as the programs. (book: program/sheet)
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session, Writing, program_scene};
 use crate::{Inputs, config};
 
-/// What sheets have in common.
+/// Settings shared by all sheets of a run.
 #[derive(Debug)]
 pub(super) struct SheetSettings {
     lang: Lang,
@@ -32,23 +32,23 @@ pub(super) struct SheetSettings {
 }
 
 impl SheetSettings {
-    /// As the configuration says, for programs that are written natively or through a post.
+    /// Takes the settings from the configuration, for programs written natively or through a post-processor.
     pub(super) fn new(settings: &config::Settings, tools: ToolTable, poster: Option<&PostProcessor>) -> Self {
         let starts_spindle = poster.is_some_and(PostProcessor::starts_spindle);
         Self { lang: settings.comment_lang(), tools, starts_spindle }
     }
 }
 
-/// A sheet, and what is wrong with the path that it is of.
+/// A sheet with the diagnostics of its path.
 #[derive(Debug)]
 pub struct SheetMade {
-    /// `None` where the path has errors.
+    /// `None` if the path has errors.
     pub sheet: Option<Sheet>,
-    /// Everything that was found.
+    /// All diagnostics of the path.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// The sheet of a path, or of the one path of a drawing.
+/// Creates the setup sheet of a path, or of a drawing's only path.
 ///
 /// # Errors
 /// Why the argument makes no sense, or which options are missing.
@@ -63,7 +63,7 @@ pub fn sheet_of(
     })
 }
 
-/// The path that an argument means, or what is wrong with its drawing.
+/// Resolves an argument to a path, or returns the diagnostics of its drawing.
 fn wanted(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
     let wanted = session.wanted(&Inputs { inputs: vec![what.to_owned()] });
     if !wanted.problems.is_empty() {
@@ -94,7 +94,7 @@ fn wanted(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagno
     }
 }
 
-/// What is wrong with a drawing without paths.
+/// Diagnostics of a drawing without paths.
 fn no_path(db: &Database, file: SourceFile) -> Vec<Diagnostic> {
     let mut found = check_file(db, file).to_vec();
     if !found.iter().any(Diagnostic::is_error) {
@@ -125,7 +125,7 @@ fn of_target(
     Ok(SheetMade { sheet, diagnostics: session.with_hints(diagnostics) })
 }
 
-/// The sheet of a job; `None` where its program would not be written.
+/// Sheet of a job; `None` if its program would not be written.
 fn of_job(
     session: &Session<'_>,
     job: &Job,
@@ -149,10 +149,10 @@ fn of_job(
     })
 }
 
-/// The bytes of a job's sheet; `None` where a drawing changed meanwhile.
+/// Content of a job's sheet; `None` if a drawing changed in the meantime.
 ///
 /// # Errors
-/// PB005: it is too large; PB004: it cannot be made.
+/// PB005 if it is too large, PB004 if it cannot be generated.
 pub(super) fn bytes(
     db: &Database,
     job: &Job,
@@ -165,10 +165,10 @@ pub(super) fn bytes(
         .map_err(|reason| Box::new(super::deliver::cannot_write(&job.path, reason)))
 }
 
-/// A sheet as a file.
+/// Renders a sheet.
 ///
 /// # Errors
-/// It cannot be made: a bug, or a program without pictures.
+/// If it cannot be rendered: because of a bug, or because the program has no pictures.
 pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec<u8>, String> {
     match format {
         SheetFormat::No => Ok(Vec::new()),
@@ -178,7 +178,7 @@ pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec
     }
 }
 
-/// What a sheet says of a job.
+/// Collects the data of a job's sheet.
 fn sheet(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Option<Sheet>, Box<Diagnostic>> {
     let mut scene = Scene::new(&job.path);
     let mut programs: Vec<Arc<Program>> = Vec::new();
@@ -215,7 +215,7 @@ fn sheet(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Option<
     }))
 }
 
-/// Adds a path with the clamps in its way, in the coordinates of its program.
+/// Adds a path, together with the clamps in its way, in the program's coordinates.
 fn add(
     db: &Database,
     scene: &mut Scene,
@@ -238,7 +238,7 @@ fn file_name(db: &Database, file: SourceFile) -> String {
     file.path(db).file_name().unwrap_or_default().to_owned()
 }
 
-/// What the machine runs in the end.
+/// Name of the program that the machine finally runs: the adjusted one if there are probes.
 fn adjusted_name(program: &str) -> String {
     let clean = OutputKind::Clean.suffix();
     match program.strip_suffix(clean) {
@@ -247,7 +247,7 @@ fn adjusted_name(program: &str) -> String {
     }
 }
 
-/// By what a program is known whatever version wrote it: a sheet that says the same stays the same.
+/// Identifies a program independently of the version that wrote it, so that an otherwise unchanged sheet stays the same.
 fn hashes(provenance: &Provenance) -> String {
     format!("{}-{}", provenance.moves, provenance.options)
 }
@@ -260,7 +260,7 @@ fn joined(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Option<(f6
     [either(a[0], b[0]), either(a[1], b[1]), either(a[2], b[2])]
 }
 
-/// The cutters, each once.
+/// The tools, without duplicates.
 fn tools(programs: &[Arc<Program>], table: &ToolTable) -> Vec<SheetTool> {
     let mut tools: Vec<SheetTool> = Vec::new();
     for program in programs {

@@ -1,4 +1,4 @@
-//! The text of a program as `emit` would write it, for pages that show it.
+//! Text of a program as `emit` would write it, for pages that display it.
 
 use std::slice;
 
@@ -13,19 +13,19 @@ use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Session};
 
-/// A program's file, in memory.
+/// A program file in memory.
 pub(crate) struct ProgramText {
-    /// Where `emit` writes it.
+    /// Path that `emit` would write it to.
     pub(crate) file: Utf8PathBuf,
     pub(crate) bytes: Vec<u8>,
-    /// How it is read.
+    /// Dialect to read it in.
     pub(crate) dialect: Dialect,
 }
 
-/// The program that becomes of a checked path; `None` where the path has errors.
+/// Generates the program of a checked path; `None` if the path has errors.
 ///
 /// # Errors
-/// Why `emit` refuses to write it.
+/// Why `emit` would refuse to write it.
 pub(crate) fn program_text(
     session: &Session<'_>,
     poster: Option<&PostProcessor>,
@@ -37,7 +37,7 @@ pub(crate) fn program_text(
     let work = |db: &Database, job: &Job| make(db, job, &settings);
     let made = session.guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(JobFiles::default()));
     let made = made.map_err(|problem| vec![*problem])?;
-    // A text of which no dialect is known is read as one in RS274's words, as when it is read back.
+    // Without a known dialect, read the text as generic RS274, as when it is read back.
     let dialect = poster.map_or(Dialect::Native, |poster| poster.reader().unwrap_or(Dialect::LinuxCnc));
     match made.outputs.into_iter().find(|output| output.kind.is_program()) {
         Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),

@@ -1,8 +1,8 @@
-//! G-code that was written earlier and that nothing would write now. (PB520, book: reference/commands)
+//! Stale programs: G-code that was written earlier and that no path yields any more. (PB520, book: reference/commands)
 //!
-//! A program says itself which path of which drawing it was made from, and by which moves. Programs of paths that are gone are looked for only
-//! where the run knows everything that could have written them: beside drawings of directories that were named, or in the output directory.
-//! What the paths of the run have left themselves is looked for always.
+//! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run
+//! knows every drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of
+//! the run's own paths are always searched for.
 
 use std::cell::LazyCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -22,25 +22,25 @@ use super::targets::Selection;
 use crate::posting::PostProcessor;
 use crate::session::{Drawing, OutputKind, Session};
 
-/// A program that nobody should take to the machine.
+/// A program that must not be taken to the machine.
 #[derive(Debug)]
 pub(super) struct Stale {
     path: Utf8PathBuf,
     reason: Reason,
 }
 
-/// Why nobody should.
+/// Why a program is stale.
 #[derive(Debug)]
 enum Reason {
-    /// Nothing would write it now.
+    /// No path yields it any more.
     Left,
-    /// The program that it was adjusted from is another one now.
+    /// It was adjusted from a program that has changed since.
     Adjusted { clean: Utf8PathBuf },
-    /// It is not what comes of that program with the measured heights that it states.
+    /// It is not the result of adjusting that program with the measured heights that it states.
     Edited { clean: Utf8PathBuf },
-    /// It was adjusted with other heights than these.
+    /// It was adjusted with heights other than those in this file.
     OtherValues { values: Utf8PathBuf },
-    /// Another post wrote it when the path had other moves than the program that is written now.
+    /// It was written through another post-processor when the path had other moves than this program.
     OtherMoves { program: Utf8PathBuf },
 }
 
@@ -63,21 +63,21 @@ impl Stale {
         problem.with("name", name(&self.path)).in_file(&self.path)
     }
 
-    /// Whether it is taken for the program of a path that has other moves now: a comparison calls it not current.
+    /// Whether the path exists but has other moves now; a comparison reports such a program as out of date.
     fn is_outdated(&self) -> bool {
         !matches!(self.reason, Reason::Left)
     }
 }
 
-/// What became of stale programs.
+/// The outcome of handling stale programs.
 #[derive(Debug, Default)]
 pub(super) struct Dealt {
     pub(super) removed: Vec<Utf8PathBuf>,
-    /// Programs of paths that have other moves now.
+    /// Programs whose paths have other moves now.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
-/// Reports what is stale, or removes it.
+/// Reports stale programs, or removes them.
 pub(super) fn deal_with(
     session: &Session<'_>,
     stale: Vec<Stale>,
@@ -103,7 +103,7 @@ pub(super) fn deal_with(
     dealt
 }
 
-/// The programs that nothing would write now. `delivered`: what became of each job.
+/// Finds the stale programs. `delivered` has the outcome of each job.
 pub(super) fn stale(
     session: &Session<'_>,
     asked: &Selection,
@@ -142,16 +142,16 @@ pub(super) fn stale(
     stale
 }
 
-/// A file that the path of a job became earlier, or that was adjusted from one: `_Milling` beside `_Clean`, or `_Clean` and `_Probing` from when
-/// the path had probes.
+/// A former file of a job's path, or one adjusted from it: `_Milling` beside `_Clean`, or `_Clean` and `_Probing` from when the path had
+/// probes.
 struct Own<'a> {
     job: &'a Job,
     kind: OutputKind,
-    /// Of the program now.
+    /// Provenance of the current program.
     provenance: &'a Provenance,
 }
 
-/// Made when it is first wanted.
+/// A value computed on first use.
 type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 
 struct Finding<'a> {
@@ -160,7 +160,7 @@ struct Finding<'a> {
     jobs: &'a [Job],
     outputs: HashSet<&'a Utf8Path>,
     delivered: &'a [Delivered],
-    /// The number of each job by the name of its files without what tells them apart.
+    /// Index of each job by the stem of its file names.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
     writers: Lazy<'a, Writers>,
 }
@@ -186,7 +186,7 @@ impl<'a> Finding<'a> {
         Ok(programs.into_iter().filter_map(stale).collect())
     }
 
-    /// The same for paths that were named by themselves: only the names that their own files would have are looked at.
+    /// Checks paths that were named individually: only the names that their own files would have.
     fn elsewhere(&self, directories: &[Utf8PathBuf]) -> Vec<Stale> {
         let looked_at: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !looked_at.contains(parent));
@@ -209,7 +209,7 @@ impl<'a> Finding<'a> {
         paths.filter_map(stale).collect()
     }
 
-    /// What another post, or none, made of a path of the run, where the path has other moves now.
+    /// A program of one of the run's paths that was written through another post-processor, or natively, if the path has other moves now.
     fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<Stale> {
         let name = path.with_extension("");
         let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
@@ -220,7 +220,7 @@ impl<'a> Finding<'a> {
         is_meant.then(|| Stale { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
 
-    /// The native job whose path may have become a file.
+    /// The native job whose path may have produced this file earlier.
     fn own(&self, path: &Utf8Path) -> Option<Own<'a>> {
         if self.poster.is_some() {
             return None;
@@ -233,14 +233,14 @@ impl<'a> Finding<'a> {
         job.files.iter().all(|(present, _)| *present != kind).then_some(Own { job, kind, provenance })
     }
 
-    /// What a program says that it was made from, and its title.
+    /// Provenance and title from the head of a program.
     fn provenance(&self, path: &Utf8Path) -> Option<(Provenance, Box<str>)> {
         Provenance::of_head(&self.session.db().system().head(path, HEAD).ok()?)
     }
 }
 
 impl Own<'_> {
-    /// A file of the path that was made from something: stale, unless it was adjusted from the program as it is now.
+    /// Whether a former file is stale: always, unless it was adjusted from the current program.
     fn stale(&self, session: &Session<'_>, path: Utf8PathBuf, found: &Provenance) -> Option<Stale> {
         if self.kind != OutputKind::Milling {
             return Some(Stale { path, reason: Reason::Left });
@@ -258,7 +258,7 @@ impl Own<'_> {
         self.job.files.iter().find(|(present, _)| *present == kind).map(|(_, path)| path.as_path())
     }
 
-    /// Why a program that names the present moves is not what comes of them: files that cannot be read tell nothing.
+    /// Why a program with the current provenance is not the result of adjusting the current program. Unreadable files are not judged.
     fn edited(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
         let limit = session.workspace().settings.limits.file_size.value;
         let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
@@ -274,18 +274,18 @@ impl Own<'_> {
     }
 }
 
-/// Whether a title is that of the job's path.
+/// Whether the title is that of the job's path.
 fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
     let db = session.db();
     let drawing = job.drawing(db).path(db).file_name().unwrap_or_default();
     native::is_title(title, drawing, &job.path)
 }
 
-/// The extensions of programs: the native one, then those of built-in posts. A definition may have any other; then it is known only while
-/// it is the run's.
+/// Extensions of programs: the native one, then those of the built-in posts. Another extension of a definition is known only while that
+/// definition is in use.
 const EXTENSIONS: [&str; 4] = ["gcode", "nc", "ngc", "tap"];
 
-/// How names of programs end, without extension.
+/// Endings of program names, without extension.
 const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
 pub(super) fn is_gcode(name: &str, poster: Option<&PostProcessor>) -> bool {
@@ -296,25 +296,25 @@ pub(super) fn is_gcode(name: &str, poster: Option<&PostProcessor>) -> bool {
     })
 }
 
-/// Whether a name is one that emit gives to a sheet.
+/// Whether `emit` gives this name to a setup sheet.
 fn is_sheet(name: &str) -> bool {
     OutputKind::ALL.iter().any(|kind| kind.sheet().is_some() && name.ends_with(kind.suffix()))
 }
 
-/// What writes files.
+/// Which drawings and paths may have written a program.
 struct Writers {
-    /// Paths of covered drawings that the run makes nothing of, because they are wrong or no targets: what they became earlier may be
-    /// theirs still.
+    /// Paths of covered drawings for which the run generates nothing, because they have errors or are no targets. Existing files may still
+    /// belong to them.
     idle: BTreeSet<Title>,
-    /// Drawings of which every path is known.
+    /// Drawings of which all paths are known.
     covered: BTreeSet<Title>,
-    /// Other drawings that there are.
+    /// Other existing drawings.
     others: BTreeSet<Title>,
-    /// Whether drawings of all of the library, or beside the program, are known: one that is not among them is gone.
+    /// Whether all drawings of the library, or beside the program, are known, so that any other drawing no longer exists.
     knows_all: bool,
 }
 
-/// What a program says that it was made from, in plain characters.
+/// Title of a program in plain characters.
 fn title(drawing: &str, path: &str) -> String {
     plain_title(&native::title(drawing, path))
 }
@@ -323,7 +323,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
     drawing.file_name().unwrap_or_default()
 }
 
-/// Where programs are written, and what they say they are made from, in plain characters.
+/// Output directory of programs, and their title or drawing in plain characters.
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
@@ -360,7 +360,7 @@ impl Writers {
         }
     }
 
-    /// Whether nothing would write a program now that no path of the run becomes. `beside`: what lies in its directory.
+    /// Whether no drawing yields this program any more, given that no path of the run does. `beside` lists the files in its directory.
     fn have_left<'n>(
         &self,
         directory: &Utf8Path,
@@ -375,7 +375,7 @@ impl Writers {
         if self.idle.contains(&named(&title)) || self.others.contains(&drawing) {
             return false;
         }
-        // A drawing that is there, but that the run does not know (an ignored one), is left alone.
+        // A drawing that exists but is unknown to the run, such as an ignored one, is left alone.
         self.covered.contains(&drawing) || (self.knows_all && !is_beside)
     }
 }

@@ -1,5 +1,5 @@
-//! What is known from earlier runs, target by target: of each drawing its paths, of each path what is wrong with it, or the files that it becomes.
-//! What nothing has changed of is neither read nor made again.
+//! Cached results of earlier runs of `emit`: the paths of each drawing, and for each path its diagnostics and files. Drawings and programs
+//! whose inputs are unchanged are neither read nor rebuilt.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -23,48 +23,48 @@ use super::targets::Selection;
 use crate::posting::{Inserted, PostProcessor};
 use crate::workspace::Workspace;
 
-/// The records of earlier runs with these settings.
+/// The cached results of earlier runs with the same settings.
 pub(super) struct Store(ResultStore);
 
-/// What is known of paths that become one program.
+/// The cached result of the paths of one program.
 #[derive(Serialize, Deserialize)]
 pub(super) struct KnownPaths {
-    /// What is wrong with them and with what they embed, and why they become nothing though they are right.
+    /// Diagnostics of the paths and of what they embed, and reasons why no program is generated.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// What they become; `None` where that is nothing.
+    /// The job; `None` if no program is generated.
     pub(super) job: Option<KnownJob>,
 }
 
-/// What is known of a job.
+/// The cached part of a job.
 #[derive(Serialize, Deserialize)]
 pub(super) struct KnownJob {
-    /// The path, as the drawing spells it.
+    /// Name of the path, as the drawing spells it.
     pub(super) path: Box<str>,
-    /// The name of its files without what tells them apart, with the directory.
+    /// Output directory and common stem of the file names.
     pub(super) stem: Utf8PathBuf,
-    /// Its files.
+    /// The files, with their kinds.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
-    /// What came of it; `None` where it was refused.
+    /// The outcome; `None` if the job was dropped.
     pub(super) program: Option<KnownProgram>,
 }
 
-/// What is known of a program without making it.
+/// The cached outcome of a program.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct KnownProgram {
-    /// How each of its files lies there now; nothing where something is wrong with the program.
+    /// Current state of each file on disk; empty if the program has errors.
     #[serde(skip)]
     files: Vec<(OutputKind, Utf8PathBuf, OutputState)>,
     /// In mm.
     length: f64,
     minutes: f64,
-    /// Warnings, and what is wrong with the program.
+    /// Warnings and errors of the program.
     problems: Vec<Diagnostic>,
     notes: Vec<Note>,
     provenance: Option<Provenance>,
 }
 
 impl Store {
-    /// The records about these drawings; `None` where none can be kept.
+    /// Loads the cached results of these drawings; `None` if nothing can be cached.
     pub(super) fn open(
         workspace: &Workspace,
         poster: Option<&PostProcessor>,
@@ -76,13 +76,13 @@ impl Store {
         ResultStore::open(workspace, question).map(Self)
     }
 
-    /// What is known of a drawing alone, if it is as it was.
+    /// The cached paths of a drawing.
     pub(super) fn drawing(&self, drawing: &Utf8Path) -> Option<DrawingResult> {
         DrawingResult::decode(self.0.payload(drawing.as_str())?).ok()
     }
 
-    /// What is known of paths that become one program, if that is enough for the task: whoever writes makes a program again of which a file is
-    /// not as it was.
+    /// The cached result of the paths of one program, if it suffices for the task. Before writing, a program is regenerated if one of its
+    /// files has changed.
     pub(super) fn paths(&self, system: &dyn System, of: &str, task: Task) -> Option<KnownPaths> {
         let mut known: KnownPaths = decode(self.0.payload(of)?).ok()?;
         if let Some(KnownJob { files, program: Some(program), .. }) = &mut known.job
@@ -95,7 +95,7 @@ impl Store {
             let states = files.iter().zip(states).map(|((kind, path), state)| (*kind, path.clone(), state));
             program.files = states.collect();
             let is_enough = match task {
-                // The same program may have been written by another version.
+                // The file may contain the same program written by another version.
                 Task::Compare { moves_only: false } => {
                     program.outdated().all(|it| !is_of_other_version(system, it))
                 }
@@ -108,7 +108,7 @@ impl Store {
         Some(known)
     }
 
-    /// Keeps what was found now.
+    /// Stores the results computed in this run.
     pub(super) fn keep(&self, session: &Session<'_>, run: &Run<'_>) {
         let drawing = |Drawing { path, said, .. }: &Drawing| FreshResult {
             of: path.as_str().into(),
@@ -127,18 +127,18 @@ impl Store {
     }
 }
 
-/// What a run did.
+/// The outcome of a run, to be cached.
 pub(super) struct Run<'a> {
     pub(super) task: Task,
     pub(super) join: Option<&'a str>,
     pub(super) poster: Option<&'a PostProcessor>,
     pub(super) asked: &'a Selection,
-    /// What was not known.
+    /// Results that were not cached.
     pub(super) answers: &'a [Answer],
     pub(super) jobs: &'a [Job],
-    /// What became of each of these.
+    /// The outcome of each job.
     pub(super) delivered: &'a [Delivered],
-    /// Jobs that were not done.
+    /// Jobs that were dropped.
     pub(super) refused: &'a [Job],
 }
 
@@ -162,11 +162,11 @@ impl Run<'_> {
             Some((job, Some(delivered))) if is_complete(job, delivered) => {
                 (self.inserted(session, delivered), outputs(delivered, self.task))
             }
-            // What a post refuses may be right with other files.
+            // The post-processor may accept the program once other files change.
             Some((_, Some(delivered))) if delivered.is_refused => {
                 (self.inserted(session, delivered), Vec::new())
             }
-            // Not written: another time it may be.
+            // Writing failed; it may succeed another time.
             Some((_, Some(_))) => {
                 return FreshResult { of, ..FreshResult::default() };
             }
@@ -176,7 +176,7 @@ impl Run<'_> {
         FreshResult { of, traces, further, outputs, payload: encode(&known) }
     }
 
-    /// The files that the post put in, or could not, as they were read.
+    /// The files that the post-processor inserted or failed to insert, with their hashes.
     fn inserted(&self, session: &Session<'_>, delivered: &Delivered) -> Vec<FurtherFile> {
         let Some(post) = self.poster.and_then(PostProcessor::file) else { return Vec::new() };
         let beside = post.parent().unwrap_or(Utf8Path::new(""));
@@ -188,7 +188,7 @@ impl Run<'_> {
     }
 }
 
-/// Whether all files of a program were written or compared, and nothing went wrong that may go right another time.
+/// Whether all files of a program were written or compared, and no error occurred that may not recur.
 fn is_complete(job: &Job, delivered: &Delivered) -> bool {
     delivered.files.len() == job.files.len()
         && delivered.hashes.len() == job.files.len()
@@ -196,7 +196,7 @@ fn is_complete(job: &Job, delivered: &Delivered) -> bool {
 }
 
 fn outputs(delivered: &Delivered, task: Task) -> Vec<MadeOutput> {
-    // Programs with the same moves need not be the same byte for byte.
+    // Programs with the same moves need not be equal byte for byte.
     let is_compared_whole = task != Task::Compare { moves_only: true };
     let is_there = |state: &State| matches!(state, State::Written | State::Unchanged | State::Current);
     let output = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| MadeOutput {
@@ -230,7 +230,7 @@ impl KnownProgram {
         }
     }
 
-    /// Whether nothing is written of it.
+    /// Whether the program has errors, so that no file is written.
     fn is_wrong(&self) -> bool {
         self.problems.iter().any(Diagnostic::is_error)
     }
@@ -245,7 +245,7 @@ impl KnownProgram {
         self.files.iter().all(|(kind, _, state)| !task.compares(*kind) || is_current(*state))
     }
 
-    /// What becomes of its files: nothing, or what a comparison says.
+    /// The outcome for its files without writing any: unchanged, or the result of the comparison.
     pub(super) fn delivered(&self, task: Task) -> Delivered {
         let is_written = matches!(task, Task::Write { .. });
         let state = |state: OutputState| match state {
@@ -267,7 +267,7 @@ impl KnownProgram {
     }
 }
 
-/// Everything that a program depends on and that is in no drawing and no setting.
+/// Everything that a program depends on besides drawings and settings.
 fn question(poster: Option<&PostProcessor>) -> String {
     let mut text = "emit".to_owned();
     if let Some(poster) = poster {
@@ -276,7 +276,7 @@ fn question(poster: Option<&PostProcessor>) -> String {
     text
 }
 
-/// The name of the record of paths that become one program: the drawing of the first stands before the first NUL.
+/// Cache subject of the paths of one program. It begins with the first path's drawing, up to the first NUL.
 pub(super) fn of(db: &Database, targets: &[Target], join: Option<&str>) -> String {
     let each = targets.iter().map(|target| format!("{}\0{}", target.file(db).path(db), target.name(db)));
     let mut of = each.collect::<Vec<_>>().join("\0");

@@ -1,4 +1,4 @@
-//! Which paths are emitted: those of drawings, directories and names; without any, those that `[emit] targets` means.
+//! Selects the paths to emit: those of the named drawings, directories and paths; without arguments, those matched by `[emit] targets`.
 
 use std::collections::HashSet;
 
@@ -12,22 +12,22 @@ use super::Making;
 use super::configured::Configured;
 use crate::session::{Argument, Drawing, Drawings, Session, Wanted};
 
-/// The paths to emit, and what the run knows of beside them.
+/// The paths to emit, and the drawings that were considered.
 #[derive(Debug, Default)]
 pub(super) struct Selection {
-    /// Each path, once for each time that it was asked for.
+    /// Each path; joined paths are listed as often as they were named.
     pub(super) targets: Vec<Target>,
-    /// Drawings of which every path was considered.
+    /// Drawings of which all paths were considered.
     pub(super) covered: Drawings,
-    /// Drawings that were named, or that may define a path that was named.
+    /// Drawings that were named, or that may define a named path.
     pub(super) named: Drawings,
-    /// The directories that were looked through for them: those in which outputs may be stale.
+    /// Directories that were searched for drawings, and in which outputs may be stale.
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
 impl Selection {
-    /// What the arguments mean, and what is wrong with them; `None` when there are none and the configuration names no targets. Paths that are
-    /// joined are in the order of the arguments, which decides what is milled first.
+    /// Resolves the arguments; `None` if there are none and the configuration names no targets. Paths to be joined keep the order of the
+    /// arguments, which is the milling order.
     pub(super) fn new(
         session: &Session<'_>,
         making: &Making<'_>,
@@ -74,7 +74,7 @@ impl Selection {
         Some(asked)
     }
 
-    /// Every drawing.
+    /// All drawings that were considered.
     pub(super) fn drawings(&self) -> impl Iterator<Item = &Drawing> {
         self.covered.iter().chain(self.named.iter())
     }
@@ -88,11 +88,11 @@ struct Asking<'a> {
 }
 
 impl Asking<'_> {
-    /// The paths whose names match a target's pattern.
+    /// Adds the paths matched by the configured patterns.
     fn configured(&mut self, library: &Drawings) {
         let mut configured = Configured::new(&self.session.workspace().settings);
         for Drawing { path, said, .. } in library.iter() {
-            // A drawing that cannot be read may hold a target.
+            // An unreadable drawing may contain a target, so its errors matter.
             self.diagnostics.extend(said.diagnostics.iter().filter(|found| found.is_error()).cloned());
             for name in &said.names {
                 if configured.means(name.as_str()) {
@@ -103,7 +103,7 @@ impl Asking<'_> {
         self.diagnostics.extend(configured.unmet());
     }
 
-    /// A drawing must hold just one path, unless it lies in a directory that was named.
+    /// Adds the paths of the arguments. A drawing that is named itself must contain exactly one path.
     fn wanted(&mut self, wanted: &Wanted, covered: &Drawings, named: &Drawings) {
         for Drawing { path, said, .. } in covered.iter() {
             self.diagnostics.extend_from_slice(&said.diagnostics);
@@ -130,8 +130,8 @@ impl Asking<'_> {
         }
     }
 
-    /// PB512, unless a path of the drawing is wrong as drawn: then that is the nearer cause, such as a line that strayed onto another
-    /// path's layer and made a second path.
+    /// PB512, unless a path of the drawing has errors: these are the more likely cause, for example a line that strayed onto another path's
+    /// layer and so made a second path.
     fn refuse_several(&mut self, drawing: &Utf8Path, names: &[PathName]) {
         let file = self.session.file(drawing);
         let checked = self.session.check(&self.session.targets(file, &Role::Checked));

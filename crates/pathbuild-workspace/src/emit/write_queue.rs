@@ -1,5 +1,4 @@
-//! Making the files of many paths on all cores, and writing those that are made meanwhile: a file that replaces another waits for the disk, and
-//! the cores need not.
+//! Generates files on all cores and writes them on a separate thread: replacing a file waits for the disk, and the cores need not.
 
 use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, SendError, sync_channel};
@@ -12,7 +11,7 @@ use super::deliver::{Delivered, JobFiles, Output, OutputSettings, Task, finish, 
 use super::job::Job;
 use crate::session::Session;
 
-/// Does jobs. Nothing of a path is written when something keeps one of its files from being written.
+/// Generates and writes the files of all jobs. If one file of a job cannot be written, none of its files is.
 pub(super) fn deliver_all(
     session: &mut Session<'_>,
     jobs: &[&Job],
@@ -34,9 +33,9 @@ pub(super) fn deliver_all(
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let made = |db: &Database, (index, job): &(usize, &Job)| {
             let JobFiles { mut delivered, outputs } = make(db, job, means);
-            // Once something of a path is written, all is.
+            // Last point to give up: after this, all files of the job are written.
             db.give_up_if_late();
-            // Where the system has no thread left, nobody receives it.
+            // Without a receiver (the system had no thread left), write here.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
                 delivered.add(finished(outputs));
             }
@@ -58,8 +57,8 @@ pub(super) fn deliver_all(
     made.into_iter().zip(jobs).map(given_up).collect()
 }
 
-/// How many jobs may wait for being written. Their texts are in memory meanwhile.
+/// Number of jobs that may wait to be written. Their files are held in memory.
 const BEHIND: usize = 32;
 
-/// What a job becomes, by its number.
+/// The generated files of a job, with its index.
 type Numbered = (usize, Vec<Output>);

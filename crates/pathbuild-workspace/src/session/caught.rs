@@ -1,4 +1,4 @@
-//! Bugs that show while nobody works on a target: they are said of the directory that shows them, and keep nothing else from being done.
+//! Internal errors outside of any target: they are reported for the directory that triggers them, and other work goes on.
 
 use camino::Utf8Path;
 use pathbuild_db::system::Names;
@@ -9,9 +9,9 @@ use super::Session;
 use super::library::readable;
 
 impl Session<'_> {
-    /// Asks the database about a directory.
+    /// Queries the database about a directory.
     ///
-    /// # Errors
+    /// PB006 if this triggers a bug, PB001 if a drawing changed in the meantime or if the directory cannot be listed.
     /// PB006 where that shows a bug, PB001 where a drawing changed meanwhile, and where the directory cannot be listed.
     pub(super) fn of_directory<R>(
         &self,
@@ -26,10 +26,10 @@ impl Session<'_> {
         }
     }
 
-    /// The names of what is no directory in a directory; none where there is no such directory.
+    /// Names of the entries of a directory that are not directories themselves; empty if the directory does not exist.
     ///
     /// # Errors
-    /// PB001 where it cannot be listed, PB006 where that shows a bug.
+    /// PB001 if it cannot be listed, PB006 if this triggers a bug.
     pub fn names_in(&self, directory: &Utf8Path) -> Result<Names, Box<Diagnostic>> {
         let listed = catch_bugs(|| self.db.system().list(directory));
         match listed.map_err(|bug| Box::new(bug.in_file(readable(directory))))? {

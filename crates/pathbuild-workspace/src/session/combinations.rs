@@ -1,4 +1,4 @@
-//! Checking paths with all values of their variables. (book: language/variables)
+//! Checks paths with all combinations of their variables' values. (book: language/variables)
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use pathbuild_path::{Bindings, PathName};
 
 use super::{Asking, CheckedTarget};
 
-/// With how many combinations of values a path is checked at most.
+/// Upper bound on the combinations of values that are checked per path.
 const MOST_COMBINATIONS: usize = 1000;
 
 impl Asking<'_> {
-    /// The targets that check a path with each combination of values, and a warning where there are too many. Of a path without variables
-    /// that is one target.
+    /// One target per combination of values, and a warning if there are too many combinations. A path without variables has a single
+    /// target.
     pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
         let target = |role| self.db().target(file, name.as_str(), role);
         match combinations(self.db(), file, name, MOST_COMBINATIONS) {
@@ -26,8 +26,7 @@ impl Asking<'_> {
         }
     }
 
-    /// What is wrong with a path, from the results with each of its combinations of values: each fault once, with values that show it
-    /// where not all do.
+    /// Merges the results of all combinations of a path. Each fault is reported once, with values that cause it unless all of them do.
     pub fn merged(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
         let mut merged: Vec<Merged<'_>> = Vec::new();
         let mut known: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
@@ -35,7 +34,7 @@ impl Asking<'_> {
             for diagnostic in &result.diagnostics {
                 let index = *known.entry(Identity::of(diagnostic)).or_insert(merged.len());
                 match merged.get_mut(index) {
-                    // In the same result the same fault may be met with several arguments.
+                    // A single result may contain the same fault with different arguments.
                     Some(known) if known.last.target == result.target => {}
                     Some(known) => {
                         known.count += 1;
@@ -64,7 +63,7 @@ impl Asking<'_> {
     }
 }
 
-/// A fault, and the combinations that show it.
+/// A fault, and the combinations in which it occurs.
 struct Merged<'a> {
     diagnostic: &'a Diagnostic,
     first: &'a CheckedTarget,
@@ -72,7 +71,7 @@ struct Merged<'a> {
     count: usize,
 }
 
-/// What makes two diagnostics one fault: all but the values in it.
+/// Two diagnostics with the same identity are the same fault; the values in their messages do not matter.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Identity<'a> {
     message: &'static str,
@@ -95,7 +94,7 @@ impl<'a> Identity<'a> {
     }
 }
 
-/// As a subpath's text sets them: `:A0,5 :BX`.
+/// Formats values as in a subpath's text: `:A0,5 :BX`.
 fn shown(values: &Bindings) -> String {
     let values: Vec<String> = values.iter().map(|(name, value)| format!(":{name}{value}")).collect();
     values.join(" ")

@@ -1,25 +1,25 @@
-//! What drawings say alone: from earlier runs, else from the drawings themselves.
+//! Facts about drawings by themselves, from the cache or from the drawings.
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, SourceFile, check_file, path_names};
 
 use super::{DrawingResult, Session};
 
-/// Drawings, each with the names of its paths and what is wrong with it as a whole.
+/// Drawings, each with the names of its paths and its own diagnostics.
 #[derive(Debug, Default)]
 pub(crate) struct Drawings(Vec<Drawing>);
 
-/// One of them.
+/// A drawing with the names of its paths and its own diagnostics.
 #[derive(Debug)]
 pub(crate) struct Drawing {
     pub(crate) path: Utf8PathBuf,
     pub(crate) said: DrawingResult,
-    /// Whether this run read it.
+    /// Whether this run read it instead of taking it from the cache.
     pub(crate) is_read: bool,
 }
 
 impl Drawings {
-    /// Reads those of which nothing is known.
+    /// Reads the drawings that are not cached.
     pub(crate) fn new(
         session: &Session<'_>,
         paths: Vec<Utf8PathBuf>,
@@ -42,12 +42,12 @@ impl Drawings {
         Self(paths.into_iter().zip(known).map(drawing).collect())
     }
 
-    /// Each of them.
+    /// All drawings.
     pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = &Drawing> {
         self.0.iter()
     }
 
-    /// One of them, if they are in order of name.
+    /// Finds a drawing. The drawings must have been given in order of name.
     pub(crate) fn get(&self, path: &Utf8Path) -> Option<&Drawing> {
         let place = self.0.binary_search_by(|drawing| drawing.path.as_str().cmp(path.as_str()));
         place.ok().map(|place| &self.0[place])

@@ -1,4 +1,4 @@
-//! Help for paths that a drawing does not find, but that the library has. (book: language/embedding)
+//! Hints for embedded paths that are not found, but exist elsewhere in the library. (book: language/embedding)
 
 use std::cell::LazyCell;
 use std::collections::BTreeMap;
@@ -12,7 +12,8 @@ use pathbuild_path::PathName;
 use super::Session;
 
 impl Session<'_> {
-    /// Adds to each PB503 of a subpath where in the library the path is. The library is looked through only where there is one.
+    /// Adds to each PB503 of a subpath where in the library the path is defined. The library is searched only if there is such a
+    /// diagnostic.
     pub(super) fn with_elsewhere(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
         let mut known: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
@@ -36,7 +37,7 @@ impl Session<'_> {
         diagnostic.note(&messages::ELSEWHERE, arguments)
     }
 
-    /// A directory as it would be written into the configuration.
+    /// Formats a directory as it would be written in the configuration.
     fn as_configured(&self, directory: &Utf8Path) -> Utf8PathBuf {
         let working_directory = &self.context.working_directory;
         let base = self.context.settings.directory().unwrap_or(working_directory);
@@ -44,7 +45,7 @@ impl Session<'_> {
     }
 }
 
-/// The path that a subpath segment names and that is nowhere to be found.
+/// The path that a subpath segment names and that was not found.
 fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
     if *diagnostic.message != messages::NOT_FOUND {
         return None;
@@ -55,14 +56,14 @@ fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
     })
 }
 
-/// The way to a directory from another, both absolute; the directory itself where there is no way, as between drives.
+/// Path to a directory relative to another, both absolute. Returns the directory itself if there is no relative path, as between drives.
 pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
-    let (there, here): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
-    let common = there.iter().zip(&here).take_while(|(a, b)| a == b).count();
+    let (target, start): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
+    let common = target.iter().zip(&start).take_while(|(a, b)| a == b).count();
     if common == 0 {
         return directory.to_owned();
     }
-    let up = here[common..].iter().map(|_| Utf8Component::ParentDir);
-    let way: Utf8PathBuf = up.chain(there[common..].iter().copied()).collect();
-    if way.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(way) }
+    let up = start[common..].iter().map(|_| Utf8Component::ParentDir);
+    let relative: Utf8PathBuf = up.chain(target[common..].iter().copied()).collect();
+    if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(relative) }
 }

@@ -1,4 +1,4 @@
-//! What arguments may mean by the names of files alone: no drawing is read. (book: reference/commands)
+//! First step of resolving arguments, by file names alone: no drawing is read. (book: reference/commands)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
@@ -13,63 +13,63 @@ use super::{Session, library};
 use crate::config::types::Pattern;
 use crate::inputs::{Input, Inputs};
 
-/// What arguments may mean.
+/// What the arguments may refer to.
 #[derive(Debug, Default)]
 pub struct Found {
     /// Each argument; without any, the directories of the library.
     pub arguments: Vec<Argument>,
     /// Whether there are no arguments.
     pub is_library: bool,
-    /// What is in each directory, as far as it was looked at.
+    /// Contents of the directories that were listed.
     pub listings: Listings,
-    /// Directories of the configuration that are not there.
+    /// Missing directories of the configuration.
     pub problems: Vec<Diagnostic>,
-    /// Where names were looked for, if there are names.
+    /// Where names were searched for, if there are names.
     pub(super) name_directories: Vec<Utf8PathBuf>,
-    /// What kept the library from being looked through for them.
+    /// Errors while searching the library for names.
     pub(super) name_problems: Vec<Diagnostic>,
 }
 
-/// What an argument may mean.
+/// What one argument may refer to.
 #[derive(Debug)]
 pub enum Argument {
     /// A directory.
     Directory(FoundDirectory),
-    /// A drawing, there or not.
+    /// A drawing, whether it exists or not.
     Drawing(SourceFile),
-    /// The first of these that there is: a path, a drawing without its `.dxf`, a directory.
+    /// The first of these that exists: a path, a drawing without its `.dxf`, a directory.
     Name {
-        /// As it was given.
+        /// The name as given.
         name: PathName,
-        /// The drawings that may define the path by their names.
+        /// Drawings that may define the path, judging by their names.
         candidates: Vec<SourceFile>,
-        /// The drawing of that name.
+        /// The drawing of this name.
         drawing: Option<SourceFile>,
-        /// The directory of that name.
+        /// The directory of this name.
         directory: Option<FoundDirectory>,
     },
 }
 
-/// A directory that was walked through.
+/// A directory that was searched recursively.
 #[derive(Debug)]
 pub struct FoundDirectory {
-    /// The directory.
+    /// Its path.
     pub path: Utf8PathBuf,
-    /// Every drawing in it and below, in order.
+    /// All drawings in and below it, sorted.
     pub drawings: Vec<Utf8PathBuf>,
-    /// The directory itself, and those below.
+    /// The directory itself and all below it.
     pub directories: Vec<Utf8PathBuf>,
-    /// Directories that cannot be listed, or hold too much.
+    /// Errors for directories that cannot be listed or contain too much.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Found {
-    /// The directories that may be meant.
+    /// The directories that the arguments may refer to.
     pub fn directories(&self) -> impl Iterator<Item = &FoundDirectory> {
         self.arguments.iter().filter_map(Argument::directory)
     }
 
-    /// The drawings that were named, or may define a path that was named.
+    /// The drawings that were named, or may define a named path.
     pub fn named(&self) -> impl Iterator<Item = SourceFile> {
         let named = self.arguments.iter().filter_map(|argument| match argument {
             Argument::Drawing(file) => Some(*file),
@@ -79,7 +79,7 @@ impl Found {
         named.chain(self.candidates())
     }
 
-    /// The drawings that may define a path that was named.
+    /// The drawings that may define a named path.
     pub fn candidates(&self) -> impl Iterator<Item = SourceFile> {
         let candidates = self.arguments.iter().filter_map(|argument| match argument {
             Argument::Name { candidates, .. } => Some(candidates),
@@ -100,7 +100,7 @@ impl Argument {
 }
 
 impl Session<'_> {
-    /// What arguments may mean; without any, the library.
+    /// Finds what the arguments may refer to; without any, the library.
     pub fn found(&self, inputs: &Inputs) -> Found {
         let is_library = inputs.inputs.is_empty();
         let mut found = Found { problems: self.missing_directories(), is_library, ..Found::default() };
@@ -129,8 +129,8 @@ impl Session<'_> {
         found
     }
 
-    /// What a pattern means that the shell has left as it is, as those of Windows do: drawings and directories whose names match the last part
-    /// of the place, unless there is something of just that name.
+    /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. Matches drawings and directories by the last component,
+    /// unless a file of just that name exists.
     fn matching(&self, place: &Utf8Path) -> Vec<Utf8PathBuf> {
         let name = place.file_name().filter(|name| name.contains(['*', '?', '[']));
         let Some(pattern) = name.and_then(|name| Pattern::new(name).ok()) else { return Vec::new() };
@@ -166,7 +166,7 @@ impl Session<'_> {
         Argument::Name { name: path, candidates, drawing, directory }
     }
 
-    /// The drawing of a name without its extension, in whatever case that is: of several the first.
+    /// The drawing whose name without extension, in any case, is `name`; the first in order if there are several.
     fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
         directories.iter().find_map(|directory| {
             let is_meant = |file: &&str| file.rsplit_once('.').is_some_and(|(stem, _)| stem == name);
@@ -189,7 +189,8 @@ impl Session<'_> {
     ) -> FoundDirectory {
         let listed = walked.listings.into_iter();
         listings.extend(listed.map(|(directory, listing)| (self.normalised(directory), listing)));
-        let normalised = |paths: Vec<Utf8PathBuf>| paths.into_iter().map(|it| self.normalised(it)).collect();
+        let normalised =
+            |paths: Vec<Utf8PathBuf>| paths.into_iter().map(|path| self.normalised(path)).collect();
         let (drawings, directories) = (normalised(walked.drawings), normalised(walked.directories));
         FoundDirectory { path, drawings, directories, problems: walked.problems }
     }
@@ -207,12 +208,12 @@ impl Session<'_> {
         each.map(|(path, walked)| self.found_directory(path, walked, listings)).collect()
     }
 
-    /// Where names are looked for: the working directory, the search directories, the library and what is below it.
+    /// Directories in which names are searched for: the working directory, the search directories, the library and everything below it.
     pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
         self.listed_name_directories(&mut Listings::new()).0
     }
 
-    /// The same, and what keeps the library from being looked through.
+    /// Like [`name_directories`](Self::name_directories), with the errors of searching the library.
     fn listed_name_directories(&self, listings: &mut Listings) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let searched = self.context.settings.general.search.value.iter();
         let searched = searched.map(|directory| self.normal(directory));
@@ -223,12 +224,12 @@ impl Session<'_> {
         (directories, walked.into_iter().flat_map(|directory| directory.problems).collect())
     }
 
-    /// The directories of the library that hold drawings.
+    /// The directories of the library that contain drawings.
     pub fn library_directories(&self) -> Vec<Utf8PathBuf> {
         holding_drawings(&self.library_walked(&mut Listings::new()))
     }
 
-    /// The drawings of the configured library, and what keeps it from being looked through.
+    /// The drawings of the configured library, and errors while listing it.
     pub fn library(&self) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let (mut drawings, mut problems) = (Vec::new(), Vec::new());
         for mut directory in self.library_walked(&mut Listings::new()) {
@@ -238,8 +239,8 @@ impl Session<'_> {
         (drawings, problems)
     }
 
-    /// Every drawing that there is to know of: those of the library, or without one those in the working directory and below; and what keeps
-    /// these from being looked through.
+    /// All known drawings: those of the library, or without a library those in and below the working directory. Also returns errors while
+    /// listing them.
     pub fn everything(&self) -> (Vec<SourceFile>, Vec<Diagnostic>) {
         let (drawings, problems) = if self.has_library() {
             self.library()
@@ -250,29 +251,29 @@ impl Session<'_> {
         (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
     }
 
-    /// The drawings in a directory and below.
+    /// The drawings in and below a directory.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
         self.walk().through(directory).drawings.into_iter()
     }
 
-    /// Directories that were just listed need not be listed once more for their names, if nothing about them is in doubt.
+    /// Passes the names of freshly listed directories to the database, to save listing them again, unless they are doubtful.
     pub fn know_names(&self, listings: &Listings) {
         for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
             self.db.know_names(directory, listing.names.iter().collect());
         }
     }
 
-    /// Whether a name is a drawing's.
+    /// Whether a file name has the extension of a drawing.
     pub fn is_drawing(path: &Utf8Path) -> bool {
         library::is_drawing(path)
     }
 
-    /// Whether the configuration says what to do without arguments.
+    /// Whether the configuration names a library, so that commands work without arguments.
     pub fn has_library(&self) -> bool {
         !self.context.settings.general.library.value.is_empty()
     }
 
-    /// Whether a place is a directory.
+    /// Whether the path is an existing directory.
     pub fn is_directory(&self, place: &Utf8Path) -> bool {
         self.db.system().kind(&self.normal(place)) == FileKind::Directory
     }
@@ -295,7 +296,7 @@ fn holding_drawings(walked: &[FoundDirectory]) -> Vec<Utf8PathBuf> {
     parents.filter(|directory| seen.insert(*directory)).map(Utf8Path::to_owned).collect()
 }
 
-/// Each of them once, in their order.
+/// Removes duplicates and keeps the order.
 fn distinct(directories: impl Iterator<Item = Utf8PathBuf>) -> Vec<Utf8PathBuf> {
     let mut seen = FxHashSet::default();
     directories.filter(|directory| seen.insert(directory.clone())).collect()

@@ -1,5 +1,5 @@
-//! What .gitignore and .ignore files in a library say does not count. Patterns mean what they mean to Git; files outside the library,
-//! such as a person's global ones, are not asked: results must not depend on who asks.
+//! Ignore rules from .gitignore and .ignore files in a library. Patterns have the same meaning as in Git. Files outside the library, such
+//! as a user's global excludes, are not read: results must not depend on the user.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -14,35 +14,35 @@ use pathbuild_diagnostic::messages::files as messages;
 
 use crate::files::unreadable_by;
 
-/// The rules that hold in a directory: those of its own files, and those from above.
+/// The rules that apply in a directory: those of its own files, and those from above.
 #[derive(Debug)]
 pub(super) struct Rules {
     git: Gitignore,
     own: Gitignore,
-    /// Whether a repository begins here: .gitignore files above it do not count.
+    /// Whether this is the root of a repository: .gitignore files above it do not apply.
     is_repository: bool,
     above: Option<Arc<Self>>,
 }
 
-/// How much may be read of such files: what is kept of them takes two hundred times as much memory.
+/// Limits the size of ignore files: compiled rules take about two hundred times as much memory.
 #[derive(Debug)]
 pub(super) struct Budget {
-    /// Bytes of a file.
+    /// Upper bound on a file's size in bytes.
     each: u64,
-    /// Bytes of all of them that were read so far.
+    /// Total size of the files read so far, in bytes.
     read: AtomicU64,
 }
 
-/// All of them may have so many times the bytes of one.
+/// Upper bound on the total size of all ignore files, as a multiple of the limit for one.
 const ALL: u64 = 16;
 
 impl Budget {
-    /// `each`: `[limits] ignore-file-size`.
+    /// `each` is the value of `[limits] ignore-file-size`.
     pub(super) fn new(each: u64) -> Self {
         Self { each, read: AtomicU64::new(0) }
     }
 
-    /// PB005 where there was too much, whoever noticed it: then rules are missing.
+    /// PB005 if the total was exceeded by any thread; rules are missing then.
     pub(super) fn exceeded(&self, root: &Utf8Path) -> Option<Box<Diagnostic>> {
         let problem = || {
             Diagnostic::new(&messages::TOO_MANY_RULES)
@@ -66,19 +66,19 @@ impl Budget {
     }
 }
 
-/// Bytes of a line of such a file. Longer ones are no names, and patterns in each other would need a stack of that depth.
+/// Upper bound on the length of a line in bytes. Longer lines are not patterns of names, and nested patterns would need a deep stack.
 const LONGEST_LINE: usize = 4096;
 
-/// Whether other rules hold in a directory in which this name is: that of a file with rules, or of a repository where there are some already.
+/// Whether an entry of this name changes the rules: an ignore file, or a repository if there are rules already.
 pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
     matches!(name, ".gitignore" | ".ignore") || are_some && name == ".git"
 }
 
 impl Rules {
-    /// Reads the files of a directory, within a budget.
+    /// Reads the ignore files of a directory, within a budget.
     ///
     /// # Errors
-    /// Why one cannot be read: then nobody knows what counts.
+    /// Why a file cannot be read. Without it, it is unknown what is ignored.
     pub(super) fn read(
         system: &dyn System,
         directory: &Utf8Path,
@@ -90,8 +90,8 @@ impl Rules {
         Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
     }
 
-    /// Whether something does not count. Rules of `.ignore` files come before those of `.gitignore`, rules of a directory before those from
-    /// above. Hidden names do not count unless a rule says that they do.
+    /// Whether an entry is ignored. Rules in `.ignore` files take precedence over those in `.gitignore`, and rules of a directory over
+    /// those from above. Hidden entries are ignored unless a rule includes them.
     pub(super) fn exclude(&self, path: &Utf8Path, is_directory: bool) -> bool {
         let by_own = self.levels().map(|level| level.own.matched(path, is_directory));
         let by_git = self.git_levels().map(|level| level.git.matched(path, is_directory));
@@ -106,7 +106,7 @@ impl Rules {
         std::iter::successors(Some(self), |level| level.above.as_deref())
     }
 
-    /// Up to the directory in which the repository begins.
+    /// The levels up to the root of the repository.
     fn git_levels(&self) -> impl Iterator<Item = &Self> {
         std::iter::successors(Some(self), |level| level.above.as_deref().filter(|_| !level.is_repository))
     }
@@ -137,7 +137,7 @@ fn patterns(
             let problem = Diagnostic::new(&messages::UNREADABLE).with("reason", reason);
             return Err(Box::new(problem.in_file(&file).at_line(number, None)));
         }
-        // Git passes over what is no pattern, too.
+        // Like Git, skip lines that are not valid patterns.
         _ = builder.add_line(None, line);
     }
     Ok(builder.build().unwrap_or_else(|_| Gitignore::empty()))

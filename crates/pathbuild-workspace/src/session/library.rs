@@ -1,4 +1,4 @@
-//! Walking directories for drawings. (book: howto/large-libraries)
+//! Searches directories recursively for drawings. (book: howto/large-libraries)
 
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
@@ -15,39 +15,40 @@ use rayon::prelude::*;
 
 use super::ignoring::{self, Budget, Rules};
 
-/// What lies in a directory and below.
+/// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
 pub(super) struct Walked {
-    /// Every drawing, in order of name.
+    /// All drawings, sorted by place.
     pub(super) drawings: Vec<Utf8PathBuf>,
-    /// The directory itself and every directory below it, likewise.
+    /// The directory itself and all directories below it, sorted by place.
     pub(super) directories: Vec<Utf8PathBuf>,
-    /// What is in these directories, as far as it is known.
+    /// Contents of these directories, as far as they are known.
     pub(super) listings: Listings,
-    /// Directories that cannot be listed; PB005 where there is more than the limit allows: then there is nothing else, since nobody knows
-    /// what is missing.
+    /// Errors for directories that cannot be listed. If the limit is exceeded, PB005 is the only content: a partial result would be
+    /// misleading.
     pub(super) problems: Vec<Diagnostic>,
 }
 
-/// So many directories are sooner listed one after the other than threads are started for them.
+/// Number of directories up to which listing them one after the other is faster than starting threads.
 const FEW: usize = 4;
 
-/// How directories are walked.
+/// Settings of a recursive search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk<'a> {
-    /// The files.
+    /// The file system.
     pub(super) system: &'a dyn System,
-    /// How many files and directories there may be.
+    /// Upper bound on the number of files and directories.
     pub(super) limit: u64,
-    /// How many bytes a file of rules may have.
+    /// Upper bound on the size of an ignore file in bytes.
     pub(super) rules_limit: u64,
-    /// Whether on all cores.
+    /// Whether to use all cores.
     pub(super) is_parallel: bool,
 }
 
 impl Walk<'_> {
-    /// Every drawing in a directory and below; .gitignore and .ignore files inside are respected. Links to directories are not followed: they
-    /// could lead anywhere, and round in circles. What is found is spelt as the root is: normally, if that is.
+    /// Finds all drawings in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to directories are
+    /// not followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if `root`
+    /// is.
     pub(super) fn through(self, root: &Utf8Path) -> Walked {
         let (mut walked, count) = match self.levels(root) {
             Ok(walked) => walked,
@@ -56,13 +57,13 @@ impl Walk<'_> {
         if count > self.limit.saturating_add(1) {
             return Walked { problems: vec![too_many(readable(root), self.limit)], ..Walked::default() };
         }
-        // Each directory's are in order already.
+        // The drawings of each directory are sorted already, so this is fast.
         walked.drawings.sort_by(|a, b| by_place(a, b));
         walked.directories.sort_by(|a, b| by_place(a, b));
         walked
     }
 
-    /// The same out of order, and how much was found. Nothing more is looked for once there is more than the limit allows.
+    /// Collects the contents unsorted, together with their number. Stops once the limit is exceeded.
     fn levels(self, root: &Utf8Path) -> Result<(Walked, u64), Box<Diagnostic>> {
         let mut walked = Walked::default();
         let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
@@ -93,7 +94,7 @@ impl Walk<'_> {
                         next.extend(listed.directories.into_iter().map(|below| (below, rules.clone())));
                         walked.listings.insert(directory.clone(), listed.listing);
                     }
-                    // What was named may be a drawing.
+                    // The root itself may be a drawing.
                     None if directory == *root && self.system.kind(root) == FileKind::File => {
                         walked.drawings.extend(is_drawing(root).then(|| root.to_owned()));
                         continue;
@@ -108,40 +109,40 @@ impl Walk<'_> {
     }
 }
 
-/// A directory in a system call's words.
+/// The directory as system calls expect it.
 pub(super) fn readable(directory: &Utf8Path) -> &Utf8Path {
     if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
 }
 
-/// `.dxf` counts in any case.
+/// Whether the file is a drawing; the case of `.dxf` does not matter.
 pub(super) fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
-/// What is in one directory.
+/// The contents of a single directory.
 #[derive(Default)]
 struct Directory {
     drawings: Vec<Utf8PathBuf>,
     directories: Vec<Utf8PathBuf>,
     listing: Listing,
-    /// The same of names that are no UTF-8: nothing can be found under their spellings.
+    /// Entries whose names are not UTF-8: nothing can be opened under their lossy spellings.
     inexact: Listing,
-    /// What does not count here and below, where something says so.
+    /// Ignore rules that apply here and below, if there are any.
     rules: Option<Arc<Rules>>,
-    /// How much there is that counts.
+    /// Number of entries that are not ignored.
     count: u64,
-    /// Why it cannot be listed, and names in it under which nothing can be read.
+    /// Errors of listing the directory, and names under which nothing can be read.
     problems: Vec<Diagnostic>,
 }
 
 impl Directory {
-    /// One of which nothing is known, since listing it showed a bug.
+    /// A directory whose listing triggered a bug, so that its contents are unknown.
     fn failed(directory: &Utf8Path, bug: Diagnostic) -> Self {
         let problems = vec![bug.in_file(readable(directory))];
         Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }
     }
 
-    /// Nothing where there is none.
+    /// Lists a directory; `None` if there is no such directory.
     fn list(
         directory: &Utf8Path,
         above: Option<Arc<Rules>>,
@@ -160,7 +161,7 @@ impl Directory {
             }
         });
         if has_own {
-            // Most directories have no rules of their own: those that have are listed again, by them.
+            // Most directories have no ignore file. One that has is listed again, with its rules.
             found =
                 Self { rules: Some(Rules::read(walk.system, directory, above, budget)?), ..Self::default() };
             listed = walk.system.each_entry(directory, &mut |entry| {
@@ -169,7 +170,7 @@ impl Directory {
             });
         }
         if let Err(error) = &listed {
-            // It is gone, or a drawing. What is there but cannot even be looked at, such as below a name that is too long, is told.
+            // The directory is gone, or it is a drawing. Any other error is reported, for example a path that is too long.
             let is_none = match walk.system.kind(directory) {
                 FileKind::Directory => false,
                 FileKind::Missing => *error == ReadError::Missing,
@@ -180,7 +181,7 @@ impl Directory {
             }
             found.problems.push(unlistable(directory, error));
         }
-        // Who looks for a path must not miss what was not told.
+        // Lookups must not rely on an incomplete listing.
         found.listing.is_doubtful |= listed.is_err();
         found.listing.names.sort_by(by_name);
         let drawings = found.listing.names.iter().filter(|name| found.counts(directory, name, false));
@@ -213,7 +214,7 @@ impl Directory {
         }
     }
 
-    /// Whether a name is part of the library.
+    /// Whether a name is part of the library, i.e. not ignored.
     fn counts(&self, directory: &Utf8Path, name: &str, is_directory: bool) -> bool {
         match &self.rules {
             Some(rules) => !rules.exclude(&join(directory, name), is_directory),
@@ -226,7 +227,7 @@ fn is_hidden(name: &str) -> bool {
     name.starts_with('.')
 }
 
-/// The order of names. It is `Ord`'s, told by their first bytes where it can be.
+/// Compares names like `Ord`, with a shortcut over the first eight bytes.
 pub fn by_name(a: &str, b: &str) -> Ordering {
     let begin = |name: &str| name.as_bytes().first_chunk().map(|bytes| u64::from_be_bytes(*bytes));
     match (begin(a), begin(b)) {
@@ -235,19 +236,19 @@ pub fn by_name(a: &str, b: &str) -> Ordering {
     }
 }
 
-/// The order of paths, part by part. It is `Ord`'s, as long as no part is empty or `.`, and is told without taking paths apart: of ten thousand that
-/// takes longer than asking the system for all of them.
+/// Compares paths component by component. Equivalent to `Ord` of paths if no component is empty or `.`, but does not split the paths: for
+/// ten thousand drawings, splitting takes longer than querying their metadata.
 pub fn by_place(a: &Utf8Path, b: &Utf8Path) -> Ordering {
     let (a, b) = (a.as_str().as_bytes(), b.as_str().as_bytes());
     let rank = |byte: u8| if is_separator(char::from(byte)) { 0 } else { byte };
-    // Names in a directory begin alike.
+    // Skip the common prefix in chunks, because the paths in a directory begin alike.
     let (a_chunks, b_chunks) = (a.as_chunks::<CHUNK>().0, b.as_chunks::<CHUNK>().0);
     let same = CHUNK * a_chunks.iter().zip(b_chunks).take_while(|(x, y)| x == y).count();
     let differing = a[same..].iter().zip(&b[same..]).find(|(x, y)| x != y);
     differing.map_or_else(|| a.len().cmp(&b.len()), |(x, y)| rank(*x).cmp(&rank(*y)))
 }
 
-/// So many bytes are compared at once.
+/// Number of bytes compared at once.
 const CHUNK: usize = 8;
 
 fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {

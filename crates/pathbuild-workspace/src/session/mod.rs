@@ -1,4 +1,4 @@
-//! What commands ask of the database: the drawings and paths that arguments mean, checked and made into programs on all cores.
+//! The interface between commands and the database: resolves arguments, and checks paths and builds programs on all cores.
 
 mod caught;
 mod combinations;
@@ -51,54 +51,52 @@ pub(crate) use scene::program_scene;
 pub use scene::{Seen, ShownText};
 pub use work::{Asking, CheckedTarget, Emitted};
 
-/// A database with the run's settings.
+/// A database with the settings of a run.
 #[derive(Debug)]
 pub struct Session<'a> {
     db: Database,
     context: &'a Workspace,
-    /// Whether it is noted what targets were made from.
+    /// Whether the inputs of targets are traced.
     is_traced: bool,
-    /// Started when there is something to watch.
+    /// Started on first use.
     watchdog: OnceLock<Watchdog>,
-    /// Of drawings that are worked through batch by batch; else each piece of work shows its own.
+    /// Progress display over all batches. Without one, each parallel loop shows its own.
     progress: Option<Box<dyn Advance>>,
-    /// Worker threads.
     workers: OnceLock<Option<Workers>>,
-    /// Where the time went.
     timings: Timings,
 }
 
-/// So often a piece of work is done again because drawings changed meanwhile. Who keeps writing a drawing is told so.
+/// Upper bound on repetitions of work during which drawings changed. A drawing that keeps changing is then reported.
 const ROUNDS: usize = 8;
 
 impl<'a> Session<'a> {
-    /// A session over the files.
+    /// A session over the files of a workspace.
     pub fn new(context: &'a Workspace) -> Self {
         Self::over(context, false, Arc::clone(&context.system))
     }
 
-    /// A session whose results may be kept for later runs: what they were made from is noted.
+    /// A session that traces inputs, so that its results can be cached.
     pub fn traced(context: &'a Workspace) -> Self {
         Self { is_traced: true, ..Self::over(context, true, Arc::clone(&context.system)) }
     }
 
-    /// Tells that a drawing may have changed, appeared or gone.
+    /// Invalidates a drawing that may have changed, appeared or disappeared.
     pub fn touch_file(&mut self, path: &Utf8Path) {
         self.db.touch_file(path);
     }
 
-    /// Tells that there may be other names in a directory.
+    /// Invalidates the list of names in a directory.
     pub fn touch_directory(&mut self, path: &Utf8Path) {
         self.db.touch_directory(path);
     }
 
-    /// A session in which a drawing is there that has not been written yet.
+    /// A session in which a drawing exists that has not been written to disk.
     pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = Overlay::new(Arc::clone(&context.system), path.to_owned(), bytes);
         Self::over(context, false, Arc::new(overlay))
     }
 
-    /// Does some work over one state of the drawings: if one of them changes between two looks at it, the work is done again.
+    /// Runs some work on a consistent state of the drawings: repeats it if a drawing changes while the work reads it twice.
     pub fn settled<R>(&mut self, mut work: impl FnMut(&mut Self) -> R) -> R {
         let mut rounds = 0;
         loop {
@@ -124,7 +122,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// What it works in.
+    /// The workspace.
     pub fn workspace(&self) -> &'a Workspace {
         self.context
     }
@@ -134,22 +132,22 @@ impl<'a> Session<'a> {
         &self.db
     }
 
-    /// Where the time went so far.
+    /// Time spent so far, by phase.
     pub fn timings(&self) -> &Timings {
         &self.timings
     }
 
-    /// The drawing under a path.
+    /// The drawing with this path.
     pub fn file(&self, path: &Utf8Path) -> SourceFile {
         if self.is_normal(path) { self.db.file(path) } else { self.db.file(&self.normal(path)) }
     }
 
-    /// The one spelling of a path: relative to the working directory where it lies below it, without `.` and `x/..`.
+    /// Normalizes a path: relative to the working directory if inside it, without `.` and `x/..`.
     pub fn normal(&self, path: &Utf8Path) -> Utf8PathBuf {
         normal(path, &self.context.working_directory)
     }
 
-    /// The same of a path that nobody else needs.
+    /// Like [`normal`](Self::normal), without a copy if the path is normal already.
     fn normalised(&self, path: Utf8PathBuf) -> Utf8PathBuf {
         if self.is_normal(&path) { path } else { self.normal(&path) }
     }
@@ -179,7 +177,7 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
     spelt(normal)
 }
 
-/// Whether a path has nothing to be taken away, as nearly all have: it is relative, or lies somewhere else than below the working directory.
+/// Whether a path is normal already, as nearly all paths are: relative, or outside the working directory.
 fn is_normal(path: &Utf8Path, working_directory: &Utf8Path) -> bool {
     let is_redundant = |part: &str| matches!(part, "" | "." | "..");
     let below_root =

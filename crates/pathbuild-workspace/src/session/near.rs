@@ -1,4 +1,4 @@
-//! Help for names on the command line that are nearly right.
+//! Suggestions for misspelled names on the command line.
 
 use std::cell::LazyCell;
 use std::ops::ControlFlow;
@@ -14,7 +14,7 @@ use super::{Session, library};
 use crate::config::nearest::nearest;
 
 impl Session<'_> {
-    /// Adds to what is not found where else it is, or which name is nearly the same.
+    /// Adds suggestions to diagnostics about missing files and paths: another location, or a similar name.
     pub fn with_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let known = LazyCell::new(|| self.known());
         let with_near = |diagnostic: Diagnostic| {
@@ -35,7 +35,7 @@ impl Session<'_> {
         self.with_elsewhere(diagnostics).into_iter().map(with_near).collect()
     }
 
-    /// The drawing that defines a path which is looked for elsewhere, or by the names of drawings; else the name that is nearest.
+    /// Finds a missing path elsewhere: in the library, in a drawing whose file name does not cover it, or under a similar name.
     fn near_path(&self, name: &str, known: &Known) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
         let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
@@ -51,12 +51,12 @@ impl Session<'_> {
         nearest(name, others).map(|near| (&outputs::NEAR_PATH, near.to_owned()))
     }
 
-    /// What a name without a separator may mean.
+    /// Everything that a name without a separator may refer to.
     fn known(&self) -> Known {
         Known { paths: self.paths_of_library(), entries: self.entries(Utf8Path::new("")) }
     }
 
-    /// The existing drawing or directory whose name is nearest, where the first part of a path that does not exist is nearly right.
+    /// The existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.
     fn near_file(&self, file: &Utf8Path) -> Option<Utf8PathBuf> {
         let is_there = |directory: &&Utf8Path| {
             directory.as_str().is_empty() || self.db().system().kind(directory) == FileKind::Directory
@@ -67,11 +67,11 @@ impl Session<'_> {
         let entries = self.entries(directory);
         let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = join(&near, missing.as_path());
-        // What follows the mistyped part may be right.
+        // The components after the misspelled one may exist.
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 
-    /// The names of drawings and directories in a directory, in order; without those that begin with a point.
+    /// Sorted names of the drawings and directories in a directory, without hidden ones.
     pub(super) fn entries(&self, directory: &Utf8Path) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
@@ -81,22 +81,22 @@ impl Session<'_> {
             }
             ControlFlow::Continue(())
         };
-        // What cannot be listed has no names to offer.
+        // A directory that cannot be listed offers no suggestions.
         _ = catch_bugs(|| self.db().system().each_entry(directory, &mut take));
         names.sort_unstable();
         names
     }
 }
 
-/// What a name without a separator may mean.
+/// Everything that a name without a separator may refer to.
 struct Known {
     /// Paths of the library, with their drawings.
     paths: Vec<(PathName, SourceFile)>,
-    /// Drawings and directories of the working directory.
+    /// Drawings and directories in the working directory.
     entries: Vec<String>,
 }
 
-/// The name that was looked for.
+/// The missing name that a diagnostic reports.
 fn named(diagnostic: &Diagnostic) -> &str {
     let named = diagnostic.arguments.iter().find_map(|(argument, value)| match value {
         Value::Text(name) if *argument == "name" => Some(&**name),

@@ -1,4 +1,4 @@
-//! Looking at nothing is not right: directories that are missing or hold no drawing, drawings without paths. (book: reference/diagnostics)
+//! Warnings about empty input: missing directories, directories without drawings, drawings without paths. (book: reference/diagnostics)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
@@ -12,7 +12,7 @@ use super::{DrawingResult, Session};
 use crate::config::{Origin, Sourced};
 
 impl Session<'_> {
-    /// PB003 for each directory of the library, and for each that is searched, that is not there.
+    /// PB003 for each missing directory of the keys `library` and `search`.
     pub(super) fn missing_directories(&self) -> Vec<Diagnostic> {
         let general = &self.context.settings.general;
         let library = self.missing("library", &general.library, &[FileKind::Directory, FileKind::File]);
@@ -38,7 +38,7 @@ impl Session<'_> {
         })
     }
 
-    /// PB518 for each named directory without drawings; of the library only if no directory of it has one, for it may be new.
+    /// PB518 for each named directory without drawings. A library may be new, so for it only if all its directories are empty.
     pub(super) fn without_drawings(is_library: bool, asked: &[&FoundDirectory]) -> Vec<Diagnostic> {
         let empty = asked.iter().filter(|directory| directory.drawings.is_empty());
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
@@ -50,8 +50,8 @@ impl Session<'_> {
         }
     }
 
-    /// PB518 if there are drawings and no path in any of them. A drawing with an error of its own may hold one. PathDxf2GCode takes that for
-    /// right. `drawings`: of each its paths, and what was found in it.
+    /// PB518 if there are drawings, but none of them contains a path. A drawing with an error of its own may contain one. PathDxf2GCode
+    /// accepts such a library. `drawings` has the paths and the diagnostics of each drawing.
     pub fn no_path_anywhere<'a>(
         &self,
         drawings: impl IntoIterator<Item = (&'a [PathName], &'a [Diagnostic])>,
@@ -70,12 +70,12 @@ impl Session<'_> {
         })
     }
 
-    /// Whether everything is as with PathDxf2GCode.
+    /// Whether the run mimics PathDxf2GCode.
     pub fn is_compatible(&self) -> bool {
         self.context.settings.general.compatible.value
     }
 
-    /// PB513 of a drawing that was named and holds no path, unless it cannot be read. `said`: what is known of it.
+    /// PB513 for a drawing that was named but contains no path, unless the drawing has errors.
     pub fn no_path(&self, drawing: &Utf8Path, said: &DrawingResult) -> Option<Diagnostic> {
         let is_right = !said.names.is_empty() || said.diagnostics.iter().any(Diagnostic::is_error);
         (!is_right).then(|| {
@@ -87,7 +87,7 @@ impl Session<'_> {
 }
 
 fn no_drawing(directories: &[&Utf8Path]) -> Diagnostic {
-    let shown = directories.iter().map(|it| if it.as_str().is_empty() { "." } else { it.as_str() });
+    let shown = directories.iter().map(|path| if path.as_str().is_empty() { "." } else { path.as_str() });
     let directories: Value = shown.collect();
     Diagnostic::new(&messages::NO_DRAWING).with("directories", directories)
 }

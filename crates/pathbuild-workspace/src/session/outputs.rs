@@ -1,4 +1,4 @@
-//! The files that a program becomes. (book: program/gcode)
+//! Kinds of files that belong to a program. (book: program/gcode)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{self, Header, WriteOptions};
@@ -6,18 +6,18 @@ use pathbuild_toolpath::Program;
 
 use crate::config::types::SheetFormat;
 
-/// The kinds of files.
+/// A kind of output file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum OutputKind {
-    /// The program, where there are no probes.
+    /// The program of a path without probes.
     Milling,
     /// The program with correction formulas.
     Clean,
-    /// The probing run.
+    /// The program that measures the probes.
     Probing,
-    /// Where a person writes measured values, which must not be lost.
+    /// The file into which users enter measured values. These must not be lost.
     Values,
-    /// The sheet for who stands at the machine.
+    /// The setup sheet for the machine operator.
     SheetPdf,
     #[expect(missing_docs, reason = "see above")]
     SheetHtml,
@@ -25,21 +25,21 @@ pub enum OutputKind {
     SheetSvg,
 }
 
-/// How files are written, whatever is in them.
+/// Settings for writing files, whatever their contents.
 #[derive(Clone, Copy, Debug)]
 pub struct Writing {
-    /// Language, characters, rapid feed.
+    /// Language, character set, rapid feed, and correction.
     pub options: WriteOptions,
-    /// Most moves of a program, after cutting.
+    /// Upper bound on a program's moves, after cutting them into pieces.
     pub most_moves: u64,
-    /// Most bytes that its moves may take in memory. (`[limits] program-memory`)
+    /// Upper bound on the memory of its moves, in bytes. (`[limits] program-memory`)
     pub most_memory: u64,
-    /// Most bytes of a program's text. (`[limits] output-size`)
+    /// Upper bound on its text, in bytes. (`[limits] output-size`)
     pub most_bytes: usize,
 }
 
 impl OutputKind {
-    /// Each.
+    /// All kinds.
     pub const ALL: [Self; 7] = [
         Self::Milling,
         Self::Clean,
@@ -50,7 +50,7 @@ impl OutputKind {
         Self::SheetSvg,
     ];
 
-    /// The sheet of a format.
+    /// The kind of setup sheets in this format.
     pub fn of_sheet(format: SheetFormat) -> Option<Self> {
         match format {
             SheetFormat::No => None,
@@ -60,7 +60,7 @@ impl OutputKind {
         }
     }
 
-    /// The format of a sheet; of other files none.
+    /// The format of a setup sheet; `None` for other kinds.
     pub fn sheet(self) -> Option<SheetFormat> {
         match self {
             Self::Milling | Self::Clean | Self::Probing | Self::Values => None,
@@ -70,17 +70,17 @@ impl OutputKind {
         }
     }
 
-    /// Whether it mills.
+    /// Whether the file contains milling moves.
     pub fn is_program(self) -> bool {
         matches!(self, Self::Milling | Self::Clean)
     }
 
-    /// The files of a program.
+    /// The files of a program, apart from its setup sheet.
     pub fn of(has_probes: bool) -> &'static [Self] {
         if has_probes { &[Self::Clean, Self::Probing, Self::Values] } else { &[Self::Milling] }
     }
 
-    /// What their names end in, behind the drawing's or path's name and R.
+    /// Ending of the file name, which follows the name of the drawing or path and the value of R.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Milling => "_Milling.gcode",
@@ -93,10 +93,10 @@ impl OutputKind {
         }
     }
 
-    /// Whether a text, read back, makes the machine do what the program says.
+    /// Checks that the text, when read back, makes the machine do what the program says.
     ///
     /// # Errors
-    /// PB006: where it does not.
+    /// PB006 if it does not.
     pub fn read_back(self, text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
         match self {
             Self::Milling | Self::Clean => native::read_back(text, program),
@@ -105,10 +105,10 @@ impl OutputKind {
         }
     }
 
-    /// The whole text; `None` of a sheet, which is no text of the program.
+    /// Generates the text of the file; `None` for setup sheets, which are not derived from the program alone.
     ///
     /// # Errors
-    /// PB005: where it is too large.
+    /// PB005 if it is too large.
     pub fn text(
         self,
         program: &Program,
@@ -126,17 +126,17 @@ impl OutputKind {
 }
 
 impl Writing {
-    /// The text of a program.
+    /// Generates the text of a native program.
     ///
     /// # Errors
-    /// PB005: where it is too large.
+    /// PB005 if it is too large.
     pub fn text(&self, program: &Program, header: &Header) -> Result<String, Box<Diagnostic>> {
         native::program_within(program, header, &self.options, self.most_bytes)
     }
 }
 
-/// Whether a name cannot be a file's. `rest` is the part of it that is not the name of a file already, such as R: it must suit every system, and
-/// look like what it is. On Windows `x:y` is a part of the file `x` that no listing shows.
+/// Whether a name is not allowed as a file name. `rest` is the part that does not stem from an existing file name, such as R: it must be
+/// valid on every system, and must not deceive the reader. On Windows, `x:y` is a hidden stream of the file `x`.
 pub fn stem_fault(name: &str, rest: &str) -> bool {
     name.contains(['/', '\\'])
         || name.contains(char::is_control)
@@ -144,19 +144,19 @@ pub fn stem_fault(name: &str, rest: &str) -> bool {
         || rest.contains(is_direction)
 }
 
-/// Characters that turn what stands beside them, as it is shown, the other way round.
+/// Whether the character changes the writing direction of the characters around it.
 fn is_direction(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// The text of a file of values with everything behind `=` taken away, whatever its line ends are.
+/// A file of values without the text after each `=`, and with normalized line ends.
 pub fn without_values(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let line = |line: &str| line.split_inclusive('=').filter(|part| part.ends_with('=')).collect::<String>();
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The lines of a file of values without the places in the emitted drawing.
+/// A file of values without the probes' places in the emitted drawing.
 pub fn without_places(values: &str) -> String {
     let line = |line: &str| match line.rsplit_once(PLACE) {
         Some((before, place)) => format!("{before}{}", place.split_once(']').unwrap_or_default().1),
@@ -165,5 +165,5 @@ pub fn without_places(values: &str) -> String {
     values.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// What stands between the name of a probe and its place in the emitted drawing.
+/// Separates the name of a probe from its place in the emitted drawing.
 const PLACE: &str = " @ [";

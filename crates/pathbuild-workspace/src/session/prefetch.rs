@@ -1,5 +1,5 @@
-//! Listing directories and reading drawings before they are needed. To list a directory of ten thousand drawings takes longer than to make the
-//! program of a project out of ten of them, so the drawings that it most likely embeds are read meanwhile.
+//! Lists directories and reads drawings before they are needed. Listing a directory of ten thousand drawings takes longer than building a
+//! program from ten of them, so the drawings that are most likely embedded are read in the meantime.
 
 use std::collections::HashSet;
 use std::thread::Builder;
@@ -11,10 +11,10 @@ use super::Session;
 use crate::inputs::{Input, Inputs};
 
 impl Session<'_> {
-    /// Begins to list the directories that named drawings and paths need, and reads the drawings that are most likely needed.
-    /// Those of which something is known from an earlier run are likely to be as they were.
+    /// Starts listing the directories that named drawings and paths need, and reads the drawings that are most likely needed. Drawings with
+    /// a cached result are skipped, since they have probably not changed.
     pub fn prefetch(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {
-        // A bug that this shows is left to whoever wants what is read here.
+        // Bugs are ignored here: the query that needs the drawing will report them.
         _ = self.db.guarded(self.limit(), || self.prefetch_likely(inputs, is_known));
     }
 
@@ -32,8 +32,8 @@ impl Session<'_> {
         }
     }
 
-    /// The drawing that an argument most likely means, and the directory in which paths are looked for; `None` where no names are needed,
-    /// or a walk through directories lists them.
+    /// The drawing that an argument most likely refers to, and the directory from which paths are searched for; `None` if no names are
+    /// needed, or if a recursive search lists the directories anyway.
     fn likely_drawing(
         &self,
         input: Input<'_>,
@@ -55,7 +55,7 @@ impl Session<'_> {
         }
     }
 
-    /// Lists directories on a thread of its own. Where the system has no thread left, the queries that want the names list them.
+    /// Lists directories on a thread of its own. If the system has no thread left, the queries that need the names list them.
     fn list_ahead(&self, directories: &[Directory]) {
         let pending: Vec<PendingListing> =
             directories.iter().map(|directory| self.db.list_ahead(directory.path(&self.db))).collect();

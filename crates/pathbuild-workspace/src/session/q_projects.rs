@@ -1,4 +1,4 @@
-//! Drawings and their Q-projects. (book: language/q-projects)
+//! Compares drawings with their Q-projects. (book: language/q-projects)
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Diagnostic;
 use super::Session;
 
 impl Session<'_> {
-    /// What drawings and their Q-projects say against each other, for each pair.
+    /// For each pair, the discrepancies between the drawing and its Q-project.
     pub fn judge_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
         let judge = |db: &Database, [drawing, q_project]: &Pair| {
             let found = q_project_findings(db, *drawing, *q_project).iter().cloned();
@@ -25,9 +25,9 @@ impl Session<'_> {
 /// A drawing and its Q-project.
 pub type Pair = [SourceFile; 2];
 
-/// The drawings that have a Q-project among them, each with it.
+/// Pairs each drawing with its Q-project, if that is among the drawings too.
 pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec<[&'a Utf8PathBuf; 2]> {
-    // A library of ten thousand drawings has few of them, or none.
+    // Fast path: a library of ten thousand drawings has few Q-projects or none.
     if !drawings.clone().any(|drawing| may_be_q_project(drawing)) {
         return Vec::new();
     }
@@ -42,7 +42,7 @@ pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec
     drawings.filter_map(pair).collect()
 }
 
-/// Seen without taking the path apart.
+/// A cheap test that does not split the path into components.
 fn may_be_q_project(drawing: &Utf8Path) -> bool {
     let stem = drawing.as_str().rsplit_once('.').map_or(drawing.as_str(), |(stem, _)| stem);
     stem.ends_with("_Q") || stem.ends_with("_q")

@@ -1,4 +1,4 @@
-//! Which drawings and paths the arguments mean. (book: reference/commands)
+//! Resolves arguments to drawings and paths. (book: reference/commands)
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, check_file, holders, path_names};
@@ -11,10 +11,10 @@ use super::found::{Argument, Found, FoundDirectory};
 use super::{Session, by_place};
 use crate::inputs::Inputs;
 
-/// What arguments come to.
+/// The drawings and paths that arguments resolve to.
 #[derive(Debug, Default)]
 pub struct Wanted {
-    /// Drawings that lie in directories that were named, in order of place, without those that were named themselves.
+    /// Drawings in named directories, sorted by place, without those that were named themselves.
     pub drawings: Vec<Utf8PathBuf>,
     /// Drawings that were named.
     pub named: Vec<SourceFile>,
@@ -22,26 +22,26 @@ pub struct Wanted {
     pub paths: Vec<WantedPath>,
     /// Directories that were named; without arguments, those of the library.
     pub directories: Vec<Utf8PathBuf>,
-    /// These, and all below them.
+    /// These directories and all below them.
     pub below: Vec<Utf8PathBuf>,
-    /// Names that mean nothing, or too much.
+    /// Names that are unknown or ambiguous.
     pub problems: Vec<Diagnostic>,
 }
 
-/// A path that was asked for by its name.
+/// A path that was named.
 #[derive(Clone, Debug)]
 pub struct WantedPath {
     /// The drawing that defines it.
     pub file: SourceFile,
-    /// As the drawing spells it.
+    /// Its name as the drawing spells it.
     pub name: PathName,
 }
 
-/// The names of the paths in a drawing: whoever knows them from an earlier run need not read it.
+/// Returns the names of a drawing's paths. A cached answer saves reading the drawing.
 pub type NamesOf<'a> = &'a dyn Fn(SourceFile) -> &'a [PathName];
 
 impl Session<'_> {
-    /// What the arguments mean; without any, the library.
+    /// Resolves the arguments; without any, selects the library.
     pub fn wanted(&self, inputs: &Inputs) -> Wanted {
         let found = self.found(inputs);
         let mut wanted = self.meant(&found, &found.arguments, &|file| path_names(&self.db, file));
@@ -49,7 +49,7 @@ impl Session<'_> {
         wanted
     }
 
-    /// What some of the arguments mean.
+    /// Resolves some of the arguments.
     pub fn meant(&self, found: &Found, arguments: &[Argument], names: NamesOf<'_>) -> Wanted {
         let mut wanted = Wanted::default();
         let mut walked = Vec::new();
@@ -69,7 +69,7 @@ impl Session<'_> {
         wanted
     }
 
-    /// Adds what an argument means; a directory, if it is one.
+    /// Adds the drawings and paths of an argument. Returns the directory if the argument is one.
     fn add<'f>(
         &self,
         argument: &'f Argument,
@@ -87,7 +87,7 @@ impl Session<'_> {
                 let defines = |file: &SourceFile| names(*file).contains(name);
                 let files = self.different(candidates.iter().copied().filter(defines));
                 if !files.is_empty() {
-                    // It may be there once more.
+                    // Another definition may have been missed.
                     wanted.problems.extend_from_slice(&found.name_problems);
                 }
                 match (files.as_slice(), drawing, directory) {
@@ -99,7 +99,7 @@ impl Session<'_> {
                         wanted.problems.push(self.defined_twice(name, *first, *second));
                     }
                     ([], Some(drawing), _) => wanted.name(*drawing),
-                    // `check components` is what people type; nothing else of that name was meant.
+                    // Users type `check components`; nothing else has that name.
                     ([], None, Some(directory)) => {
                         wanted.add(directory);
                         return Some(directory);
@@ -118,7 +118,8 @@ impl Session<'_> {
         None
     }
 
-    /// What kept drawings from being read that may define a path: those of which no path is known. The path may well be in one of them.
+    /// Errors that kept candidate drawings from being read. Only candidates without a known path matter: the wanted path may be in one of
+    /// them.
     fn unread(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
         let files = self.different(candidates.iter().copied().filter(is_unread));
@@ -126,19 +127,21 @@ impl Session<'_> {
         problems.filter(|problem| problem.is_error()).cloned().collect()
     }
 
-    /// What may have kept a name from being found.
+    /// Errors that may have kept a name from being found.
     fn name_problems(&self, found: &Found) -> Vec<Diagnostic> {
         if self.has_library() { found.name_problems.clone() } else { self.everything().1 }
     }
 
-    /// The drawings in some directories that define a path, each once. A directory that shows a bug has none: of arguments it was said when they
-    /// were looked for, else nothing but a hint is wanted.
+    /// The distinct drawings in these directories that define a path. Directories that cause an internal error are skipped: for arguments
+    /// the error was already reported, and hints can do without.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
-        let holders = |it: &Utf8PathBuf| self.of_directory(it, |it| holders(&self.db, it, name));
+        let holders = |directory: &Utf8PathBuf| {
+            self.of_directory(directory, |directory| holders(&self.db, directory, name))
+        };
         self.different(directories.iter().flat_map(holders).flatten())
     }
 
-    /// Each drawing once, by whatever names it is reached.
+    /// Removes drawings that are reached under a second name.
     fn different(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         files.filter(|file| seen.insert(self.db.system().canonical(file.path(&self.db)))).collect()
@@ -155,7 +158,7 @@ impl Session<'_> {
 }
 
 impl Wanted {
-    /// Every drawing of which all is wanted.
+    /// All drawings that are selected as a whole.
     pub fn whole(&self, session: &Session<'_>) -> Vec<SourceFile> {
         let mut files = session.db().files(self.drawings.clone());
         files.extend(&self.named);

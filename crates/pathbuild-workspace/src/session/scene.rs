@@ -1,4 +1,4 @@
-//! What there is to see of paths, made by the same queries as their programs.
+//! Scenes of paths for display, computed by the same queries as their programs.
 
 use std::slice;
 
@@ -23,39 +23,39 @@ use crate::findings::Findings;
 use crate::posting::PostProcessor;
 use crate::workspace::Workspace;
 
-/// A scene, and what is wrong with what it shows.
+/// A scene, with the diagnostics of its paths.
 #[derive(Debug)]
 pub struct Seen {
-    /// What there is to see. Its findings are still to be filled in by who judges them.
+    /// The scene. Its findings are empty until severities are applied.
     pub scene: Scene,
-    /// What is wrong, located.
+    /// Diagnostics with their locations.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Which text of a program is shown with its moves.
+/// Which program text is shown beside the moves.
 #[derive(Clone, Copy, Debug)]
 pub enum ShownText<'a> {
-    /// The native one.
+    /// The native program.
     Native,
-    /// What `emit` writes, natively or through a post; the native one where it writes nothing.
+    /// What `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
     Emitted(Option<&'a PostProcessor>),
 }
 
-/// What is known of a path's moves without a picture of them.
+/// A hash of a path's moves, to compare paths without drawing them.
 #[derive(Debug)]
 pub struct HashedPath {
-    /// The drawing that defines it.
+    /// The drawing that defines the path.
     pub file: SourceFile,
-    /// Its name.
+    /// Name of the path.
     pub name: PathName,
-    /// A hash of its program's moves; `None` where it has errors, or its program could not be made.
+    /// Hash of its program's moves; `None` if the path has errors, or if its program could not be built.
     pub moves: Option<Box<str>>,
-    /// The limits and bugs that kept its program from being made.
+    /// Limits and bugs that kept the program from being built.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Seen {
-    /// The scene with its findings, by the configuration's severities. `file` is the drawing that is shown.
+    /// Completes the scene with its findings, according to the configured severities. `file` is the drawing that is shown.
     pub fn judged(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
         let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
         scene.findings = view::findings(&findings.diagnostics, file);
@@ -64,8 +64,8 @@ impl Seen {
 }
 
 impl Session<'_> {
-    /// What there is to see of some paths of a drawing, with their texts. Where options are missing, and of paths with variables, the program is that of a
-    /// check: with example values, and S as if it were embedded.
+    /// The scene of some paths of a drawing, with their texts. If options are missing, or if a path has variables, its program is that of a
+    /// check: with example values, and with S as if it were embedded.
     pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> Seen {
         let name = file.path(&self.db).as_str();
         let title = match names {
@@ -88,7 +88,7 @@ impl Session<'_> {
         Seen { scene, diagnostics }
     }
 
-    /// What is drawn in some drawings, without programs: of each, unless it shows a bug.
+    /// Scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.
     pub fn drawn_scenes(&self, files: &[&Utf8Path]) -> Vec<Option<Scene>> {
         let files: Vec<SourceFile> = files.iter().map(|file| self.file(file)).collect();
         let scenes =
@@ -96,7 +96,7 @@ impl Session<'_> {
         scenes.into_iter().map(Result::ok).collect()
     }
 
-    /// A path, what is wrong with it, and the clamps that it embeds, where they stand in its program.
+    /// The scene of a path, its diagnostics, and the clamps that it embeds, at their places in the program.
     fn scene_path(
         &self,
         file: SourceFile,
@@ -107,14 +107,16 @@ impl Session<'_> {
             self.each(slice::from_ref(name), |asking, name| asking.check_as_known(file, name)).pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
         let writing = &writing(self.context);
-        // Without a rapid feed, and of what is only checked, `emit` writes nothing: the text is a preview.
+        // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
         let is_written = *checked.target.role(&self.db) == Role::Emitted
             && self.context.settings.general.rapid.value.is_some();
         let (emitted, refusal) = match text {
             ShownText::Native => (None, None),
             ShownText::Emitted(poster) => match program_text(self, poster, &checked) {
                 Ok(emitted) => (emitted, None),
-                Err(problems) => (None, problems.iter().find(|it| it.is_error() && is_written).map(said)),
+                Err(problems) => {
+                    (None, problems.iter().find(|problem| problem.is_error() && is_written).map(said))
+                }
             },
         };
         let shown = emitted.as_ref().map(|emitted| EmittedText {
@@ -148,7 +150,7 @@ impl Session<'_> {
         (drawn, diagnostics, Vec::new())
     }
 
-    /// A hash of the moves of each path of some drawings, of the programs that [`scene`](Self::scene) shows.
+    /// Hashes the moves of each path in some drawings. The programs are those that [`scene`](Self::scene) shows.
     pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<HashedPath> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
         let wanted: Vec<(SourceFile, PathName)> =
@@ -165,7 +167,7 @@ impl Session<'_> {
                 checked.diagnostics.into_iter().filter(stops_making).collect();
             let moves = hash.unwrap_or_else(|problem| {
                 let problem = about(&self.db, checked.target, *problem);
-                // A check that took too long has said the same.
+                // A timeout of the check has caused the same diagnostic.
                 problems.extend((!problems.contains(&problem)).then_some(problem));
                 None
             });
@@ -175,17 +177,17 @@ impl Session<'_> {
     }
 }
 
-/// Whether a limit or a bug kept something from being made: then nothing is said of the drawing, which may be right.
+/// Whether a limit or a bug kept a program from being built. This says nothing about the drawing, which may be correct.
 fn stops_making(problem: &Diagnostic) -> bool {
     matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 
-/// A finding's message in both languages.
+/// The message of a diagnostic in both languages.
 fn said(problem: &Diagnostic) -> Said {
     Said { en: problem.text(Lang::En), de: problem.text(Lang::De) }
 }
 
-/// The values that a program has only because it is shown: of variables, of S and of options that nothing gives.
+/// Values that were chosen only for display: of variables, of S, and of options that are not set.
 fn examples(db: &dyn Db, Traced { program, parts, .. }: &Traced, writing: &Writing) -> Vec<Example> {
     let Some(root) = parts.first() else { return Vec::new() };
     let example = |name: String, value: Option<&str>| Example { name, value: value.map(str::to_owned) };
@@ -208,7 +210,7 @@ fn examples(db: &dyn Db, Traced { program, parts, .. }: &Traced, writing: &Writi
     examples
 }
 
-/// What is drawn in a drawing.
+/// The scene of a drawing's geometry.
 fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     let mut scene = Scene::new(file.path(db).file_name().unwrap_or_default());
     scene.keep_outs.extend(keep_outs(db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
@@ -218,10 +220,10 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     scene
 }
 
-/// A program with where it comes from; `None` where a drawing changed meanwhile.
+/// The scene of a program with the origin of its moves; `None` if a drawing changed in the meantime.
 ///
 /// # Errors
-/// PB005: where its text is too large.
+/// PB005 if its text is too large.
 pub(crate) fn program_scene(
     db: &dyn Db,
     traced: &Traced,
@@ -229,7 +231,7 @@ pub(crate) fn program_scene(
     emitted: Option<EmittedText<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let Traced { program, trace, parts } = traced;
-    // The first is the path that is emitted.
+    // The first part is the path that is emitted.
     let known = parts
         .iter()
         .zip(0..)
@@ -240,7 +242,7 @@ pub(crate) fn program_scene(
         Some((drawn_source(db, part.file, drawn, known), &part.path))
     });
     let Some(sources) = sources.collect::<Option<Vec<_>>>() else { return Ok(None) };
-    // Each line is to be one move.
+    // Disable z-split: each line of the text must correspond to one move.
     let correction = Correction { longest: 0.0, ..writing.options.correction };
     let options = WriteOptions { correction, ..writing.options };
     let text = Writing { options, ..*writing }.text(program, &Header::default())?;

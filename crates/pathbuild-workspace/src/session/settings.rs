@@ -1,4 +1,4 @@
-//! The configuration as the database takes it.
+//! Translates the configuration into the database's settings.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::normal;
 use crate::config::types;
 use crate::workspace::Workspace;
 
-/// Makes the database's settings. The configuration has been read without faults, so its patterns compile.
+/// Sets the database's settings. The configuration has no errors at this point, so its patterns compile.
 pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let general = &context.settings.general;
     let limits = &context.settings.limits;

@@ -1,4 +1,4 @@
-//! Where the time of a run went: `check --timings`.
+//! Time spent in each phase of a run: `check --timings`.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -6,31 +6,31 @@ use std::time::{Duration, Instant};
 
 use pathbuild_diagnostic::Word;
 
-/// What was measured.
+/// Measured times.
 #[derive(Debug, Default)]
 pub struct Timings {
-    /// Whether somebody wants to know. A run that goes on would gather paths without end.
+    /// Whether times are requested. A long-lived session would otherwise accumulate paths forever.
     is_on: AtomicBool,
     phases: Mutex<Vec<(&'static Word, Duration)>>,
     paths: Mutex<Vec<(String, Duration)>>,
 }
 
-/// Finding the drawings that the arguments mean.
+/// Finding the drawings that the arguments refer to.
 pub static FINDING: Word = Word { en: "finding drawings", de: "Zeichnungen suchen" };
-/// Holding kept results against the files.
+/// Comparing cached results with the files.
 pub static VERIFYING: Word = Word { en: "looking at kept results", de: "frühere Ergebnisse prüfen" };
 /// Reading drawings.
 pub static READING: Word = Word { en: "reading drawings", de: "Zeichnungen lesen" };
-/// Checking their paths.
+/// Checking paths.
 pub static CHECKING: Word = Word { en: "checking paths", de: "Pfade prüfen" };
-/// Keeping results for the next run.
+/// Storing results in the cache.
 pub static KEEPING: Word = Word { en: "keeping results", de: "Ergebnisse aufheben" };
 
-/// How many paths are named.
+/// Number of slowest paths that are listed.
 const SLOWEST: usize = 10;
 
 impl Timings {
-    /// Begins to measure.
+    /// Starts measuring.
     pub fn switch_on(&self) {
         self.is_on.store(true, Ordering::Relaxed);
     }
@@ -39,7 +39,7 @@ impl Timings {
         self.is_on.load(Ordering::Relaxed)
     }
 
-    /// Does some work and notes how long it took.
+    /// Runs some work and adds its time to a phase.
     pub fn measure<R>(&self, phase: &'static Word, work: impl FnOnce() -> R) -> R {
         if !self.is_on() {
             return work();
@@ -55,7 +55,7 @@ impl Timings {
         result
     }
 
-    /// Works on a path and notes how long it took.
+    /// Checks a path and records its time.
     pub(super) fn measure_path<R>(&self, name: impl FnOnce() -> String, work: impl FnOnce() -> R) -> R {
         if !self.is_on() {
             return work();
@@ -66,7 +66,7 @@ impl Timings {
         result
     }
 
-    /// A line for each phase, then one for each of the slowest paths, the slowest first.
+    /// Formats one line per phase, followed by one line for each of the slowest paths.
     pub fn lines(&self, lang: pathbuild_diagnostic::Lang) -> Vec<String> {
         let line = |time: Duration, what: &str| format!("{:>10.1} ms  {what}", time.as_secs_f64() * 1000.0);
         let word = |word: &Word| match lang {

@@ -1,4 +1,4 @@
-//! Gives up paths that take longer than `seconds-per-path`. (book: reference/configuration, `[limits]`)
+//! Cancels paths that take longer than `seconds-per-path`. (book: reference/configuration, `[limits]`)
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use pathbuild_db::{Database, Underway};
 
-/// A thread that looks at what is being worked on now and then, until this is dropped. It is not waited for: a run that is over ends.
+/// Background thread that cancels work exceeding its time limit; stops when dropped, and is never joined.
 #[derive(Debug)]
 pub(super) struct Watchdog(Arc<Shared>);
 
@@ -23,7 +23,7 @@ struct State {
     is_over: bool,
 }
 
-/// Work that is watched until this is dropped.
+/// Work item being watched; dropping it ends the watch.
 pub(super) struct Watched<'a> {
     watchdog: &'a Watchdog,
     db: &'a Database,
@@ -31,7 +31,7 @@ pub(super) struct Watched<'a> {
 }
 
 impl Watchdog {
-    /// Begins to watch. Where the system has no thread left, work takes as long as it takes.
+    /// Starts the thread. If the system has no thread left, work is not limited in time.
     pub(super) fn start(limit: Duration) -> Self {
         let shared = Arc::new(Shared { limit, state: Mutex::default(), changed: Condvar::new() });
         let watching = Arc::clone(&shared);
@@ -61,14 +61,14 @@ impl Drop for Watchdog {
 impl Drop for Watched<'_> {
     fn drop(&mut self) {
         self.watchdog.0.state().underway[self.place] = None;
-        // It may have been given up just when it had ended.
+        // The work may have been cancelled at the very moment when it ended.
         self.db.forget_given_up();
     }
 }
 
 impl Shared {
     fn watch(&self) {
-        // Seldom enough to cost nothing, often enough for limits of a second.
+        // Poll rarely enough to be free, but often enough to enforce one-second limits.
         let pause = (self.limit / 4).clamp(Duration::from_millis(10), Duration::from_millis(500));
         let mut state = self.state();
         while !state.is_over {
@@ -81,7 +81,7 @@ impl Shared {
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        // The list is whole whenever the lock is free: nothing panics in between.
+        // Nothing panics while the lock is held, so the list is consistent even if the lock is poisoned.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,4 +1,4 @@
-//! Asking for many targets at once, on all cores. Threads work outside queries only, each over its own clone of the database.
+//! Parallel work on many targets. Threads call queries on their own clones of the database; no query spawns threads.
 
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -16,35 +16,35 @@ use super::watchdog::Watchdog;
 use super::workers::Workers;
 use super::{Session, WantedPath};
 
-/// What came of a target.
+/// The outcome of checking a target.
 #[derive(Debug)]
 pub struct CheckedTarget {
-    /// What was asked for.
+    /// The target.
     pub target: Target,
-    /// What is wrong with it and all it embeds, located.
+    /// Diagnostics of the target and of everything it embeds, with their locations.
     pub diagnostics: Vec<Diagnostic>,
-    /// The drawings that it was made from, its own first.
+    /// The drawings that it uses, its own first.
     pub files: Vec<SourceFile>,
-    /// Options that it needs and that nobody gave.
+    /// Options that it needs but that are not set.
     pub missing_options: Vec<MissingOption>,
-    /// What it becomes, where nothing is wrong.
+    /// Facts about its program; `None` if there are errors.
     pub emitted: Option<Emitted>,
-    /// Everything that it was made from, in a session that notes it.
+    /// All inputs of the check, if the session traces them.
     pub trace: Option<Trace>,
 }
 
-/// What is known of a program before it is made.
+/// Facts about a program that are known before it is built.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Emitted {
-    /// The path, as the drawing spells it.
+    /// Name of the path, as the drawing spells it.
     pub path: Box<str>,
-    /// R: what is added to the names of its files.
+    /// Value of R, appended to the names of its files.
     pub suffix: Box<str>,
-    /// Whether there are probes in it or in anything that it embeds.
+    /// Whether the path, or any path that it embeds, contains probes.
     pub has_probes: bool,
 }
 
-/// Asks for one target after the other, on one of the threads that work.
+/// Checks targets one by one on a worker thread.
 #[derive(Debug)]
 pub struct Asking<'a> {
     db: &'a Database,
@@ -54,43 +54,43 @@ pub struct Asking<'a> {
     timings: &'a Timings,
 }
 
-/// So many items at most are worked on in a row: no other thread can take them over, which would wait at the end for as many. Each row has a
-/// database of its own, whose lists grow anew: shorter rows cost more than waiting does.
-const IN_A_ROW: usize = 32;
+/// Upper bound on items per rayon chunk. Other threads cannot take over items of a chunk and would have to wait at the end. But each chunk
+/// clones the database, whose caches grow anew, so shorter chunks cost more than the waiting.
+const ITEMS_PER_CHUNK: usize = 32;
 
-/// A program takes a thousand times as long as a database of its own does.
-const ALONE: usize = 1;
+/// Building a program costs about 1000 times as much as cloning the database, so programs are scheduled one by one.
+const PROGRAMS_PER_CHUNK: usize = 1;
 
 impl Session<'_> {
-    /// A target for each path of a file.
+    /// One target for each path of a file.
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
         let names = path_names(&self.db, file).iter();
         names.map(|name| self.db.target(file, name.as_str(), role.clone())).collect()
     }
 
-    /// The target for a path that was named.
+    /// The target of a path that was named.
     pub fn target(&self, path: &WantedPath, role: Role) -> Target {
         self.target_in(path.file, &path.name, role)
     }
 
-    /// The target for a path of a drawing.
+    /// The target of a path in a drawing.
     pub fn target_in(&self, file: SourceFile, name: &PathName, role: Role) -> Target {
         self.db.target(file, name.as_str(), role)
     }
 
-    /// Whether it is noted what targets were made from.
+    /// Whether the inputs of targets are traced.
     pub fn is_traced(&self) -> bool {
         self.is_traced
     }
 
-    /// Indexes drawings, on all cores.
+    /// Parses drawings on all cores.
     pub fn read_ahead(&self, files: &[SourceFile]) {
         let read = |db: &Database, file: &SourceFile| _ = file_index(db, *file);
         self.timings.measure(&READING, || self.spread(files, read));
     }
 
-    /// Works through many things in batches of that size. What is read for one batch is not kept for the next, so that memory grows with what
-    /// is found in a library, not with what is drawn.
+    /// Processes many items in batches. Parsed data of a batch is evicted before the next one, so that memory grows with the results and
+    /// not with the size of the library.
     pub fn in_batches<T, R>(
         &mut self,
         all: &[T],
@@ -107,24 +107,25 @@ impl Session<'_> {
         results
     }
 
-    /// The same where programs are made: a few a thread at a time, each of which may have hundreds of thousands of steps.
+    /// Like [`in_batches`](Self::in_batches), for building programs: only a few per thread at a time, since each may have hundreds of
+    /// thousands of steps.
     pub fn in_batches_of_programs<T, R>(
         &mut self,
         all: &[T],
         work: impl FnMut(&Self, &[T]) -> Vec<R>,
     ) -> Vec<R> {
         const PROGRAMS: usize = 6;
-        // Threads are not started for a few programs.
+        // Starting threads does not pay for a few programs.
         let threads = if all.len() > PROGRAMS { self.threads() } else { 1 };
         self.in_batches(all, PROGRAMS * threads, work)
     }
 
-    /// Checks targets; the order of the results is that of the targets.
+    /// Checks targets. The results are in the order of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         self.each(targets, |asking, target| asking.check(*target))
     }
 
-    /// Works on each of these, on all cores. The order of the results is that of the items.
+    /// Processes items on all cores. The results are in the order of the items.
     pub fn each<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Asking<'_>, &T) -> R + Sync) -> Vec<R> {
         let (is_traced, limit, watchdog) = (self.is_traced, self.limit(), &self.watchdog);
         let timings = &self.timings;
@@ -132,10 +133,10 @@ impl Session<'_> {
         self.timings.measure(&CHECKING, || self.spread(items, work))
     }
 
-    /// Asks about a target what its check did not ask.
+    /// Queries more about a target than its check did.
     ///
     /// # Errors
-    /// PB005 where that takes too long, PB001 where a drawing changed meanwhile, PB006 where it shows a bug.
+    /// PB005 if it takes too long, PB001 if a drawing changed in the meantime, PB006 if it triggers a bug.
     pub fn of_target<R>(&self, target: Target, ask: impl Fn(&Database) -> R) -> Result<R, Box<Diagnostic>> {
         let limit = self.limit();
         let _watched = self.watchdog.get_or_init(|| Watchdog::start(limit)).begin(&self.db);
@@ -147,8 +148,8 @@ impl Session<'_> {
         self.context.settings.limits.seconds_per_path.value
     }
 
-    /// Works on each item for itself: one that takes too long or shows a bug does not keep the others from being done. The order of the
-    /// results is that of the items.
+    /// Processes items independently: one that takes too long or triggers a bug does not affect the others. The results are in the order of
+    /// the items.
     pub fn guarded<T: Sync, R: Send>(
         &self,
         items: &[T],
@@ -163,23 +164,23 @@ impl Session<'_> {
             let _watched = watchdog.begin(db);
             db.guarded(limit, || work(db, item))
         };
-        self.spread_in_rows(items, ALONE, work)
+        self.spread_in_chunks(items, PROGRAMS_PER_CHUNK, work)
     }
 
-    /// Works on each item, in the order of the items whatever the number of threads. One item is worked on here: starting threads takes
-    /// longer than most paths.
+    /// Processes items in parallel, with results in the order of the items. A single item is processed on this thread: starting threads
+    /// takes longer than most paths.
     pub(super) fn spread<T: Sync, R: Send>(
         &self,
         items: &[T],
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<R> {
-        self.spread_in_rows(items, IN_A_ROW, work)
+        self.spread_in_chunks(items, ITEMS_PER_CHUNK, work)
     }
 
-    fn spread_in_rows<T: Sync, R: Send>(
+    fn spread_in_chunks<T: Sync, R: Send>(
         &self,
         items: &[T],
-        most_in_a_row: usize,
+        chunk_size: usize,
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<R> {
         if items.len() <= 1 || self.context.jobs == Some(1) {
@@ -196,41 +197,41 @@ impl Session<'_> {
             progress.inspect(|progress| progress.advance());
             result
         };
-        workers.work(|| items.par_iter().with_max_len(most_in_a_row).map_with(db, work).collect())
+        workers.work(|| items.par_iter().with_max_len(chunk_size).map_with(db, work).collect())
     }
 
-    /// Starts the worker threads while there is something else to do before there is work for them.
+    /// Starts the worker threads early, while other work remains to be done before they are needed.
     pub(super) fn rouse_workers(&self) {
         if self.context.jobs != Some(1) {
             self.workers();
         }
     }
 
-    /// How many threads work.
+    /// Number of threads that process items.
     fn threads(&self) -> usize {
         let shared = || self.workers().map_or(1, Workers::count);
         if self.context.jobs == Some(1) { 1 } else { shared() }
     }
 
-    /// The worker threads, started when they are first wanted; `None` where the system gives none.
+    /// The worker threads, started on first use; `None` if the system provides none.
     fn workers(&self) -> Option<&Workers> {
         self.workers.get_or_init(|| Workers::start(self.context.jobs)).as_ref()
     }
 }
 
 impl Asking<'_> {
-    /// The database.
+    /// This thread's clone of the database.
     pub fn db(&self) -> &Database {
         self.db
     }
 
-    /// Whether it is noted what targets are made from.
+    /// Whether the inputs of targets are traced.
     pub fn is_traced(&self) -> bool {
         self.is_traced
     }
 
-    /// Checks a path as it is emitted; where that asks for more than is known, with variables or without options, as it is embedded: with
-    /// example values, and S above what it embeds.
+    /// Checks a path as it is emitted. A path with variables or missing options is checked as if it were embedded: with example values, and
+    /// with S above what it embeds.
     pub fn check_as_known(&self, file: SourceFile, name: &PathName) -> CheckedTarget {
         let target = |role| self.db.target(file, name.as_str(), role);
         let index = file_index(self.db, file).path(name);
@@ -243,7 +244,7 @@ impl Asking<'_> {
         self.check(target(Role::Checked))
     }
 
-    /// Checks a target. If it takes too long or shows a bug, that is what is found.
+    /// Checks a target. A timeout or an internal error becomes the diagnostic of the target.
     pub fn check(&self, target: Target) -> CheckedTarget {
         let watchdog = self.watchdog.get_or_init(|| Watchdog::start(self.limit));
         let _watched = watchdog.begin(self.db);
@@ -254,7 +255,7 @@ impl Asking<'_> {
     }
 }
 
-/// A target that nothing is known of but why it was not finished.
+/// The outcome of a target whose check was aborted.
 fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,
@@ -266,7 +267,7 @@ fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget
     }
 }
 
-/// What is wrong with a target as a whole.
+/// Locates a diagnostic about a target as a whole.
 pub(super) fn about(db: &Database, target: Target, problem: Diagnostic) -> Diagnostic {
     problem.in_file(target.file(db).path(db)).in_path(target.name(db))
 }

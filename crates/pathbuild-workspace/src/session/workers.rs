@@ -1,4 +1,4 @@
-//! Worker threads. They come to life, and get their memory ready, while nobody has work for them yet.
+//! Worker threads, which start and reserve their memory before there is work for them.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -6,20 +6,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Threads that work is shared out among.
+/// A pool of worker threads.
 #[derive(Debug)]
 pub(super) struct Workers {
     pool: ThreadPool,
-    /// Whether there is work.
+    /// Set once there is work.
     is_wanted: Arc<AtomicBool>,
 }
 
-/// Stacks of worker threads: queries call each other once for each level of embedding.
+/// Stack size of worker threads in bytes. Queries recurse once per level of embedding.
 const STACK_SIZE: usize = 16 << 20;
 
 impl Workers {
-    /// So many threads, or as many as there are cores; `None` where the system gives none. It is not waited for them. This one is not among them:
-    /// where it was, and there were two cores, the other was often begun on the core of this one and stayed there for 5 to 10 ms.
+    /// Starts `count` threads, or one per core, without waiting for them; `None` if the system provides none. The calling thread is not
+    /// part of the pool: on two cores, the other thread often started on the caller's core and stayed there for 5 to 10 ms.
     pub(super) fn start(count: Option<u16>) -> Option<Self> {
         let is_wanted = Arc::new(AtomicBool::new(false));
         let until = Arc::clone(&is_wanted);
@@ -29,27 +29,27 @@ impl Workers {
         Some(Self { pool, is_wanted })
     }
 
-    /// How many there are.
+    /// Number of threads.
     pub(super) fn count(&self) -> usize {
         self.pool.current_num_threads()
     }
 
-    /// Does work that shares itself out.
+    /// Runs work that uses the threads through rayon.
     pub(super) fn work<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.is_wanted.store(true, Ordering::Relaxed);
         self.pool.install(work)
     }
 }
 
-/// Takes at one go what a thread will need, and gives it back at once, so that it is at hand. glibc asks the system for a thread's memory page by
-/// page as it is used, each time while all other threads wait, unless there was more than that; and it keeps no more than twice the largest piece
-/// that was given back to the system itself, as the first one here is.
+/// Allocates the memory that a thread will need in one piece and frees it at once, so that it is at hand later. Otherwise glibc requests a
+/// thread's memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that was returned to
+/// the system, which is why memory is allocated and freed once before.
 fn reserve_memory(is_wanted: &AtomicBool) {
     drop(reserved());
     touch(&mut reserved(), is_wanted);
 }
 
-/// Memory of which nothing is used before it is needed. Where there is not as much, it comes as it is needed.
+/// A block of untouched memory; smaller if the system has less.
 fn reserved() -> Vec<u8> {
     const RESERVED: usize = 16 << 20;
     let mut memory = Vec::new();
@@ -57,10 +57,10 @@ fn reserved() -> Vec<u8> {
     memory
 }
 
-/// Uses the first pages of memory once, until there is work: it would wait for each of them.
+/// Touches the first pages of the block until there is work, so that the work need not wait for each page.
 fn touch(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
     const PAGE: usize = 4 << 10;
-    /// What the results of some hundred drawings take.
+    /// Roughly the size of the results of a few hundred drawings.
     const PAGES: usize = 384;
     for page in memory.spare_capacity_mut().chunks_mut(PAGE).take(PAGES) {
         if is_wanted.load(Ordering::Relaxed) {

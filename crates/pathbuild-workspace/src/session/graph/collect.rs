@@ -1,4 +1,4 @@
-//! From closures to one graph.
+//! Builds a graph from the closures of targets.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,7 +15,7 @@ use crate::session::Session;
 use crate::session::work::about;
 
 impl Session<'_> {
-    /// What these targets reach.
+    /// The graph of everything that these targets embed.
     pub fn graph(&self, targets: &[Target]) -> Graph {
         let mut merged = Merged::default();
         let mut parts = Vec::with_capacity(targets.len());
@@ -29,7 +29,7 @@ impl Session<'_> {
                 Err(problem) => merged.graph.problems.push(about(&self.db, *target, *problem)),
             }
         }
-        // First what was asked for, so that it comes first also where another target reaches it.
+        // Add the requested paths first, so that they come first even if another target embeds them.
         for part in &parts {
             merged.asked(part);
         }
@@ -43,17 +43,17 @@ impl Session<'_> {
     }
 }
 
-/// What one target reaches.
+/// What one target embeds.
 struct Part {
-    /// The first is the target.
+    /// The first node is the target.
     nodes: Vec<Node>,
     embeddings: Vec<(usize, End)>,
-    /// Why not all is seen that it reaches.
+    /// Why the graph of this target is incomplete.
     problems: Vec<Diagnostic>,
 }
 
 impl Part {
-    /// The nodes of which something is left out because the target embeds it too deep, or too much.
+    /// Nodes with missing embeddings, because the target embeds them too deep or embeds too many paths.
     fn cut(&self) -> HashSet<usize> {
         let cut = |(from, to): &(usize, End)| match to {
             End::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),
@@ -63,12 +63,12 @@ impl Part {
     }
 }
 
-/// Whether all that a path embeds is seen.
+/// Whether all embeddings of a path are known.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Reach {
-    /// It is.
+    /// All are known.
     Whole,
-    /// Some of it is too deep below the target, or beyond a limit. Another target may have shown it whole before.
+    /// Some are too deep below the target or beyond a limit. Another target may have shown them all.
     Cut,
 }
 
@@ -85,7 +85,7 @@ fn part(db: &Database, target: Target) -> Part {
     let crowded = crowded(reached);
     let beyond = if crowded.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {
-        // A path that is embedded too deep, or beyond a limit, is no part of what is reached.
+        // The closure does not contain paths that are embedded too deep or beyond a limit.
         Destination::Path(child) => number
             .get(&child)
             .map_or_else(|| End::Nowhere(Some(node(db, child).name), beyond), |to| End::Node(*to)),
@@ -95,7 +95,7 @@ fn part(db: &Database, target: Target) -> Part {
     Part { embeddings: embeddings.collect(), nodes, problems: crowded }
 }
 
-/// PB005, where a target embeds more paths than may be: not all of them are seen.
+/// PB005 if the target embeds more paths than the limit allows, so that some are missing.
 fn crowded(closure: &Closure<'_>) -> Vec<Diagnostic> {
     let is_it = |problem: &&Diagnostic| *problem.message == files::TOO_MANY_PATHS;
     closure.diagnostics.iter().filter(is_it).cloned().collect()
@@ -117,12 +117,12 @@ fn node(db: &Database, instance: Instance<'_>) -> Node {
     }
 }
 
-/// A graph in the making. The maps are only looked up.
+/// A graph under construction. The maps are never iterated.
 #[derive(Default)]
 struct Merged {
     graph: Graph,
     nodes: HashMap<(PathName, Utf8PathBuf, Bindings), usize>,
-    /// Nodes whose embeddings are there already: another target that reaches them has the same.
+    /// Nodes whose embeddings are complete. They are the same for every target that reaches the node.
     complete: HashSet<usize>,
 }
 
@@ -130,13 +130,13 @@ impl Merged {
     fn asked(&mut self, part: &Part) {
         let Some(node) = part.nodes.first() else { return };
         let root = self.node(node.clone());
-        // Nodes are numbered as they come: one that is not new was asked for before.
+        // Nodes are numbered in order of appearance, so an existing root was requested before.
         if self.graph.roots.len() == root {
             self.graph.roots.push(root);
         }
     }
 
-    /// Adds what those nodes of a part embed of which it shows everything, or not.
+    /// Adds the embeddings of those nodes of a part that have the given reach.
     fn add(&mut self, part: &Part, reach: Reach) {
         let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
         let cut = part.cut();

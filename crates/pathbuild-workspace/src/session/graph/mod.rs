@@ -1,4 +1,4 @@
-//! What embeds what, as values that need no database: what `graph`, `deps` and `rdeps` show. (book: reference/commands)
+//! The graph of embeddings, as values independent of the database, for `graph`, `deps` and `rdeps`. (book: reference/commands)
 
 mod collect;
 
@@ -8,65 +8,65 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_path::{Bindings, PathName};
 
-/// Paths, and which embeds which.
+/// Paths, and which path embeds which.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    /// Each path with each set of values once, those that were asked for first.
+    /// Each path once per set of values; the requested paths come first.
     pub nodes: Vec<Node>,
-    /// From embedding to embedded, in the order of the embedding path's segments.
+    /// Embeddings in the order of the embedding path's segments.
     pub embeddings: Vec<Embedding>,
-    /// The nodes that were asked for.
+    /// The requested nodes.
     pub roots: Vec<usize>,
-    /// Why of some targets it is not known what they reach.
+    /// Why the embeddings of some targets are unknown.
     pub problems: Vec<Diagnostic>,
 }
 
-/// A path with its values.
+/// A path with the values of its variables.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// The path, as its drawing spells it.
+    /// Name of the path, as its drawing spells it.
     pub name: PathName,
     /// The drawing that defines it.
     pub file: Utf8PathBuf,
-    /// The values of its variables.
+    /// Values of its variables.
     pub bindings: Bindings,
-    /// Whether the values are examples that it is checked with, and nothing embeds it with them.
+    /// Whether the values are only examples for checking, with which nothing embeds the path.
     pub is_example: bool,
-    /// Whether its own drawing has no errors. Other paths may embed more than is known.
+    /// Whether its drawing has no errors. Otherwise the path may embed more than is known.
     pub is_sound: bool,
 }
 
-/// One or more subpath segments that embed the same.
+/// One or more subpath segments that embed the same path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
-    /// The path that embeds: index into [`Graph::nodes`].
+    /// The embedding path, as an index into [`Graph::nodes`].
     pub from: usize,
-    /// What it embeds.
+    /// The embedded path.
     pub to: End,
-    /// How many segments do.
+    /// Number of segments.
     pub count: usize,
 }
 
-/// What a subpath segment leads to.
+/// Target of a subpath segment.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum End {
-    /// A path: index into [`Graph::nodes`].
+    /// A path, as an index into [`Graph::nodes`].
     Node(usize),
-    /// Nothing: the name that it gives, and why.
+    /// No path: the name in the segment, and the reason.
     Nowhere(Option<PathName>, Code),
 }
 
-/// Which way to go along embeddings.
+/// Direction in which embeddings are followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// To what is embedded.
+    /// To the embedded paths.
     Down,
-    /// To what embeds.
+    /// To the embedding paths.
     Up,
 }
 
 impl Graph {
-    /// The nodes of a path, whatever its values; its example only where nothing embeds it.
+    /// The nodes of a path, for all sets of values. The example node counts only if nothing embeds the path.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
         let is_it = |node: &Node| node.name == *name && node.file == *file;
         let mut found: Vec<usize> =
@@ -77,7 +77,7 @@ impl Graph {
         found
     }
 
-    /// The embeddings of each node in a direction: indices into [`Graph::embeddings`].
+    /// For each node, its embeddings in a direction, as indices into [`Graph::embeddings`].
     pub fn neighbours(&self, direction: Direction) -> Vec<Vec<usize>> {
         let mut neighbours = vec![Vec::new(); self.nodes.len()];
         for (index, embedding) in self.embeddings.iter().enumerate() {
@@ -90,7 +90,7 @@ impl Graph {
         neighbours
     }
 
-    /// The part of the graph that is reached from some nodes, each given once: its roots.
+    /// The part of the graph that is reachable from some nodes, which become its roots. The nodes must be distinct.
     pub fn part(&self, roots: &[usize], direction: Direction) -> Self {
         let neighbours = self.neighbours(direction);
         let mut order: Vec<usize> = Vec::new();
@@ -122,7 +122,7 @@ impl Graph {
         }
     }
 
-    /// The node at the far end of an embedding.
+    /// The node at the far end of an embedding; `None` if there is no path.
     pub fn end(&self, embedding: usize, direction: Direction) -> Option<usize> {
         let embedding = &self.embeddings[embedding];
         match (direction, &embedding.to) {

@@ -1,23 +1,23 @@
-//! Questions while they are collected, each with its number.
+//! Assigns indices to lookups while they are collected.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use pathbuild_cache::Lookup;
 
-/// Questions, and the lists of directories that they were put to, each once.
+/// Lookups and their directory lists, without duplicates.
 #[derive(Debug, Default)]
 pub(super) struct Lookups {
-    /// The lists, by their numbers.
+    /// The directory lists, by index.
     pub lists: Vec<Vec<usize>>,
-    /// The questions, by their numbers.
+    /// The lookups, by index.
     pub all: Vec<Lookup>,
     list_numbers: HashMap<Vec<usize>, usize>,
     numbers: HashMap<Lookup, usize>,
 }
 
 impl Lookups {
-    /// The number of the question which files in these directories may hold the path of this name.
+    /// Index of the lookup of this path name in these directories.
     pub(super) fn number(&mut self, directories: Vec<usize>, name: &str) -> usize {
         let directories = self.list_number(directories);
         match self.numbers.entry(Lookup { directories, name: name.into() }) {

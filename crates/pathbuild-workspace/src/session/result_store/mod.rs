@@ -1,6 +1,6 @@
-//! Results of earlier runs, for the commands that look at a whole library. (crate pathbuild-cache)
+//! Cached results of earlier runs, for commands that process a whole library. (crate pathbuild-cache)
 //!
-//! What is kept is what the database said; whatever the configuration makes of it afterwards (severities, a baseline, formats) is not.
+//! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
 
 mod lookups;
 mod payload;
@@ -32,7 +32,7 @@ pub use question::{BUILD, Coverage, Held};
 pub use scope::Scope;
 use writing::Writing;
 
-/// The results that are kept for a question.
+/// The cached results of a query.
 #[derive(Debug)]
 pub struct ResultStore {
     place: TreeStore,
@@ -40,84 +40,84 @@ pub struct ResultStore {
     base: Utf8PathBuf,
     coverage: Coverage,
     scope: Scope,
-    /// The time before anything was read; `None` where the cache cannot be written.
+    /// The time before anything was read; `None` if the cache is not writable.
     begun: Option<Clock>,
     kept: Snapshot,
     verdict: Verdict,
-    /// The record that is likely asked for next: whoever asks does so in order.
+    /// Index of the record that is likely requested next, since requests come in order.
     next: Cell<usize>,
 }
 
-/// What a run wants to know.
+/// Identifies which cached results a run needs.
 #[derive(Debug)]
 pub struct Question<'a> {
-    /// Whose results.
+    /// Which command's results (`check` or `emit`).
     pub whose: Concerns,
-    /// What they depend on beside settings and files.
+    /// What the results depend on besides settings and files.
     pub text: &'a str,
-    /// Which of them.
+    /// The drawings that matter to the run.
     pub scope: Scope,
-    /// What is in directories that were listed just now.
+    /// Contents of directories that were just listed.
     pub listings: Listings,
 }
 
-/// A result that was made now.
+/// A result computed in this run.
 #[derive(Debug, Default)]
 pub struct FreshResult {
-    /// What it is of.
+    /// Subject of the result.
     pub of: Box<str>,
-    /// Everything that it was made from.
+    /// The drawings and lookups that it depends on.
     pub traces: Vec<Trace>,
-    /// Files beside drawings that it was made from.
+    /// Other files that it depends on.
     pub further: Vec<FurtherFile>,
-    /// The files that it becomes.
+    /// The files that were generated from it.
     pub outputs: Vec<MadeOutput>,
-    /// Itself; `None` where another run may find something else, though nothing changes.
+    /// The encoded result; `None` if another run may get a different result although no input changes.
     pub payload: Option<Vec<u8>>,
 }
 
-/// A file beside drawings that a result was made from.
+/// A file other than a drawing that a result depends on.
 #[derive(Clone, Debug)]
 pub struct FurtherFile {
-    /// The file.
+    /// Its path.
     pub path: Utf8PathBuf,
-    /// The hash of the bytes that were read; `None` where they could not be.
+    /// Hash of the bytes that were read; `None` if reading failed.
     pub hash: Option<[u8; 32]>,
 }
 
-/// A file that a result becomes.
+/// A generated file.
 #[derive(Clone, Debug)]
 pub struct MadeOutput {
-    /// The file.
+    /// Its path.
     pub path: Utf8PathBuf,
-    /// What [`hash_output`] makes of its content.
+    /// Hash of its expected content, as computed by [`hash_output`].
     pub hash: [u8; 32],
-    /// Whether that is what lies there.
+    /// Whether the file on disk has that content.
     pub is_there: bool,
 }
 
-/// How a file that was written lies there now.
+/// State of a generated file on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputState {
-    /// As it would be written.
+    /// Has the expected content.
     Current,
-    /// With other content.
+    /// Has other content.
     Outdated,
-    /// Not at all.
+    /// Does not exist.
     Missing,
 }
 
-/// What a kept result was made from.
+/// The inputs of a cached result.
 #[derive(Clone, Debug)]
 pub struct Dependencies<'a> {
-    /// The files.
+    /// Paths of the files that were read.
     pub files: Vec<&'a Utf8Path>,
-    /// What was looked for: directory and name.
+    /// Lookups, as directory and path name.
     pub lookups: Vec<(&'a Utf8Path, &'a str)>,
 }
 
 impl ResultStore {
-    /// The results kept for a question, held against the files as they are; `None` where there is no configuration, or nothing is to be kept.
+    /// Loads the cached results and verifies them against the files; `None` without a configuration, or if nothing is to be cached.
     pub fn open(context: &Workspace, question: Question<'_>) -> Option<Self> {
         let Question { whose, text, scope, listings } = question;
         let base = context.settings.directory()?.to_owned();
@@ -130,12 +130,12 @@ impl ResultStore {
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
             return None;
         }
-        // Whoever cannot write goes without.
+        // Without write access, the run goes on without a cache.
         if place.make().is_ok_and(|is_new| is_new) {
             note_old(context, &base);
         }
         let key = Key::new(BUILD, &whole_question(context, whose, text));
-        // Before the first file is looked at: what changes from here on shows.
+        // Taken before any file is examined, so that later changes are detected.
         let begun = place.clock().ok();
         let kept = match place.load(&key) {
             Ok(kept) => kept.unwrap_or_default(),
@@ -149,13 +149,13 @@ impl ResultStore {
         Some(Self { place, key, base, coverage, scope, begun, kept, verdict, next: Cell::new(0) })
     }
 
-    /// What was kept, if it still holds.
+    /// The encoded result of a subject, if it still holds.
     pub fn payload(&self, of: &str) -> Option<&[u8]> {
         let number = self.record(of)?;
         self.verdict.holds[number].then(|| self.kept.record(number).payload())
     }
 
-    /// What became of the files that a result became, in the order in which they were kept.
+    /// States of the files that were generated from a result, in the order in which they were stored.
     pub fn outputs(&self, of: &str) -> Vec<OutputState> {
         let Some(number) = self.record(of) else { return Vec::new() };
         let state = |file: usize| match self.verdict.files[file] {
@@ -170,7 +170,7 @@ impl ResultStore {
         self.kept.record(number).outputs().map(state).collect()
     }
 
-    /// What a kept result was made from.
+    /// The inputs of a cached result.
     pub fn facts(&self, of: &str) -> Option<Dependencies<'_>> {
         let record = self.kept.record(self.record(of)?);
         let files = record.files().map(|file| self.kept.file(file).path());
@@ -182,7 +182,7 @@ impl ResultStore {
         Some(Dependencies { files: files.collect(), lookups: record.lookups().flat_map(sought).collect() })
     }
 
-    /// Why what was kept no longer holds; no reason where it does, `None` where nothing was kept.
+    /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
     pub fn why(&self, of: &str) -> Option<Vec<Reason>> {
         let number = self.record(of)?;
         let coverage = &self.coverage;
@@ -195,7 +195,7 @@ impl ResultStore {
         Some(number)
     }
 
-    /// Keeps what was made now beside what still holds, also of other drawings. Nothing is written where nothing changed.
+    /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
     pub fn keep(&self, session: &Session<'_>, made: &[FreshResult]) {
         let is_as_it_was = made.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
@@ -210,12 +210,12 @@ impl ResultStore {
         for made in made {
             writing.add_made(made);
         }
-        // Whoever cannot write goes without.
+        // Without write access, the results are not cached.
         _ = self.place.store(&self.key, &writing.finish());
     }
 }
 
-/// Holds what was kept against the files as they are.
+/// Verifies the cached results against the files.
 fn look(
     workspace: &Workspace,
     kept: &Snapshot,
@@ -248,14 +248,14 @@ fn look(
     verify(kept, looking, listings)
 }
 
-/// The hash of a file that a program becomes; of one into which people enter measured values, without them.
+/// Hash of an output file. In a file of measured values, the values that users entered do not count.
 pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
     let is_values = path.as_str().ends_with(OutputKind::Values.suffix());
     let hash = if is_values { blake3::hash(without_values(bytes).as_bytes()) } else { blake3::hash(bytes) };
     *hash.as_bytes()
 }
 
-/// Earlier versions kept results beside the configuration.
+/// Tells users that the cache of earlier versions, beside the configuration, can be deleted.
 fn note_old(context: &Workspace, base: &Utf8Path) {
     if context.system.kind(&base.join(OLD)) == FileKind::Directory {
         context.reporter.status(context.choose(
@@ -265,7 +265,7 @@ fn note_old(context: &Workspace, base: &Utf8Path) {
     }
 }
 
-/// Where that was.
+/// Directory of that cache.
 const OLD: &str = ".pathbuild";
 
 fn note(context: &Workspace, reason: Unusable) {

@@ -1,25 +1,25 @@
-//! Results as bytes.
+//! Encoding of check results for the cache.
 
 use pathbuild_cache::{Corrupt, decode, encode};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_path::PathName;
 
-/// What is known of a drawing whose paths were checked.
+/// The result of checking a drawing, or only of reading it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawingResult {
-    /// Its paths.
+    /// Names of its paths.
     pub names: Vec<PathName>,
-    /// What is wrong with it, with its paths, and with what they embed.
+    /// Diagnostics of the drawing, of its paths, and of what they embed.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl DrawingResult {
-    /// Its paths, and what is wrong.
+    /// Both fields as slices.
     pub fn parts(&self) -> (&[PathName], &[Diagnostic]) {
         (&self.names, &self.diagnostics)
     }
 
-    /// As bytes; `None` where another run may find something else.
+    /// Encodes the result; `None` if another run may get a different result.
     pub fn encode(&self) -> Option<Vec<u8>> {
         if self.diagnostics.iter().any(is_passing) {
             return None;
@@ -28,17 +28,17 @@ impl DrawingResult {
         encode(&(names, &self.diagnostics))
     }
 
-    /// From bytes.
+    /// Decodes what [`encode`](Self::encode) wrote.
     ///
     /// # Errors
-    /// When they are of something else.
+    /// If the bytes are not a result.
     pub fn decode(payload: &[u8]) -> Result<Self, Corrupt> {
         let (names, diagnostics): (Vec<&str>, _) = decode(payload)?;
         Ok(Self { names: names.into_iter().map(PathName::new).collect(), diagnostics })
     }
 }
 
-/// Whether a finding may pass though nothing changes: a file that somebody else had open, a machine that was busy, a bug.
+/// Whether a diagnostic may disappear although no input changes: a file that another process had locked, a busy machine, a bug.
 pub fn is_passing(diagnostic: &Diagnostic) -> bool {
     match diagnostic.code() {
         Code::UnreadableFile | Code::InternalError => true,

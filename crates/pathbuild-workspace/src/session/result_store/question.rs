@@ -1,4 +1,4 @@
-//! What a run asks, as a text: everything that a result depends on and that is in no drawing.
+//! The query part of the cache key: a text with everything that a result depends on and that is in no drawing.
 
 use std::fmt::Write;
 
@@ -7,11 +7,11 @@ use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 use crate::config::Concerns;
 use crate::workspace::Workspace;
 
-/// Which build of the program this is.
+/// Identifies this build of the program.
 pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
-/// The question with the settings that results depend on. Directories are told from the configuration, so that a tree that is moved or copied as
-/// a whole keeps its results.
+/// The query with all settings that results depend on. Directories are relative to the configuration, so that a tree keeps its results when
+/// it is moved or copied as a whole.
 pub(super) fn whole_question(context: &Workspace, whose: Concerns, question: &str) -> String {
     let mut text = question.to_owned();
     let base = context.settings.directory().map(|base| format!("\"{base}/")).unwrap_or_default();
@@ -21,22 +21,22 @@ pub(super) fn whole_question(context: &Workspace, whose: Concerns, question: &st
         _ = write!(text, "\n{name} = {value}");
     });
     if whose == Concerns::Emit {
-        // What these are hangs on whether a key is set, not on its value alone.
+        // These depend on whether a key is set, not only on its value.
         _ = write!(text, "\n{:?}", (context.settings.comment_lang(), context.settings.z_split()));
     }
-    // What is refused of a stranger's tree may be right in one's own.
+    // Untrusted trees are checked more strictly than the user's own.
     _ = write!(text, "\n{}\n{}", context.settings.confined.is_some(), place_of(context));
     text
 }
 
-/// Where the run is, seen from the configuration: names in results are relative to it.
+/// The working directory relative to the configuration, because names in results are relative to the working directory.
 fn place_of(context: &Workspace) -> &str {
     let directory = &context.working_directory;
     let base = context.settings.directory();
     base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
 }
 
-/// Which file names may hold which paths.
+/// Decides which files may contain which paths, by their names.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     paths: PathPattern,
@@ -44,7 +44,7 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// As the configuration says.
+    /// Takes the patterns from the configuration.
     pub fn new(context: &Workspace) -> Self {
         let general = &context.settings.general;
         Self {
@@ -53,12 +53,12 @@ impl Coverage {
         }
     }
 
-    /// Whether a drawing of this name may hold the path of that name.
+    /// Whether a drawing of this name may contain the path of that name.
     pub fn may_hold(&self, file: &str, path: &str) -> bool {
         self.of_files([file]).may_hold(path)
     }
 
-    /// What drawings of these names may hold.
+    /// The paths that drawings of these names may contain.
     pub fn of_files<'f>(&self, files: impl IntoIterator<Item = &'f str>) -> Held<'_> {
         let stem = |file: &'f str| file.rsplit_once('.').map_or(file, |(stem, _)| stem);
         let ranges = files.into_iter().flat_map(|file| self.files.ranges(stem(file)));
@@ -66,7 +66,7 @@ impl Coverage {
     }
 }
 
-/// The paths that some drawings may hold by their names.
+/// The paths that some drawings may contain, judging by their names.
 #[derive(Debug)]
 pub struct Held<'a> {
     paths: &'a PathPattern,
@@ -74,7 +74,7 @@ pub struct Held<'a> {
 }
 
 impl Held<'_> {
-    /// Whether any of the drawings may hold the path of that name.
+    /// Whether any of the drawings may contain the path of this name.
     pub fn may_hold(&self, path: &str) -> bool {
         PathKey::new(path, self.paths).is_some_and(|key| !self.ranges.files(&key).is_empty())
     }

@@ -1,4 +1,4 @@
-//! Which results a run is about.
+//! The results that a run uses.
 
 use std::collections::HashSet;
 
@@ -7,22 +7,23 @@ use pathbuild_db::system::{FileKind, System};
 
 use crate::session::{Found, Session};
 
-/// The drawings of a run. A result is of a drawing, or of something in it: then what follows the drawing stands behind a NUL.
+/// The drawings of a run. The subject of a result is a drawing, or something in it whose description follows the drawing's path after a
+/// NUL.
 #[derive(Debug)]
 pub enum Scope {
-    /// Whatever there is.
+    /// All drawings.
     All,
-    /// These.
+    /// Certain drawings.
     Drawings {
-        /// The drawings.
+        /// Paths of the drawings.
         drawings: HashSet<String>,
-        /// Every directory that was looked through: there are no other drawings in them.
+        /// Directories that were listed completely: they contain no other drawings.
         directories: HashSet<String>,
     },
 }
 
 impl Scope {
-    /// The drawings that arguments may mean.
+    /// The drawings that the arguments may refer to.
     pub fn of(session: &Session<'_>, found: &Found) -> Self {
         let named = found.named().map(|file| file.path(session.db()).to_string());
         let drawings = found.directories().flat_map(|directory| &directory.drawings);
@@ -33,7 +34,7 @@ impl Scope {
         }
     }
 
-    /// Whether the run is about a result.
+    /// Whether the run uses a result.
     pub(super) fn holds(&self, of: &str) -> bool {
         match self {
             Self::All => true,
@@ -41,7 +42,7 @@ impl Scope {
         }
     }
 
-    /// Whether a result may be asked for another time: its drawing is there. A run of single drawings does not look at others.
+    /// Whether a result may be needed again because its drawing still exists. A run over single drawings keeps the results of others.
     pub(super) fn may_return(&self, of: &str, system: &dyn System) -> bool {
         let drawing = Utf8Path::new(drawing(of));
         let is_file = || system.kind(drawing) == FileKind::File;

@@ -1,4 +1,4 @@
-//! What a run found out itself of files and directories, for holding it against what is kept of them.
+//! What this run itself read from files and directories, to be compared with cached facts.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,18 +9,18 @@ use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
 use super::FreshResult;
 use crate::session::Session;
 
-/// What a run read, asked and wrote.
+/// Files and directories that the run accessed.
 pub(super) struct Seen<'a> {
     db: &'a Database,
-    /// The drawings that were read; `None` where one could not be read, or was not always the same.
+    /// The drawings that were read; `None` for one that could not be read or that changed during the run.
     read: HashMap<Utf8PathBuf, Option<Content>>,
-    /// The directories that were asked for names.
+    /// The directories in which lookups were made.
     asked: HashSet<&'a Utf8Path>,
     /// The files that were written or compared.
     written: HashSet<&'a Utf8Path>,
 }
 
-/// The hash of the bytes of a file, and the stamp that they were read under.
+/// Hash of a file's bytes, and the stamp under which they were read.
 pub(super) type Content = ([u8; 32], Stamp);
 
 impl<'a> Seen<'a> {
@@ -37,12 +37,12 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// What was read of a drawing.
+    /// Content that was read from a drawing.
     pub(super) fn content(&self, path: &Utf8Path) -> Option<Content> {
         self.read.get(path).copied().flatten()
     }
 
-    /// Whether something else was read of a drawing than bytes with this hash.
+    /// Whether the bytes read from a drawing have a different hash.
     pub(super) fn is_other(&self, path: &Utf8Path, hash: Option<[u8; 32]>) -> bool {
         self.read.get(path).is_some_and(|content| content.map(|(read, _)| read) != hash)
     }
@@ -52,7 +52,7 @@ impl<'a> Seen<'a> {
         self.written.contains(path)
     }
 
-    /// Whether the database found the same names in a directory, if it looked.
+    /// Whether the database saw the same names in a directory, if it made lookups there.
     pub(super) fn agrees(&self, fact: &DirectoryFact) -> bool {
         if !self.asked.contains(&*fact.path) {
             return true;
@@ -63,7 +63,7 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// What was read of a drawing, if that was always the same.
+/// Content of a drawing, if it did not change during the run.
 fn steady_content(db: &Database, file: SourceFile) -> Option<Content> {
     content(db, file).filter(|_| !db.has_drifted(file))
 }

@@ -1,4 +1,4 @@
-//! Putting together what is kept: results that still hold with what was known of their files, new ones with what is known now.
+//! Builds the catalogue to be stored: results that still hold keep their facts, new results get current ones.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,17 +11,17 @@ use super::seen::{Content, Seen};
 use super::{FreshResult, FurtherFile, MadeOutput, ResultStore};
 use crate::session::Session;
 
-/// A catalogue while it is put together.
+/// A catalogue under construction.
 pub(super) struct Writing<'a> {
     result_store: &'a ResultStore,
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    /// The number of each file of which nothing was kept.
+    /// Indices of files that were not in the snapshot.
     new_files: HashMap<Utf8PathBuf, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
     lookups: Lookups,
-    /// The new number of each kept file, directory and question.
+    /// New index of each file, directory and lookup of the snapshot.
     kept_files: Vec<Option<usize>>,
     kept_directories: Vec<Option<usize>>,
     kept_lookups: Vec<Option<usize>>,
@@ -56,8 +56,8 @@ impl<'a> Writing<'a> {
         Catalogue { directory_lists: lists, lookups: all, ..self.catalogue }
     }
 
-    /// Takes over a record against which nothing was known, unless this run read something else in one of its drawings, or made one of
-    /// its files of something else.
+    /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings or generated one of its
+    /// files from other inputs.
     pub(super) fn add_kept(&mut self, number: usize) {
         let record = self.result_store.kept.record(number);
         let has_written = |file: usize| self.seen.has_written(self.result_store.kept.file(file).path());
@@ -71,24 +71,24 @@ impl<'a> Writing<'a> {
         self.catalogue.records.push(Record { of, files, lookups, outputs, payload });
     }
 
-    /// Adds a record that was made now; not where a drawing could not be read, or changed meanwhile: what follows from that passes with it.
-    pub(super) fn add_made(&mut self, made: &FreshResult) {
-        let Some(payload) = &made.payload else { return };
+    /// Adds a new result, unless one of its drawings could not be read or changed during the run: such a result is not stable.
+    pub(super) fn add_made(&mut self, result: &FreshResult) {
+        let Some(payload) = &result.payload else { return };
         let db = self.session.db();
-        let mut drawings = made.traces.iter().flat_map(|trace| &trace.files);
+        let mut drawings = result.traces.iter().flat_map(|trace| &trace.files);
         if drawings.any(|file| self.seen.content(file.path(db)).is_none()) {
             return;
         }
         let mut files = BTreeSet::new();
         let mut lookups = BTreeSet::new();
-        for trace in &made.traces {
+        for trace in &result.traces {
             files.extend(trace.files.iter().map(|file| self.drawing(*file)));
-            lookups.extend(trace.lookups.iter().map(|sought| self.lookup(sought)));
+            lookups.extend(trace.lookups.iter().map(|lookup| self.lookup(lookup)));
         }
-        files.extend(made.further.iter().map(|file| self.further_file(file)));
-        let outputs = made.outputs.iter().map(|output| self.output(output)).collect();
+        files.extend(result.further.iter().map(|file| self.further_file(file)));
+        let outputs = result.outputs.iter().map(|output| self.output(output)).collect();
         self.catalogue.records.push(Record {
-            of: made.of.clone(),
+            of: result.of.clone(),
             files: files.into_iter().collect(),
             lookups: lookups.into_iter().collect(),
             outputs,
@@ -96,7 +96,7 @@ impl<'a> Writing<'a> {
         });
     }
 
-    /// Whether this run read other bytes than those that are known of a file at which it did not look before.
+    /// Whether this run read other bytes than the snapshot has for a file that was not verified.
     fn is_other(&self, number: usize) -> bool {
         let file = self.result_store.kept.file(number);
         self.result_store.verdict.files[number] == FileState::Unlooked
@@ -112,17 +112,17 @@ impl<'a> Writing<'a> {
         match self.result_store.verdict.files[number] {
             FileState::Resting | FileState::Unlooked => {}
             FileState::Restored(stamp) => fact.stamp = stamp.settled(self.begun),
-            // An output that is not what it should be: its hash is still that of what should be there.
+            // The output is out of date. The hash stays, because it describes the expected content.
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
-        // Were it read anew since it was compared, and were other bytes found, nobody could say which of them a result is of.
+        // If the file has changed since it was compared, it is unclear which content a result belongs to.
         if self.seen.is_other(&fact.path, fact.hash) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
         self.add_kept_file(number, fact)
     }
 
-    /// A drawing that was read now.
+    /// Adds a drawing that was read in this run.
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
         let known = self.result_store.kept.file_of(path);
@@ -135,7 +135,7 @@ impl<'a> Writing<'a> {
         }
     }
 
-    /// A file beside drawings that was read for a result. Where others were made of other bytes, nobody can say which of them a result is of.
+    /// Adds a file other than a drawing. If results were computed from different contents, it is unclear which content a result belongs to.
     fn further_file(&mut self, FurtherFile { path, hash }: &FurtherFile) -> usize {
         let mut room = Vec::new();
         let limit = self.session.workspace().settings.limits.file_size.value;
@@ -150,15 +150,15 @@ impl<'a> Writing<'a> {
         number
     }
 
-    /// A file that was written, or compared, now.
+    /// Records an output file written or compared in this run.
     fn output(&mut self, MadeOutput { path, hash, is_there }: &MadeOutput) -> usize {
         let stamp = if *is_there { Stamp::of(path).settled(self.begun) } else { Stamp::UNKNOWN };
-        // Were it gone by now, the hash would be of something else.
+        // If the file has vanished meanwhile, the stamp does not belong to the hash.
         let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };
         self.push_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }
 
-    /// What could not be read has neither stamp nor hash: whatever was made of it is made again.
+    /// Adds a file. One that could not be read gets neither stamp nor hash, so that its results are recomputed.
     fn new_file(&mut self, path: &Utf8Path, content: Option<Content>) -> usize {
         let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.settled(self.begun));
         self.push_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
@@ -175,7 +175,7 @@ impl<'a> Writing<'a> {
         self.add_file(fact)
     }
 
-    /// Of a file of which something was kept, what is known now; what came first holds.
+    /// Adds a fact about a file that is already in the snapshot; the first fact wins.
     fn add_kept_file(&mut self, number: usize, fact: FileFact) -> usize {
         if let Some(known) = self.kept_files[number] {
             return known;
@@ -202,10 +202,10 @@ impl<'a> Writing<'a> {
         new
     }
 
-    /// A question that was asked now.
-    fn lookup(&mut self, sought: &NameLookup) -> usize {
-        let list = sought.directories.iter().map(|directory| self.directory(directory)).collect();
-        self.lookups.number(list, sought.name.as_str())
+    /// Adds a lookup made in this run.
+    fn lookup(&mut self, lookup: &NameLookup) -> usize {
+        let list = lookup.directories.iter().map(|directory| self.directory(directory)).collect();
+        self.lookups.number(list, lookup.name.as_str())
     }
 
     fn kept_directory(&mut self, number: usize) -> usize {
@@ -218,7 +218,7 @@ impl<'a> Writing<'a> {
         new
     }
 
-    /// A directory that was listed now, with the names that the database saw in it.
+    /// Adds a directory with its current names.
     fn directory(&mut self, path: &Utf8Path) -> usize {
         if let Some(known) = self.directories.get(path) {
             return *known;
