@@ -3,14 +3,14 @@ use crate::model::{Entity, Layer, NoteKind, Options, Point, Shape, Version};
 use crate::place::{candidates, seat_notes};
 use crate::sheet::Sheet;
 
-/// A drawing in the making: parameter texts have no places yet.
+/// A drawing under construction, in which parameter texts have no positions yet.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// How it will be written.
+    /// How the drawing will be written.
     pub options: Options,
-    /// The layer table. Layers that entities use and that are not here are added.
+    /// The layer table. Layers that entities use and that are missing here are added.
     pub layers: Vec<Layer>,
-    /// Line types beside the usual ones: name and pattern (dashes positive, gaps negative, dots 0; mm).
+    /// Line types beyond the usual ones: name and pattern in mm (dashes positive, gaps negative, dots 0).
     pub line_types: Vec<(String, Vec<f64>)>,
     /// The blocks.
     pub blocks: Vec<Block>,
@@ -22,11 +22,11 @@ pub struct Draft {
 /// A block definition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// Its name.
+    /// The block's name.
     pub name: String,
-    /// Its base point.
+    /// The block's base point.
     pub base: Point,
-    /// What it holds.
+    /// The block's entities.
     pub entities: Vec<Entity>,
 }
 
@@ -44,12 +44,12 @@ impl Default for Draft {
 }
 
 impl Draft {
-    /// An empty drawing, layer 0.
+    /// An empty drawing with layer 0.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Goes over to a layer, which is listed in the layer table.
+    /// Switches to a layer and adds it to the layer table.
     pub fn layer(&mut self, name: &str) -> &mut Self {
         name.clone_into(&mut self.current_layer);
         if !self.layers.iter().any(|layer| layer.name == name) {
@@ -58,7 +58,7 @@ impl Draft {
         self
     }
 
-    /// The layer that entities without one of their own come to be on.
+    /// The layer of entities that do not name one.
     pub fn current_layer(&self) -> &str {
         &self.current_layer
     }
@@ -78,10 +78,10 @@ impl Draft {
         self
     }
 
-    /// Gives the texts their places and the entities their handles.
+    /// Positions the texts and assigns handles.
     ///
     /// # Errors
-    /// An entity that the version does not know, an unknown block, a text for which there is no room.
+    /// Fails if an entity does not exist in the chosen version, a block is unknown, or a text has no room.
     pub fn finish(mut self) -> Result<Sheet, Vec<DrawError>> {
         let mut errors = Vec::new();
         for entity in self.blocks.iter().flat_map(|block| &block.entities).chain(&self.entities) {

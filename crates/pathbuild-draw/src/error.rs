@@ -1,18 +1,18 @@
 use std::fmt;
 
-/// What is wrong with a drawing in text form.
+/// An error in a drawing in text form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DrawError {
-    /// The line, from 1; 0 for what was not read from a text.
+    /// The line, counted from 1; 0 if the drawing was not read from a text.
     pub line: u32,
-    /// The column in characters, from 1; 0 for what concerns the whole line.
+    /// The column in characters, counted from 1; 0 for errors that concern the whole line.
     pub column: u32,
-    /// What is wrong and what was expected, in one sentence.
+    /// One sentence that says what is wrong and what was expected.
     pub message: String,
 }
 
 impl DrawError {
-    /// An error at a place.
+    /// Creates an error at a place.
     pub fn new(line: u32, column: u32, message: impl Into<String>) -> Self {
         Self { line, column, message: message.into() }
     }

@@ -1,7 +1,7 @@
-//! Drawings made in Rust, written as DXF: the Q-projects that the program draws, and what its tests draw (pathbuild-testkit).
+//! Drawings built in Rust and written as DXF: the Q-projects that the program draws, and the drawings of its tests (pathbuild-testkit).
 //!
-//! A [`Draft`] collects entities; finished, it is a [`Sheet`], in which each parameter text has a place where it belongs to its
-//! element. `Sheet::to_dxf` writes it through the crate `dxf`, always as the same bytes. Nothing here is shared with the reader in
+//! A [`Draft`] collects entities; finishing it gives a [`Sheet`], in which each parameter text is positioned so that it belongs to its
+//! element. `Sheet::to_dxf` writes the sheet through the crate `dxf`; its output is deterministic. No code is shared with the reader in
 //! pathbuild-dxf, so that neither hides the other's mistakes. (book: reference/dxf)
 
 mod draft;

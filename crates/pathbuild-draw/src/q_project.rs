@@ -1,37 +1,37 @@
-//! Q-projects: a row of subpath segments, each with its text. (book: language/q-projects)
+//! Q-projects: rows of subpath segments, each with its text. (book: language/q-projects)
 
 use crate::draft::Draft;
 use crate::error::DrawError;
 use crate::model::{Entity, Point};
 use crate::sheet::Sheet;
 
-/// The way between one segment's end and the next one's start, in mm.
+/// Distance in mm between the end of a segment and the start of the next.
 const GAP: f64 = 20.0;
 
-/// A path whose ends are nearer to each other than this, in mm, is closed.
+/// Distance in mm between the ends of a path below which it counts as closed.
 const CLOSED: f64 = 1e-3;
 
-/// The radius in mm of the circle that stands for a closed path: a line without length could have no text.
+/// Radius in mm of the circle that represents a closed path, since a line without length could not have a text.
 const CIRCLE: f64 = 5.0;
 
-/// The way from the start of one path down to that of the next, in mm.
+/// Vertical distance in mm between the starts of consecutive paths.
 const ROW: f64 = 60.0;
 
-/// A path that embeds others.
+/// A path that embeds others, to be drawn.
 #[derive(Clone, Debug)]
 pub struct EmbeddingPath<'a> {
-    /// The layer, which is its name.
+    /// The layer, which is also the path's name.
     pub layer: &'a str,
-    /// The text at its start.
+    /// The text at the start.
     pub parameters: &'a str,
-    /// Its segments: the length in mm, and the text.
+    /// The segments: length in mm, and text.
     pub segments: Vec<(f64, &'a str)>,
 }
 
-/// Draws paths that embed others one after the other, each to the right, the first from (0, 0), the next below it.
+/// Draws paths that embed others. Each path is a row to the right; the first starts at (0, 0), and each further one below the one before.
 ///
 /// # Errors
-/// A segment that is too short for its text.
+/// A segment is too short for its text.
 pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Sheet, Vec<DrawError>> {
     let mut draft = Draft::new();
     let mut start = Point::new(0.0, 0.0);
@@ -59,7 +59,7 @@ fn draw(draft: &mut Draft, path: &EmbeddingPath<'_>, start: Point) {
     draft.add(Entity::end(at));
 }
 
-/// A segment from a point on, and where it ends. That of a closed path is a whole turn.
+/// A segment that begins at a point, and its end point. For a closed path it is a full circle.
 fn segment(from: Point, length: f64) -> (Entity, Point) {
     if length < CLOSED {
         let centre = from + Point::new(0.0, CIRCLE);
@@ -69,14 +69,14 @@ fn segment(from: Point, length: f64) -> (Entity, Point) {
     (Entity::line(from, to), to)
 }
 
-/// A text as MTEXT has it.
+/// Escapes a text for MTEXT.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
             '\\' | '{' | '}' => escaped.extend(['\\', character]),
             '\u{a0}' => escaped.push_str("\\~"),
-            // Else a control character would be read with what follows.
+            // Otherwise a caret would turn the next character into a control character.
             '^' => escaped.push_str("^ "),
             character => escaped.push(character),
         }

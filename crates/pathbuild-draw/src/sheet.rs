@@ -7,7 +7,7 @@ use crate::draft::{Block, Draft};
 use crate::model::{Entity, Layer, Options};
 use crate::write::{self, Template};
 
-/// A finished drawing: every text has its place, every entity its handle. It can be written as DXF, always as the same bytes.
+/// A finished drawing, in which every text has a position and every entity a handle. Its DXF output is deterministic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
     options: Options,
@@ -15,12 +15,12 @@ pub struct Sheet {
     line_types: Vec<(String, Vec<f64>)>,
     blocks: Vec<Block>,
     entities: Vec<Entity>,
-    /// What stands around it, and how many of the template's last entities are left out.
+    /// The surrounding template, and how many of its last entities to omit.
     template: Option<(Arc<Template>, usize)>,
     next_handle: u64,
 }
 
-/// The handles of entities begin here; those of tables and objects come after the last entity.
+/// First handle of entities; those of tables and objects follow the last entity.
 const FIRST_HANDLE: u64 = 0x100;
 
 impl Sheet {
@@ -52,7 +52,7 @@ impl Sheet {
         self.next_handle = free.next().map_or(highest, |handle| handle.0.max(highest));
     }
 
-    /// How it is written.
+    /// The options for writing.
     pub fn options(&self) -> &Options {
         &self.options
     }
@@ -62,7 +62,7 @@ impl Sheet {
         &self.layers
     }
 
-    /// Line types beside the usual ones.
+    /// Line types beyond the usual ones.
     pub fn line_types(&self) -> &[(String, Vec<f64>)] {
         &self.line_types
     }
@@ -72,18 +72,18 @@ impl Sheet {
         &self.blocks
     }
 
-    /// The entities in file order, texts behind the elements that they belong to; without the template.
+    /// The entities in file order, without the template. Each text follows the element it belongs to.
     pub fn entities(&self) -> &[Entity] {
         &self.entities
     }
 
-    /// The handles of what a line of the text form draws: the elements' first, each followed by its text's.
+    /// The handles of the entities drawn by a line of the text form; each element's handle is followed by that of its text.
     pub fn handles_of_line(&self, line: u32) -> impl Iterator<Item = Handle> + '_ {
         self.entities.iter().filter(move |entity| entity.line == line).filter_map(|entity| entity.handle)
     }
 
-    /// With a template around it, but for so many of the template's last entities. What is in a template is no part of
-    /// [`Sheet::entities`]; its layers are to be among the sheet's.
+    /// Surrounds the sheet with a template, except for the template's last `left_out` entities. The template's content does not appear in
+    /// [`Sheet::entities`], but its layers must be among the sheet's.
     pub fn within(self, template: Arc<Template>, left_out: usize) -> Self {
         Self { template: Some((template, left_out)), ..self }
     }
@@ -92,22 +92,22 @@ impl Sheet {
         self.template.as_ref().map(|(template, left_out)| (&**template, *left_out))
     }
 
-    /// The entities in the order in which the writer counts them: those of the drawing, then those of the blocks.
+    /// The entities in the order of their tags: those of the drawing, then those of the blocks.
     pub(crate) fn tagged(&self) -> Vec<&Entity> {
         self.entities.iter().chain(self.blocks.iter().flat_map(|block| &block.entities)).collect()
     }
 
-    /// The first handle behind all entities'.
+    /// The first handle after those of all entities.
     pub(crate) fn next_handle(&self) -> u64 {
         self.next_handle
     }
 
-    /// The drawing as DXF, ASCII or binary as the options say.
+    /// Writes the drawing as DXF, ASCII or binary according to the options.
     pub fn to_dxf(&self) -> Vec<u8> {
         if self.options.binary { self.to_binary_dxf() } else { write::ascii(self) }
     }
 
-    /// The drawing as binary DXF.
+    /// Writes the drawing as binary DXF.
     pub fn to_binary_dxf(&self) -> Vec<u8> {
         write::binary(self)
     }

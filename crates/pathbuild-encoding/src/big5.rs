@@ -1,7 +1,7 @@
-//! Big5, pair by pair. Where a pair means nothing the standard replaces both bytes, and Chromium the first one alone; of the four pairs that
-//! are two characters each Chromium 156 makes half a surrogate.
+//! Decodes Big5 pair by pair, because browsers deviate from the standard: for an undefined pair, the standard replaces both bytes, Chromium
+//! only the first; and for the four pairs that decode to two characters, Chromium 156 produces half a surrogate pair.
 
-/// Decodes a text by what each pair of bytes stands for; `None`: it stands for nothing. Also tells whether all did stand for something.
+/// Decodes a text with `pair`, which gives the meaning of a pair of bytes, if any. Also returns whether every pair had a meaning.
 pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>) -> (String, bool) {
     let (mut text, mut all_known) = (String::with_capacity(bytes.len() * 2), true);
     while let [first, rest @ ..] = bytes {
@@ -13,7 +13,7 @@ pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>)
         let known = match rest {
             [second, others @ ..] if (0x81..=0xFE).contains(first) => {
                 let known = two_characters([*first, *second]).or_else(|| pair([*first, *second]));
-                // ASCII is never lost with a byte that cannot stand before it.
+                // An ASCII byte is kept even if the byte before it must not precede it.
                 if known.is_some() || !second.is_ascii() {
                     bytes = others;
                 }
@@ -27,7 +27,7 @@ pub(crate) fn decode(mut bytes: &[u8], pair: impl Fn([u8; 2]) -> Option<String>)
     (text, all_known)
 }
 
-/// The pairs that stand for a letter with an accent that no character has.
+/// The pairs that decode to a letter and a combining accent.
 fn two_characters(pair: [u8; 2]) -> Option<String> {
     let text = match pair {
         [0x88, 0x62] => "\u{CA}\u{304}",

@@ -1,4 +1,4 @@
-//! The browser's `TextDecoder` under the names of `encoding_rs`. The page's worker brings `decode` along (`page/src/worker.ts`).
+//! The browser's `TextDecoder` behind the interface of `encoding_rs`. The page's worker provides `decode` (`page/src/worker.ts`).
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use crate::big5;
 /// An encoding.
 #[derive(Debug)]
 pub struct Encoding {
-    /// By which the standard knows it.
+    /// Its name in the encoding standard.
     label: &'static str,
     kind: Kind,
 }
@@ -57,12 +57,12 @@ encodings! {
 }
 
 impl Encoding {
-    /// Whether each byte is a character.
+    /// Whether each byte is one character.
     pub fn is_single_byte(&self) -> bool {
         self.kind == Kind::Single
     }
 
-    /// Decodes a text; what is damaged becomes U+FFFD. Also tells whether something was.
+    /// Decodes a text and replaces malformed input by U+FFFD. Also returns whether there was any.
     pub fn decode_without_bom_handling<'b>(&self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
         let (text, all_known) = match self.kind {
             Kind::Utf8 => return (String::from_utf8_lossy(bytes), std::str::from_utf8(bytes).is_err()),
@@ -72,7 +72,7 @@ impl Encoding {
         (Cow::Owned(text), !all_known)
     }
 
-    /// Decodes a text; `None`: something is damaged.
+    /// Decodes a text; `None` if it is malformed.
     pub fn decode_without_bom_handling_and_without_replacement<'b>(
         &self,
         bytes: &'b [u8],
@@ -86,17 +86,17 @@ fn whole((text, all_known): (String, bool)) -> Option<String> {
     all_known.then_some(text)
 }
 
-/// Bytes that are known to be ASCII.
+/// Decodes bytes that are known to be ASCII.
 pub fn decode_latin1(bytes: &[u8]) -> Cow<'_, str> {
     String::from_utf8_lossy(bytes)
 }
 
-/// Asks the browser. Also tells whether all bytes were characters.
+/// Decodes through the browser. Also returns whether the input was well-formed.
 #[expect(unsafe_code, reason = "what the browser is handed are addresses")]
 fn decoded(label: &str, bytes: &[u8]) -> (String, bool) {
     #[link(wasm_import_module = "browser")]
     unsafe extern "C" {
-        /// Writes UTF-8 to `text`, at most `room` bytes, and gives back how many; the complement of that where a text is damaged.
+        /// Writes at most `room` bytes of UTF-8 to `text` and returns their number, or its complement if the input is malformed.
         fn decode(
             label: *const u8,
             label_length: usize,
@@ -106,9 +106,9 @@ fn decoded(label: &str, bytes: &[u8]) -> (String, bool) {
             room: usize,
         ) -> isize;
     }
-    // No byte becomes more than U+FFFD does, and no pair more than four bytes.
+    // A single byte becomes at most the three bytes of U+FFFD, and a pair at most four bytes.
     let mut text = vec![0; 3 * bytes.len()];
-    // SAFETY: the browser reads and writes within the lengths that it is told, while all three are borrowed.
+    // SAFETY: the browser stays within the given lengths, and all three buffers are borrowed during the call.
     let written = unsafe {
         decode(label.as_ptr(), label.len(), bytes.as_ptr(), bytes.len(), text.as_mut_ptr(), text.len())
     };

@@ -1,8 +1,8 @@
-//! Bytes of texts to characters: what pathbuild needs of `encoding_rs`. (book: reference/dxf: "encoding")
+//! Decodes bytes of texts to characters, with the part of `encoding_rs` that pathbuild needs. (book: reference/dxf: "encoding")
 //!
-//! In a browser the same names stand for the browser's own `TextDecoder`, which knows the same encodings by the same standard: the tables
-//! of `encoding_rs` would be a tenth of the page. What both give is the same, to the last character of texts that are damaged; the test
-//! of the page (`pathbuild-view`, `page/web-test.mjs`) goes through all pairs of bytes in all code pages.
+//! In a browser, the same interface uses the browser's own `TextDecoder`, which implements the same standard: the tables of `encoding_rs`
+//! would make up a tenth of the page. Both give identical results, even for malformed texts; the test of the page (`pathbuild-view`,
+//! `page/web-test.mjs`) compares all pairs of bytes in all code pages.
 
 #[cfg(any(target_family = "wasm", test))]
 mod big5;

@@ -1,4 +1,4 @@
-//! Drawings: bytes to entities, texts to parameters, elements to programs.
+//! Targets for drawings: bytes to entities, texts to parameters, elements to programs.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ use pathbuild_toolpath::{Correction, Program};
 
 use crate::drawn::{Choices, dxf as drawn, written};
 
-/// Bytes of any kind as a drawing, ASCII or binary.
+/// Arbitrary bytes as a drawing, ASCII or binary.
 pub(crate) fn dxf(data: &[u8]) {
     compile(data);
 }
 
-/// Lines of any characters as texts of each kind of element, as names of layers, and as the name of a file.
+/// Lines of arbitrary characters as texts of each kind of element, as layer names, and as a file name.
 pub(crate) fn texts(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     let mut lines = text.lines();
@@ -51,12 +51,12 @@ pub(crate) fn texts(data: &[u8]) {
     }
 }
 
-/// Lines, arcs, circles and texts on a grid, which often make a path.
+/// Lines, arcs, circles and texts on a grid, which often form a path.
 pub(crate) fn walk(data: &[u8]) {
     compile(drawn(&mut Choices::new(data)).as_bytes());
 }
 
-/// Makes everything of a drawing, and shows all that is said.
+/// Compiles a drawing completely and renders all findings.
 fn compile(bytes: &[u8]) {
     let system = Arc::new(MemorySystem::default());
     system.put("1001.dxf", bytes);
@@ -86,12 +86,12 @@ fn settle(db: &Database) {
     };
     let (files, search) = (FilePattern::default(), Vec::new());
     let fold = PathOptions { feed: Some(100.0), sweep_height: Some(20.0), ..PathOptions::default() };
-    // A fuzzer would find what takes long only because it is much.
+    // Without this limit, a fuzzer would find slow inputs that are merely large.
     let limits = Limits { moves: 20_000, ..Limits::default() };
     Settings::new(db, Reading::default(), Arc::new(language), files, search, Vec::new(), fold, limits);
 }
 
-/// What is said can be shown, and is no bug.
+/// Checks that findings can be rendered and are not bugs.
 fn judge<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
     for diagnostic in found {
         let text = diagnostic.text(Lang::En) + &diagnostic.text(Lang::De);
@@ -101,7 +101,7 @@ fn judge<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
     }
 }
 
-/// What is written is read back, natively and through posts.
+/// Writes a program natively and through posts, and reads it back.
 fn write(program: &Program) {
     let options = WriteOptions {
         lang: Lang::En,

@@ -1,8 +1,8 @@
-//! Drawings made from bytes: what is drawn is on a small grid, so that ends meet.
+//! Builds drawings from bytes, on a small grid so that ends meet.
 
 use std::fmt::Write;
 
-/// Bytes that decisions are made by; where there are none left, the first possibility is taken.
+/// A source of decisions. After the last byte, the first alternative is always taken.
 pub(crate) struct Choices<'a>(std::slice::Iter<'a, u8>);
 
 impl<'a> Choices<'a> {
@@ -22,7 +22,7 @@ impl<'a> Choices<'a> {
         items[usize::from(self.below(u8::try_from(items.len()).unwrap_or(u8::MAX)))]
     }
 
-    /// A coordinate in mm: of the grid, or a little beside it.
+    /// A coordinate in mm: on the grid, or slightly off it.
     fn coordinate(&mut self) -> f64 {
         let place = 10.0 * f64::from(self.below(6));
         match self.below(16) {
@@ -92,10 +92,10 @@ const RADII: [f64; 9] = [0.5, 0.75, 1.0, 3.0, 1.0004, 1.001, 2.0, 7.5, 0.0];
 
 const ANGLES: [f64; 9] = [0.0, 90.0, 180.0, 270.0, 360.0, 450.0, 36.87, -90.0, 1e-7];
 
-/// A drawing with whatever the bytes say.
+/// A drawing determined by the bytes.
 pub(crate) fn dxf(choices: &mut Choices<'_>) -> String {
     let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
-    // A start and an end make it likely that there is a path.
+    // A start and an end make a valid path likely.
     entity(&mut text, "CIRCLE", "1001.1P", "PHANTOM", &[(10, 0.0), (20, 0.0), (40, 0.5)]);
     written(&mut text, "TEXT", "1001.1P", 0.0, 0.0, "T5 O2 I1 B0 MX");
     while choices.has_more() {
@@ -150,7 +150,7 @@ fn any(text: &mut String, choices: &mut Choices<'_>) {
     }
 }
 
-/// A rectangle, mostly closed, with a height in it.
+/// Draws a rectangle, usually closed, with a height in it.
 fn clamp(text: &mut String, choices: &mut Choices<'_>, x: f64, y: f64) {
     let (right, top) = (x + choices.coordinate(), y + choices.coordinate());
     let closed = if choices.below(8) == 7 { 0.0 } else { 1.0 };
@@ -167,7 +167,7 @@ fn entity(text: &mut String, kind: &str, layer: &str, line_type: &str, pairs: &[
     }
 }
 
-/// A text of height 1 at a place.
+/// Draws a text with a height of 1 mm.
 pub(crate) fn written(text: &mut String, kind: &str, layer: &str, x: f64, y: f64, content: &str) {
     let attachment = if kind == "MTEXT" { "71\n5\n" } else { "" };
     _ = write!(text, "0\n{kind}\n8\n{layer}\n10\n{x}\n20\n{y}\n40\n1\n{attachment}1\n{content}\n");

@@ -1,15 +1,15 @@
-//! What fuzz targets do with their bytes. A target is a function that panics where pathbuild is wrong: it panics itself, hangs, says PB006, or
-//! contradicts itself. The tests of this crate hand them the corpora in `fuzz/corpus`, and inputs made of those by chance.
+//! The functions behind the fuzz targets. A target panics if pathbuild misbehaves: if it panics, hangs, reports PB006, or contradicts
+//! itself. The tests of this crate run all targets on the corpora in `fuzz/corpus` and on random mutations of them.
 
 mod drawing;
 mod drawn;
 mod program;
 mod settings;
 
-/// A target by its name.
+/// A target with its name.
 pub type Target = (&'static str, fn(&[u8]));
 
-/// All targets, named like their corpora in `fuzz/corpus`.
+/// All targets, named after their corpora in `fuzz/corpus`.
 pub const TARGETS: [Target; 8] = [
     ("dxf", drawing::dxf),
     ("texts", drawing::texts),
@@ -21,10 +21,10 @@ pub const TARGETS: [Target; 8] = [
     ("cache", settings::cache),
 ];
 
-/// Runs a target on some bytes.
+/// Runs a target.
 ///
 /// # Panics
-/// Where pathbuild is wrong, and where there is no such target.
+/// If pathbuild misbehaves, or there is no such target.
 pub fn run(name: &str, data: &[u8]) {
     let target = TARGETS.iter().find(|(it, _)| *it == name);
     assert!(target.is_some(), "there is no target {name}");

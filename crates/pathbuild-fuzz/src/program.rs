@@ -1,4 +1,4 @@
-//! G-code, definitions of posts, and measured values.
+//! Targets for G-code, post definitions and measured values.
 
 use camino::Utf8Path;
 use pathbuild_gcode::adjust::{Inputs, Source, adjust};
@@ -10,7 +10,7 @@ use pathbuild_post::{Job, Post, PostOptions, native_remark};
 
 const PROGRAM: &[u8] = b"%\n(P 1)\nF100\nG00 Z20.000\nG00 X0.000 Y0.000\nG01 F100.000 Z0.000\nG01 X40.000 Y0.000\nG02 F100.000 X40.000 Y-10.000 I0.000 J-5.000\nG00 Z20.000\nM30\n%\n";
 
-/// A definition of a post: if it can be read, a program is written with it.
+/// A post definition: if it can be read, a program is written with it.
 pub(crate) fn post(data: &[u8]) {
     for file in ["post.cbpp", "post.toml"] {
         let Ok(post) = Post::read(data, Utf8Path::new(file)) else { continue };
@@ -21,7 +21,7 @@ pub(crate) fn post(data: &[u8]) {
     }
 }
 
-/// A program; the first byte chooses the dialect.
+/// A G-code program; the first byte selects the dialect.
 pub(crate) fn gcode(data: &[u8]) {
     let Some((choice, text)) = data.split_first() else { return };
     let dialect = Dialect::ALL[usize::from(*choice) % Dialect::ALL.len()];
@@ -43,7 +43,7 @@ pub(crate) fn gcode(data: &[u8]) {
 
 const CLEAN: &[u8] = b"%\n([0.000 0.000]/T=5.000 #51)\nG00 Z20.000\nG01 F150.000 X1.000 Y0.000 Z1.000(=1.000+1.000*[#51-5.000])\nM30\n%\n";
 
-/// Values, and behind a line of dashes a program and a log.
+/// Measured values, followed by a program and a log, separated by lines of dashes.
 pub(crate) fn values(data: &[u8]) {
     let mut parts = Vec::new();
     let mut rest = data;
@@ -64,7 +64,7 @@ pub(crate) fn values(data: &[u8]) {
     };
     if let Ok(adjusted) = adjust(&inputs) {
         let (least, most) = adjusted.corrections;
-        // Weights are rounded to three decimals, which `adjust` allows for.
+        // Weights are rounded to three decimals, for which `adjust` has a tolerance.
         let limit = 1.002 + 0.002 + 1e-9;
         assert!(least.abs() <= limit && most.abs() <= limit, "a correction is too large");
     }

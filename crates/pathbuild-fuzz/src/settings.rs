@@ -1,4 +1,4 @@
-//! What a tree says beside its drawings, and what is kept of earlier runs.
+//! Targets for the configuration and cached results.
 
 use camino::Utf8Path;
 use pathbuild_cache::decode;
@@ -14,7 +14,7 @@ pub(crate) fn config(data: &[u8]) {
     }
 }
 
-/// Findings as they are kept.
+/// Cached findings.
 pub(crate) fn cache(data: &[u8]) {
     if let Ok(found) = decode::<Diagnostic>(data) {
         _ = (found.text(Lang::En), found.help(Lang::De));

@@ -1,5 +1,5 @@
-//! What fuzzers begin with, and what they found, goes through each target. `PATHBUILD_FUZZ_INPUTS` says how many more inputs are tried,
-//! which are made of the corpora by chance (always the same).
+//! Runs each target on its corpus, which contains seeds and earlier discoveries. `PATHBUILD_FUZZ_INPUTS` sets the number of further inputs,
+//! which are deterministic mutations of the corpus.
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,
@@ -19,7 +19,7 @@ fn corpus(target: &str) -> Vec<Vec<u8>> {
     files.into_iter().map(|file| fs::read(file).unwrap()).collect()
 }
 
-/// Numbers without a pattern, the same in every run (xorshift).
+/// Deterministic pseudo-random numbers (xorshift).
 struct Chance(u64);
 
 impl Chance {
@@ -31,7 +31,7 @@ impl Chance {
     }
 }
 
-/// An input with some bytes changed, put in, left out, repeated, or taken from another.
+/// An input with bytes changed, inserted, removed, repeated, or taken from another input.
 fn changed(corpus: &[Vec<u8>], chance: &mut Chance) -> Vec<u8> {
     let mut input = corpus[chance.below(corpus.len())].clone();
     for _ in 0..=chance.below(6) {

@@ -1,8 +1,8 @@
-//! What tests, benchmarks and the examples of `explain` share. The product does not ship it.
+//! Shared support for tests, benchmarks and the examples of `explain`. It is not part of the product.
 //!
-//! [`sheet`] reads a drawing in the text form that README.md describes; a [`Fixture`] holds several drawings and other files in one
-//! text, with what commands are expected to say about them; [`generate`] makes libraries of any size. Drawings made in Rust are those of
-//! pathbuild-draw, which stand here again.
+//! [`sheet`] parses a drawing in the text form that README.md describes; a [`Fixture`] contains several drawings and other files in one
+//! text, with commands and their expected results; [`generate`] creates libraries of any size. Drawings built in Rust use pathbuild-draw,
+//! which is re-exported here.
 
 mod fixture;
 mod furniture;
@@ -23,7 +23,7 @@ pub use oracle::{is_required, project, shared, skip};
 pub use parse::sheet;
 pub use workshop::Workshop;
 
-/// The examples of README.md are tests.
+/// Compiles the examples of README.md as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeExamples;

@@ -1,4 +1,4 @@
-//! What tests compare with and is no part of the project. Where it is absent a test is skipped, which is said and noted.
+//! External references that tests compare with. If one is absent, the test is skipped, which is reported and recorded.
 
 use std::fs::File;
 use std::io::Write;
@@ -9,7 +9,7 @@ pub fn project() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
-/// Test data that is not ours to keep and lies beside the project, in ../shared; `None` where it is absent, which is a skip.
+/// Test data that is not ours to publish, in ../shared beside the project; `None` if it is absent, in which case the test is skipped.
 #[expect(clippy::disallowed_methods, reason = "test data lies beside the project")]
 pub fn shared(name: &str) -> Option<PathBuf> {
     let path = project().join("../shared").join(name);
@@ -20,11 +20,11 @@ pub fn shared(name: &str) -> Option<PathBuf> {
     None
 }
 
-/// Says that a test is skipped, and why: on the standard error, and in the file that `PATHBUILD_SKIPPED` names, since runners keep to
-/// themselves what a test says that passes.
+/// Reports that a test is skipped, and why: on standard error, and in the file named by `PATHBUILD_SKIPPED`, since test runners hide the
+/// output of passing tests.
 ///
 /// # Panics
-/// Where `PATHBUILD_REQUIRE` names the oracle.
+/// If `PATHBUILD_REQUIRE` names the oracle.
 pub fn skip(oracle: &str, reason: &str) {
     assert!(!is_required(oracle), "PATHBUILD_REQUIRE has {oracle}: {reason}");
     let test = std::thread::current().name().unwrap_or("a test").to_owned();
@@ -36,7 +36,7 @@ pub fn skip(oracle: &str, reason: &str) {
     }
 }
 
-/// Whether the absence of an oracle is a failure.
+/// Whether the absence of an oracle fails the test.
 #[expect(clippy::disallowed_methods, reason = "the environment says which oracles there are")]
 pub fn is_required(oracle: &str) -> bool {
     std::env::var("PATHBUILD_REQUIRE").is_ok_and(|names| names.split(',').any(|name| name == oracle))

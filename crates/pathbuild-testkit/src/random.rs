@@ -1,11 +1,11 @@
-/// Numbers that look random and follow from a seed alone (`SplitMix64`).
+/// Deterministic pseudo-random numbers (`SplitMix64`).
 #[derive(Clone, Debug)]
 pub(crate) struct Random {
     state: u64,
 }
 
 impl Random {
-    /// One stream for each seed and each thing it is used for.
+    /// Creates a stream of numbers for a seed and a purpose.
     pub(crate) fn new(seed: u64, stream: u64) -> Self {
         let mut random = Self { state: seed };
         random.state ^= random.next().wrapping_add(stream.wrapping_mul(0xd134_2543_de82_ef95));
@@ -26,12 +26,12 @@ impl Random {
         usize::try_from(below).unwrap_or_default()
     }
 
-    /// One of several.
+    /// A random element of a slice.
     pub(crate) fn pick<T: Copy>(&mut self, all: &[T]) -> T {
         all[self.below(all.len())]
     }
 
-    /// A multiple of `step` from `low` to `high`.
+    /// A random multiple of `step` from `low` to `high`.
     pub(crate) fn between(&mut self, low: f64, high: f64, step: f64) -> f64 {
         let mut steps = 1;
         while low + step * steps as f64 <= high + step * 1e-6 {
@@ -40,7 +40,7 @@ impl Random {
         low + step * self.below(steps) as f64
     }
 
-    /// True once in `count` times.
+    /// True with probability 1 / `count`.
     pub(crate) fn once_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
     }

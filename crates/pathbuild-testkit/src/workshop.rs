@@ -1,5 +1,4 @@
-//! Libraries with all that can be right and wrong about embeddings, edited again and again: for tests that hold two ways to the same
-//! answer against each other.
+//! Randomly edited libraries with all kinds of correct and faulty embeddings, for tests that compare two implementations.
 
 use std::fmt::Write;
 
@@ -7,18 +6,18 @@ use crate::naive::{Files, Rules};
 use crate::parse::sheet;
 use crate::random::Random;
 
-/// A library in the directory `lib`, with another directory `spare` that is searched, edited step by step.
+/// A library in the directory `lib`, with another search directory `spare`, edited step by step.
 #[derive(Debug)]
 pub struct Workshop {
     random: Random,
     files: Files,
     rules: Rules,
     slots: Vec<Slot>,
-    /// Numbers of components that are defined once more in `spare`.
+    /// Numbers of components that also have a definition in `spare`.
     spares: Vec<u32>,
 }
 
-/// A drawing of the library: under a name that may change, or away.
+/// A drawing of the library, which may be renamed or missing.
 #[derive(Debug)]
 struct Slot {
     kind: ComponentKind,
@@ -29,13 +28,13 @@ struct Slot {
 enum ComponentKind {
     Component(u32),
     Project(u32),
-    /// Of a component.
+    /// The Q-project of a component.
     QProject(u32),
-    /// Each path embeds the next: more than may be.
+    /// Paths that each embed the next, deeper than allowed.
     Chain,
 }
 
-/// What must agree where a path is embedded.
+/// Properties that the embedding segment must match.
 struct Signature {
     thickness: u32,
     material: &'static str,
@@ -47,14 +46,14 @@ struct Signature {
 const COMPONENTS: u32 = 6;
 const PROJECTS: u32 = 4;
 
-/// How long the rapid move is between what a project embeds, in mm.
+/// Length in mm of the rapid moves between the embeddings of a project.
 const SWEEP: u32 = 30;
 
-/// Paths of a chain: two more than may be embedded in each other.
+/// Number of paths in a chain: two more than may be nested.
 const CHAIN: u32 = 13;
 
 impl Workshop {
-    /// A library by its seed.
+    /// Creates the library of a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(seed, 7);
         let mut kinds: Vec<ComponentKind> =
@@ -81,12 +80,12 @@ impl Workshop {
         &self.files
     }
 
-    /// What the configuration says.
+    /// The relevant part of the configuration.
     pub fn rules(&self) -> &Rules {
         &self.rules
     }
 
-    /// Changes something: draws anew, renames, removes, defines a path once more. What may have changed: files by their paths.
+    /// Makes a random change: redraws, renames or removes a drawing, or defines a path twice. Returns the paths of the affected files.
     pub fn edit(&mut self) -> Vec<String> {
         let slot = self.random.below(self.slots.len());
         let before = self.slots[slot].file.clone();
@@ -102,7 +101,7 @@ impl Workshop {
         before.into_iter().chain(self.slots[slot].file.clone()).collect()
     }
 
-    /// Draws a drawing anew, right or with a fault.
+    /// Redraws a drawing, either correct or with a fault.
     fn draw(&mut self, slot: usize) {
         let kind = self.slots[slot].kind;
         let file = match self.slots[slot].file.clone() {
@@ -117,7 +116,7 @@ impl Workshop {
             ComponentKind::Chain => chain(),
         };
         if matches!(kind, ComponentKind::Component(_)) && random.once_in(20) {
-            // The CAD had no room to write the rest.
+            // A truncated file, as if the CAD program had run out of disk space.
             bytes.truncate(bytes.len() * 4 / 5);
         }
         self.files.insert(file.clone(), bytes);
@@ -132,7 +131,7 @@ impl Workshop {
         self.slots[slot].file = Some(new);
     }
 
-    /// Defines a component once more, or no longer.
+    /// Adds or removes a second definition of a component.
     fn spare(&mut self) -> String {
         if !self.spares.is_empty() && self.random.once_in(2) {
             let number = self.spares.remove(self.random.below(self.spares.len()));
@@ -189,12 +188,12 @@ fn signature(number: u32) -> Signature {
     }
 }
 
-/// Text in the text form; `0` is right.
+/// Writes a drawing in text form as DXF.
 fn dxf(text: &str) -> Vec<u8> {
     sheet(text).unwrap_or_else(|errors| unreachable!("{}: {text}", errors[0])).to_dxf()
 }
 
-/// A layer's name as people spell it.
+/// A layer name in one of several spellings.
 fn layer(name: &str, random: &mut Random) -> String {
     match random.below(8) {
         0 => name.to_lowercase(),
@@ -251,8 +250,8 @@ fn component(number: u32, random: &mut Random) -> Vec<u8> {
     dxf(&text)
 }
 
-/// A clamp beside the middle of the first path, of what lies behind it in projects, or of the rapid move there: just touching, in the way,
-/// lower or higher than the moves, or drawn so that its height is not clear.
+/// Draws a clamp beside the middle of the first path, beside the path behind it in projects, or beside the rapid move in between: just
+/// touching, in the way, lower or higher than the moves, or with an unclear height.
 fn clamp(text: &mut String, random: &mut Random) {
     let x = random.pick(&[15, 15, 52, 82]);
     let y = random.pick(&["1", "0.75"]);
@@ -267,7 +266,7 @@ fn clamp(text: &mut String, random: &mut Random) {
     _ = writeln!(text, "text {},10 \"{said}\"", x + 3);
 }
 
-/// Lines to be copied into projects, one for most paths.
+/// Draws proxy lines for most paths.
 fn proxies(text: &mut String, paths: usize, random: &mut Random) {
     _ = writeln!(text, "layer \"1001 PROXY\"");
     for path in 0..paths {
@@ -316,7 +315,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
     for segment in 0..2 {
         let fault = if segment == faulty { fault } else { 0 };
         let embedded = match fault {
-            // Itself, or one that may embed it.
+            // Itself, or a path that may embed it.
             4 | 5 => 8001 + u32::try_from(random.below((number - 8000) as usize)).unwrap_or_default(),
             _ => 1001 + u32::try_from(random.below(COMPONENTS as usize)).unwrap_or_default(),
         };
@@ -376,7 +375,7 @@ fn chain() -> Vec<u8> {
     dxf(&text)
 }
 
-/// A text behind an element; none where there is nothing to say.
+/// A quoted text after an element, or nothing if it is empty.
 fn quoted(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!(" \"{text}\"") }
 }

@@ -1,7 +1,7 @@
-//! What there is to see of a path, a drawing or a program, and pictures of it.
+//! Scenes of paths, drawings and programs, and pictures of them.
 //!
-//! A [`Scene`] is plain data with one JSON form. It is made from a program and where its steps come from, from a drawing whose paths have
-//! errors, or from G-code. Renderers turn it into text or bytes. Nothing here does IO or prints. (docs: "Pictures")
+//! A [`Scene`] is plain data with one JSON form. It is built from a program with the origins of its steps, from a drawing with erroneous
+//! paths, or from G-code. Renderers turn it into text or bytes. This crate does no IO and prints nothing. (docs: "Pictures")
 
 mod build;
 mod changes;

@@ -1,5 +1,5 @@
-//! The page: one HTML file that asks the network for nothing. Its script is written in TypeScript (page/src) and built by esbuild; what is
-//! built is committed, and CI holds it against its source.
+//! The page: one self-contained HTML file. Its script is written in TypeScript (page/src) and built by esbuild; the result is committed,
+//! and CI compares it with the source.
 
 use pathbuild_diagnostic::Lang;
 
@@ -14,17 +14,17 @@ const STYLE: &str = include_str!("../page/style.css");
 /// The script of both pages.
 pub const SCRIPT: &str = include_str!("../page/dist/page.js");
 
-/// The style of the page that is live.
+/// The style of the live page.
 pub const LIVE_STYLE: &str = concat!(include_str!("../page/style.css"), include_str!("../page/live.css"));
 
-/// The scene as a page.
+/// Renders a scene as a page.
 pub fn page(scene: &Scene, lang: Lang) -> String {
     let title = escaped(&scene.title);
-    // In the page other elements have these names.
+    // Other elements of the page have the same names.
     let still = svg(scene, Shown::all(lang))
         .replace(" id=\"", " id=\"still-")
         .replace("=\"url(#frame)", "=\"url(#still-frame)");
-    // Within a script's text only `<` could end it.
+    // Inside a script element, only `<` could end the script.
     let data = scene.to_json().replace('<', "\\u003c");
     let viewer = filled(VIEWER, &|name| match name {
         "title" => &title,
@@ -42,7 +42,7 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
     })
 }
 
-/// The page that is live: it asks the server that gave it out for its script ([`SCRIPT`]), its style ([`LIVE_STYLE`]) and what it shows.
+/// The live page. It requests its script ([`SCRIPT`]), its style ([`LIVE_STYLE`]) and its data from the server.
 pub fn live_page(lang: Lang) -> String {
     let viewer = filled(VIEWER, &|_| "");
     filled(LIVE_TEMPLATE, &|name| match name {
@@ -59,7 +59,7 @@ fn code(lang: Lang) -> &'static str {
     }
 }
 
-/// A template with something in the place of each `{{name}}`.
+/// Fills in the placeholders `{{name}}` of a template.
 fn filled<'a>(template: &str, value: &dyn Fn(&str) -> &'a str) -> String {
     let mut page = String::with_capacity(template.len());
     let mut rest = template;

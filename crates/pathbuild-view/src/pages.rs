@@ -1,15 +1,15 @@
-//! Several pictures as the pages of one PDF.
+//! Joins several pictures as the pages of a PDF.
 
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref};
 use usvg::Tree;
 
-/// A page of A4 in points.
+/// Size of an A4 page in points.
 const PAPER: [f32; 2] = [595.276, 841.89];
 
-/// By what a page's content names its picture.
+/// The name by which a page refers to its picture.
 const PICTURE: Name<'static> = Name(b"S");
 
-/// A PDF whose pages are filled by pictures, each by one. What it says about itself comes first, so that it is found in the head of the file.
+/// A PDF with one picture on each page. The metadata comes first, so that it is found in the head of the file.
 pub(crate) fn joined(trees: &[Tree], metadata: &str) -> Result<Vec<u8>, String> {
     let mut next = 1..;
     let mut fresh = move || Ref::new(next.next().unwrap_or(i32::MAX));
@@ -40,8 +40,8 @@ pub(crate) fn joined(trees: &[Tree], metadata: &str) -> Result<Vec<u8>, String> 
     Ok(in_order(&pdf.finish()))
 }
 
-/// The same PDF with the entries of its dictionaries that refer to objects in order: svg2pdf has them in that of a table of hashes, which is
-/// another one in each run. Order means nothing there, and no object moves.
+/// Sorts the dictionary entries that refer to objects: svg2pdf writes them in the order of a hash table, which differs between runs. The
+/// order has no meaning in PDF, and the offsets of objects stay the same.
 pub(crate) fn in_order(pdf: &[u8]) -> Vec<u8> {
     let mut lines: Vec<&[u8]> = pdf.split_inclusive(|byte| *byte == b'\n').collect();
     for entries in lines.chunk_by_mut(|a, b| is_entry(a) && is_entry(b)) {

@@ -1,5 +1,4 @@
-//! Pictures as PNG and PDF. The one font comes with the program: fonts of the system are never read, so that a picture is the same
-//! everywhere.
+//! Pictures as PNG and PDF. The font is part of the program; system fonts are never used, so that pictures are the same everywhere.
 
 use std::sync::{Arc, LazyLock};
 
@@ -12,16 +11,16 @@ use crate::pages;
 use crate::scene::Scene;
 use crate::svg::{Sheet, Shown, sheet_pages, svg, xmp};
 
-/// The letters that pictures need, of the font `DejaVu Sans`.
+/// A subset of `DejaVu Sans` with the characters that pictures need.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
 
-/// The family's name in the font.
+/// The name of the font family.
 const FAMILY: &str = "DejaVu Sans";
 
-/// Pixels of a PNG for a px of the page.
+/// Pixels of a PNG per px of the page.
 const PIXELS: f32 = 2.0;
 
-/// The font is made ready once.
+/// The font database, loaded once.
 static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut fonts = Database::new();
     fonts.load_font_data(FONT.to_vec());
@@ -31,10 +30,10 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// The scene as PNG.
+/// Renders a scene as PNG.
 ///
 /// # Errors
-/// The picture is too large for memory, or a bug.
+/// The picture is too large for memory, or there is a bug.
 pub fn png(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let size = tree.size().to_int_size().scale_by(PIXELS).ok_or("the picture has no size")?;
@@ -43,20 +42,20 @@ pub fn png(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
     pixels.encode_png().map_err(|error| error.to_string())
 }
 
-/// The scene as PDF.
+/// Renders a scene as PDF.
 ///
 /// # Errors
-/// A bug.
+/// Only if there is a bug.
 pub fn pdf(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let pdf = svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), svg2pdf::PageOptions::default());
     pdf.map(|pdf| pages::in_order(&pdf)).map_err(|error| error.to_string())
 }
 
-/// A sheet as PDF, a page of A4 each.
+/// Renders a setup sheet as PDF, with A4 pages.
 ///
 /// # Errors
-/// A bug.
+/// Only if there is a bug.
 pub fn sheet_pdf(sheet: &Sheet, lang: Lang) -> Result<Vec<u8>, String> {
     let pages = sheet_pages(sheet, lang);
     let trees: Vec<Tree> = pages.iter().map(|page| tree(page)).collect::<Result<_, _>>()?;

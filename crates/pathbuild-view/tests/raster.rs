@@ -1,5 +1,5 @@
-//! PNG and PDF have letters: an empty font database gives pictures without any, silently. Pages ask for nothing and take nothing for
-//! markup.
+//! PNG and PDF contain letters: with an empty font database, rendering silently omits them. Pages request nothing and do not interpret
+//! texts as markup.
 #![cfg(feature = "pictures")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up has failed")]
 
@@ -32,7 +32,7 @@ fn a_page_is_whole_and_takes_no_name_for_markup() {
     let made = page(&Scene::new(title), Lang::De);
     assert!(made.starts_with("<!doctype html>\n<html lang=\"de\">"));
     assert!(!made.contains("alert(1)</script>"));
-    // One for the scene, one of ours.
+    // One script element for the scene, and one with the code.
     assert_eq!((made.matches("<script").count(), made.matches("</script").count()), (2, 2));
     assert!(made.contains("default-src 'none'") && made.contains("data-word=\"rapids\""));
     assert_eq!(made, page(&Scene::new(title), Lang::De));

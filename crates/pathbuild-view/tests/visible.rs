@@ -1,4 +1,4 @@
-//! What the page's script shows escaped is what the program shows escaped.
+//! The page's script escapes the same characters as the program.
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up has failed")]
 
 use pathbuild_diagnostic::shown;
@@ -11,7 +11,7 @@ fn the_page_escapes_what_the_program_escapes() {
     let class = SCRIPT.split_once("/[").unwrap().1.split_once("]/gu").unwrap().0;
     let escaped = Regex::new(&format!("^[{class}]$")).unwrap();
     for character in (0..=0x10_ffff).filter_map(char::from_u32) {
-        // Lines stay lines there.
+        // Line breaks are kept there.
         let is_meant = character != '\n' && shown::acts(character);
         assert_eq!(escaped.is_match(character.encode_utf8(&mut [0; 4])), is_meant, "{character:?}");
     }

@@ -8,7 +8,7 @@ use crate::files::Files;
 use crate::message::{Answer, Question};
 use crate::opened::Opened;
 
-/// Answers a page.
+/// Answers the messages of a page.
 #[derive(Debug, Default)]
 pub struct Compiler {
     files: Arc<Files>,
@@ -16,7 +16,7 @@ pub struct Compiler {
 }
 
 impl Compiler {
-    /// Answers a message: a line of JSON ([`Question`]), and bytes. What cannot be understood is answered by `{ wrong }`.
+    /// Answers a message: a line of JSON ([`Question`]) followed by bytes. The reply to a malformed message is `{ wrong }`.
     pub fn answer(&mut self, message: &[u8]) -> Vec<u8> {
         let end = message.iter().position(|byte| *byte == b'\n').unwrap_or(message.len());
         let (line, bytes) = (&message[..end], message.get(end + 1..).unwrap_or_default());

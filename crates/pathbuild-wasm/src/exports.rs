@@ -1,5 +1,5 @@
-//! What a browser calls. One message at a time: it asks for room ([`room`]), writes the question there, has it answered ([`answer`]), and reads
-//! the answer where it lies ([`answered`]).
+//! The C interface for the browser. It handles one message at a time: it requests a buffer ([`room`]), writes the question into it,
+//! requests the answer ([`answer`]), and reads it in place ([`answered`]).
 #![expect(
     unsafe_code,
     reason = "a function that is called from outside has a name that nobody else may have"
@@ -20,7 +20,7 @@ thread_local! {
 
 static BEGUN: Once = Once::new();
 
-/// Room for a question of so many bytes: where it is.
+/// Provides a buffer of this size in bytes for a question, and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(length: usize) -> *mut u8 {
     BEGUN.call_once(|| panic::set_hook(Box::new(keep)));
@@ -30,7 +30,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
     })
 }
 
-/// Answers the question: how many bytes the answer has.
+/// Answers the question in the buffer. Returns the length of the answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
     let question = QUESTION.take();
@@ -39,25 +39,25 @@ pub extern "C" fn answer() -> usize {
     ANSWER.with_borrow(Vec::len)
 }
 
-/// Where the answer is.
+/// The address of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answered() -> *const u8 {
     ANSWER.with_borrow(Vec::as_ptr)
 }
 
-/// How many bytes a panic said, by which the call ended; 0: something else ended it.
+/// Length in bytes of the message of a panic that ended the call; 0 if it ended for another reason.
 #[unsafe(no_mangle)]
 pub extern "C" fn panicked() -> usize {
     PANIC.with_borrow(Vec::len)
 }
 
-/// Where these are.
+/// The address of the panic's message.
 #[unsafe(no_mangle)]
 pub extern "C" fn panic_text() -> *const u8 {
     PANIC.with_borrow(Vec::as_ptr)
 }
 
-/// Keeps what a panic says: it ends the call, but memory can still be read.
+/// Stores the message of a panic, since memory stays readable after the call has ended.
 fn keep(panic: &panic::PanicHookInfo<'_>) {
     let text = panic.payload_as_str().unwrap_or_default();
     PANIC.replace(text.as_bytes().to_vec());

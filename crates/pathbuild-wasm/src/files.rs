@@ -1,5 +1,5 @@
-//! The files of a page: what it was given, and beside that what is written until it has been handed over. What was given stays as it is:
-//! the state of a program on disk is that of the visitor's disk.
+//! The files of a page: those it was given, and those written but not yet handed over. The given files are never modified, so that the
+//! state of a program reflects the visitor's disk.
 
 use std::time::{Instant, SystemTime};
 
@@ -21,12 +21,12 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Puts a file there that the page was given.
+    /// Adds a file given by the page.
     pub(crate) fn put(&self, path: Utf8PathBuf, bytes: &[u8]) {
         self.given.put(path, bytes);
     }
 
-    /// Hands over a file that was written, or was there already.
+    /// Hands over a file that was written or given.
     pub(crate) fn take(&self, path: &Utf8Path) -> Vec<u8> {
         let bytes = self.read(path, u64::MAX).unwrap_or_default();
         _ = self.written.remove(path);

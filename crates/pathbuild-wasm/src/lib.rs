@@ -1,10 +1,10 @@
-//! The compiler for a page in a browser: files in memory, questions and answers as messages. (book: program/browser)
+//! The compiler for a page in a browser, with files in memory and messages as its interface. (book: program/browser)
 //!
-//! A message is a line of JSON and, behind it, bytes. The page puts files ([`Question::Put`]), opens what they are ([`Question::Open`]), and
-//! asks path by path, so that it knows which one took too long or showed a bug: a panic ends WebAssembly. It begins anew then, and names
-//! that path among those that were lost; they have PB005 or PB006.
+//! A message is a line of JSON followed by bytes. The page adds files ([`Question::Put`]), opens them ([`Question::Open`]), and then
+//! queries path by path, so that it knows which path took too long or triggered a bug, since a panic ends the WebAssembly instance. It then
+//! starts a new instance and lists that path as lost; lost paths get PB005 or PB006.
 //!
-//! The functions that a browser calls are in `exports`; everything else runs anywhere, and is tested as the rest is.
+//! The functions called by the browser are in `exports`; everything else is portable and has ordinary tests.
 
 mod compiler;
 #[cfg(target_family = "wasm")]

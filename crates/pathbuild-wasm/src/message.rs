@@ -1,76 +1,76 @@
-//! What is asked and answered.
+//! Questions and answers.
 
 use pathbuild_diagnostic::Lang;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// What the page asks. Paths of files are relative to the folder that it was given.
+/// A question of the page. File paths are relative to the folder that the page was given.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
 pub enum Question {
-    /// A file; its bytes follow. No answer.
+    /// Adds a file; its bytes follow. There is no answer.
     Put {
-        /// Where it lies.
+        /// The path of the file.
         file: String,
     },
-    /// What the files are: `{ halted, problems, drawings, posts, seconds }`. Everything else is asked after that.
+    /// Opens the files: `{ halted, problems, drawings, posts, seconds }`. All further questions come after this one.
     Open {
-        /// What the page says beside the configuration.
+        /// Options that override the configuration.
         #[serde(default)]
         options: Options,
-        /// What was lost before.
+        /// Paths and drawings that ended earlier instances.
         #[serde(default)]
         lost: Vec<Lost>,
     },
-    /// The paths of a drawing: `{ rows }`, without their states; a row without a path where the drawing is wrong as a whole.
+    /// The paths of a drawing, without their states: `{ rows }`. A drawing with an error of its own has a row without a path.
     Index {
         /// The drawing.
         file: String,
     },
-    /// A path with its state, as `list` has it: `{ row }`.
+    /// A path with its state, as in `list`: `{ row }`.
     Check(Place),
-    /// What all paths add up to that were checked, as `stats` has it: `{ statistics }`.
+    /// Totals over all checked paths, as in `stats`: `{ statistics }`.
     Statistics,
-    /// What there is to see of a path, or of all paths of a drawing. The scene follows.
+    /// The scene of a path, or of all paths of a drawing. The scene follows.
     Scene(Place),
-    /// The same as a picture; SVG follows.
+    /// The picture of a path, or of all paths of a drawing. The SVG follows.
     Picture(Place),
-    /// Programs, as `emit` writes them: `{ refused, problems, files }`. Each file has a name and a size; their bytes follow one after the
-    /// other.
+    /// The programs of paths, as written by `emit`: `{ refused, problems, files }`. Each file has a name and a size; the bytes of all files
+    /// follow in order.
     Emit {
         /// The paths.
         places: Vec<Place>,
     },
 }
 
-/// A path of a drawing; without its name all paths.
+/// A path of a drawing, or all its paths.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
 pub struct Place {
     /// The drawing.
     pub file: String,
-    /// The path.
+    /// The path; `None` for all paths.
     pub path: Option<String>,
 }
 
-/// What the page says beside the configuration, as the command line would.
+/// Options that override the configuration, as on the command line.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, rename_all = "kebab-case")]
 pub struct Options {
-    /// F for paths without, in mm/min.
+    /// F in mm/min for paths that do not set it.
     pub feed: Option<String>,
-    /// S for paths without, in mm.
+    /// S in mm for paths that do not set it.
     pub sweep_height: Option<String>,
-    /// The speed of rapid moves in mm/min.
+    /// Rapid feed in mm/min.
     pub rapid: Option<String>,
-    /// The feed of probes in mm/min.
+    /// Probing feed in mm/min.
     pub probe_feed: Option<String>,
-    /// The post; `None`: that of the configuration.
+    /// The post; `None` for the one in the configuration.
     pub post: Option<String>,
     /// `de` or `en`.
     pub lang: Language,
 }
 
-/// The language of what is answered in one language only.
+/// The language of answers that exist in one language only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Language {
@@ -79,7 +79,7 @@ pub enum Language {
     De,
 }
 
-/// A path that ended the compiler, or a drawing.
+/// A path or drawing that ended the compiler.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Lost {
     /// Which one.
@@ -90,7 +90,7 @@ pub struct Lost {
     pub why: Why,
 }
 
-/// Why the compiler ended.
+/// The reason why the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "why", rename_all = "kebab-case")]
 pub enum Why {
@@ -98,12 +98,12 @@ pub enum Why {
     Time,
     /// It showed a bug: PB006.
     Bug {
-        /// What is known of that.
+        /// Details about the bug, if known.
         reason: String,
     },
 }
 
-/// An answer: JSON, and what follows.
+/// An answer: JSON, and bytes that follow.
 #[derive(Debug, Default)]
 pub(crate) struct Answer {
     pub(crate) head: Value,
@@ -126,7 +126,7 @@ impl From<Value> for Answer {
 }
 
 impl Answer {
-    /// As one message.
+    /// Serializes the answer as one message.
     pub(crate) fn message(self) -> Vec<u8> {
         let mut message = self.head.to_string().into_bytes();
         message.push(b'\n');

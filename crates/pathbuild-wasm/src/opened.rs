@@ -1,4 +1,4 @@
-//! The files that were opened: one session, which is asked path by path.
+//! A session over the opened files, queried path by path.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -24,7 +24,7 @@ use serde_json::{Value, json};
 use crate::files::Files;
 use crate::message::{Answer, Lost, Options, Place, Question, Why};
 
-/// The files under one configuration.
+/// The files opened with one configuration.
 #[derive(Debug)]
 pub(crate) struct Opened {
     files: Arc<Files>,
@@ -35,7 +35,7 @@ pub(crate) struct Opened {
 }
 
 impl Opened {
-    /// Opens files, where nothing is wrong with the configuration and its post; what there is to say of that.
+    /// Opens the files if the configuration and its post are valid. Also returns the answer with any problems.
     pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<Lost>) -> (Option<Self>, Value) {
         let system: Arc<dyn System> = Arc::<Files>::clone(files);
         let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;
@@ -47,12 +47,12 @@ impl Opened {
             own_lang: Some(lang.into()),
             system_lang: None,
             working_directory: Utf8PathBuf::new(),
-            // There is one thread.
+            // WebAssembly has a single thread.
             jobs: Some(1),
             cache: None,
             reporter: Rc::new(Silent),
         };
-        // It is for the rest of the page's life: to open other files it begins a new compiler.
+        // Leaked, because it lives as long as the page: to open other files, the page starts a new instance.
         let workspace: &'static Workspace = Box::leak(Box::new(workspace));
         let posts = BUILT_IN.iter().map(|post| json!({ "name": post.name, "for": post.description }));
         let posts: Value = posts.collect();
@@ -86,7 +86,7 @@ impl Opened {
         (Some(Self { files: Arc::clone(files), session, poster, lost, rows: BTreeMap::new() }), answer)
     }
 
-    /// Answers a question about what is open.
+    /// Answers a question about the opened files.
     pub(crate) fn reply(&mut self, question: Question) -> Answer {
         match question {
             Question::Index { file } => json!({ "rows": self.index(&file) }).into(),
@@ -110,7 +110,7 @@ impl Opened {
         self.session.db().file(&clean(Utf8Path::new(file)))
     }
 
-    /// A path by its name; `None`: the drawing has none of that name, or it was lost.
+    /// A path by its name; `None` if the drawing has no such path, or the path was lost.
     fn path(&self, place: &Place) -> Option<(SourceFile, PathName)> {
         if self.lost.contains_key(place) {
             return None;
@@ -120,7 +120,7 @@ impl Opened {
         Some((file, name.clone()))
     }
 
-    /// The rows of a drawing, of which it is not known yet what they are.
+    /// The rows of a drawing, without the states of its paths.
     fn index(&self, file: &str) -> Vec<Value> {
         let whole = Place { file: file.to_owned(), path: None };
         if let Some(problem) = self.lost.get(&whole) {
@@ -135,12 +135,13 @@ impl Opened {
         whole.into_iter().chain(rows).collect()
     }
 
-    /// A drawing that is wrong as a whole has a row of its own.
+    /// The row of a drawing that has errors of its own.
     fn of_drawing(&self, found: Vec<Diagnostic>) -> Option<Value> {
         drawing_json(&self.session.workspace().findings(found))
     }
 
-    /// Whether a path is written when all are: as the configuration says, else unless it needs values of variables.
+    /// Whether a path is included in "write all": either the configuration lists it, or the configuration lists none and the path needs no
+    /// values for variables.
     fn is_emitted(&self, targets: &mut Configured<'_>, file: SourceFile, name: &PathName) -> bool {
         if !self.session.workspace().settings.emit.targets.value.is_empty() {
             return targets.means(name.as_str());
@@ -149,7 +150,7 @@ impl Opened {
         index.is_some_and(|path| path.header.definitions.is_empty())
     }
 
-    /// A path, checked.
+    /// The row of a path with its state.
     fn check(&mut self, place: Place) -> Option<Value> {
         let path = if let Some(problem) = self.lost.get(&place) {
             let name = PathName::new(place.path.as_deref()?);
@@ -169,7 +170,7 @@ impl Opened {
         stats_json(&Stats::of(self.rows.values(), drawings))
     }
 
-    /// What there is to see; `None`: nothing of that name.
+    /// The scene of a path or drawing; `None` if it does not exist.
     fn scene(&mut self, place: &Place) -> Option<Scene> {
         let workspace = self.session.workspace();
         if let Some(problem) = self.lost.get(place) {
@@ -189,7 +190,7 @@ impl Opened {
         Some(seen.judged(workspace, &place.file).0)
     }
 
-    /// The programs of paths.
+    /// Emits the programs of paths.
     fn emit(&mut self, places: &[Place]) -> Answer {
         let workspace = self.session.workspace();
         let found: Vec<(SourceFile, PathName)> = places.iter().filter_map(|place| self.path(place)).collect();
@@ -209,7 +210,7 @@ impl Opened {
                 bytes.extend(text);
             }
         }
-        // What is wrong with drawings is no part of what writing finds.
+        // Writing reports no errors in drawings, so they are added here.
         let checked = self.session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics);
         let found = workspace.findings(checked.chain(emission.diagnostics).collect());
         let problems = pathbuild_view::findings(&found.diagnostics, "");

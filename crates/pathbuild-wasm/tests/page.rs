@@ -1,4 +1,4 @@
-//! What a page is answered, anywhere but in a browser. The page itself is tried by crates/pathbuild-view/page/web-test.mjs.
+//! The answers to a page, tested outside of a browser. The page itself is tested by crates/pathbuild-view/page/web-test.mjs.
 
 #![allow(
     clippy::unwrap_used,
@@ -22,7 +22,7 @@ use pathbuild_workspace::session::{Session, WantedPath};
 use pathbuild_workspace::{Inputs, Silent, Workspace};
 use serde_json::{Value, json};
 
-/// A page's side.
+/// The page's side of the interface.
 #[derive(Default)]
 struct Page(Compiler);
 
@@ -61,7 +61,7 @@ impl Page {
         rows
     }
 
-    /// Programs by their names, and the codes of what is wrong.
+    /// The programs by name, and the codes of the problems.
     fn emit(&mut self, places: &[(&str, &str)]) -> (BTreeMap<String, Vec<u8>>, Vec<String>) {
         let places: Vec<Value> =
             places.iter().map(|(file, path)| json!({ "file": file, "path": path })).collect();
@@ -83,11 +83,11 @@ fn library() -> Utf8PathBuf {
     Utf8PathBuf::from_path_buf(folder.canonicalize().unwrap()).unwrap()
 }
 
-/// Everything below a folder, by its place in it.
+/// Adds all files below a folder, by their relative paths.
 fn put_all(page: &mut Page, root: &Utf8Path, folder: &Utf8Path) {
     for entry in folder.read_dir_utf8().unwrap() {
         let path = entry.unwrap().into_path();
-        // Programs of somebody's own run are no part of the library.
+        // Programs left by a user's own run do not belong to the library.
         if path.is_dir() && path.file_name() != Some("gcode") {
             put_all(page, root, &path);
         } else if path.is_file() {
@@ -112,7 +112,7 @@ fn full() -> Value {
     json!({ "feed": "150", "sweep-height": "20", "rapid": "1000", "probe-feed": "40" })
 }
 
-/// The example library has the states that `list` tells, and its programs are those that `emit` writes over the file system.
+/// The example library has the states shown by `list`, and its programs equal those that `emit` writes to the file system.
 #[test]
 fn a_library_has_the_programs_that_are_written_from_files() {
     let mut page = library_page();
@@ -163,7 +163,7 @@ fn tempfile_directory() -> (tempfile::TempDir, Utf8PathBuf) {
     (place, path)
 }
 
-/// Each built-in post writes a path of the library.
+/// Each built-in post can write a path of the library.
 #[test]
 fn every_post_can_be_chosen() {
     let mut page = library_page();
@@ -185,7 +185,7 @@ fn every_post_can_be_chosen() {
     assert_eq!(texts.len(), count, "two posts write the same");
 }
 
-/// What has errors says so, and is no program; the others are.
+/// A path with errors reports them and gives no program; the others do.
 #[test]
 fn drawings_without_a_configuration_ask_for_values() {
     let mut page = Page::default();
@@ -211,7 +211,7 @@ fn drawings_without_a_configuration_ask_for_values() {
     let (programs, problems) = page.emit(&[("1000.1P.dxf", "1000.1P"), ("1001.1P.dxf", "1001.1P")]);
     assert_eq!(programs.keys().collect::<Vec<_>>(), ["1000.1P_Milling.gcode"]);
     assert!(!problems.is_empty());
-    // What was handed over lies on nobody's disk.
+    // Files that were handed over do not exist on the visitor's disk.
     let row = page.head(&json!({ "ask": "check", "file": "1000.1P.dxf", "path": "1000.1P" }))["row"].clone();
     assert_eq!((&row["state"], &row["program"]), (&json!("ok"), &Value::Null));
     for (text, state) in [(&programs["1000.1P_Milling.gcode"][..], "current"), (b"G0 X0\n", "stale")] {
@@ -228,7 +228,7 @@ fn drawings_without_a_configuration_ask_for_values() {
     assert_eq!(page.head(&json!({ "ask": "scene", "file": "1000.1P.dxf", "path": "1.1P" }))["seen"], false);
 }
 
-/// A path that ended the compiler has PB005 or PB006, whatever is asked of it; others are as they were.
+/// A path that ended the compiler has PB005 or PB006 in every answer; the other paths are unaffected.
 #[test]
 fn what_was_lost_is_told() {
     let mut page = Page::default();
@@ -257,7 +257,7 @@ fn what_was_lost_is_told() {
     assert_eq!(page.emit(&[(&place(1002).0, &place(1002).1)]).0.len(), 1);
 }
 
-/// Two paths that would become one file become none, as with `emit`.
+/// Two paths with the same output file give no program, as with `emit`.
 #[test]
 fn two_paths_never_become_one_file() {
     let mut page = Page::default();
@@ -287,7 +287,7 @@ fn what_is_wrong_with_the_configuration_halts() {
     assert_eq!(page.open(&json!({ "post": "grbl" }))["halted"], Value::Null);
 }
 
-/// What is no question ends nothing.
+/// A malformed message does not end the compiler.
 #[test]
 fn what_cannot_be_understood_is_said() {
     let mut page = Page::default();

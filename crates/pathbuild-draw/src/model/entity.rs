@@ -2,59 +2,60 @@ use pathbuild_diagnostic::Handle;
 
 use super::{Arc, Circle, Line, Pair, Point, Shape};
 
-/// An entity of a drawing: a shape, how it is drawn, and the parameter text that belongs to it.
+/// An entity of a drawing: a shape, its attributes, and its parameter text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entity {
     /// The shape.
     pub shape: Shape,
-    /// The layer; `None` is the draft's current one.
+    /// The layer; `None` for the draft's current one.
     pub layer: Option<String>,
-    /// The line type's name; `None` writes none, which is BYLAYER.
+    /// The name of the line type; `None` for BYLAYER, which is not written.
     pub line_type: Option<String>,
-    /// A text that [`Draft::finish`](crate::Draft::finish) places so that it belongs to this entity.
+    /// A text that [`Draft::finish`](crate::Draft::finish) positions so that it belongs to this entity.
     pub note: Option<Note>,
-    /// Where it lies.
+    /// The plane that the shape lies in.
     pub orientation: Orientation,
-    /// In paper space.
+    /// Whether the entity is in paper space.
     pub paper: bool,
-    /// Not shown (group 60).
+    /// Whether the entity is hidden (group 60).
     pub invisible: bool,
     /// Colour number.
     pub colour: Option<u8>,
     /// The text style of TEXT and MTEXT.
     pub style: Option<String>,
-    /// A handle of its own; else it gets the next free one.
+    /// An explicit handle; `None` for the next free one.
     pub handle: Option<Handle>,
-    /// Pairs that are changed when all is written, to make broken entities.
+    /// Changes to the written pairs, for tests with malformed entities.
     pub changes: Vec<Change>,
-    /// The line of the text form it comes from, 0 if none.
+    /// The line of the text form that draws the entity; 0 if there is none.
     pub line: u32,
 }
 
 /// The normal of the plane that an entity lies in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Orientation {
-    /// 0,0,1: nothing is written.
+    /// (0, 0, 1), the default, which is not written.
     #[default]
     Upright,
-    /// 0,0,-1, as CADs leave it after mirroring. The shape is given as it is seen; the writer converts it to object coordinates.
+    /// (0, 0, -1), as CAD programs leave it after mirroring. The shape is given in world coordinates; the writer converts it to object
+    /// coordinates.
     Mirrored,
-    /// Any other. The shape's numbers are written as they are.
+    /// Any other normal. The shape's coordinates are written unchanged.
     Tilted(Point),
 }
 
-/// A parameter text beside its element.
+/// A parameter text next to its element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// The string as it will stand in the file; MTEXT takes formatting codes.
+    /// The string as it appears in the file; MTEXT interprets formatting codes.
     pub value: String,
-    /// As which entity it is written; `None`: as the sheet's options say.
+    /// The kind of entity to write; `None` for the sheet's default.
     pub kind: Option<NoteKind>,
-    /// Height of the letters in mm; `None`: as the sheet's options say, smaller where there is no room.
+    /// Letter height in mm; `None` for the sheet's default, reduced if there is no room.
     pub height: Option<f64>,
 }
 
-/// The two kinds of texts.
+/// The kinds of text entities.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the DXF names say it")]
 pub enum NoteKind {
@@ -63,17 +64,17 @@ pub enum NoteKind {
     MText,
 }
 
-/// A change of an entity's pairs.
+/// A change to the pairs of an entity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// The first pair of this code gets this value, or the pair is added at the end.
+    /// Sets the first pair of this code, or appends the pair.
     Set(Pair),
-    /// All pairs of this code are left out.
+    /// Removes all pairs of this code.
     Unset(i32),
 }
 
 impl Entity {
-    /// An entity of a shape, CONTINUOUS, on the current layer.
+    /// An entity with this shape on the current layer. Curves have line type CONTINUOUS, all other shapes BYLAYER.
     pub fn new(shape: Shape) -> Self {
         let line_type = match shape {
             Shape::Insert(_)
@@ -135,19 +136,19 @@ impl Entity {
         Self::circle(at, 6.0).typed("PHANTOM")
     }
 
-    /// With another line type.
+    /// Sets the line type.
     pub fn typed(mut self, line_type: &str) -> Self {
         self.line_type = Some(line_type.to_owned());
         self
     }
 
-    /// On a layer of its own.
+    /// Sets the layer.
     pub fn on(mut self, layer: &str) -> Self {
         self.layer = Some(layer.to_owned());
         self
     }
 
-    /// With a parameter text. An empty one is none.
+    /// Adds a parameter text, unless it is empty.
     pub fn note(mut self, value: &str) -> Self {
         self.note = (!value.is_empty()).then(|| Note { value: value.to_owned(), kind: None, height: None });
         self

@@ -1,17 +1,17 @@
 /// A record of the layer table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
-    /// The name, as the drawing spells it.
+    /// The name as spelt in the drawing.
     pub name: String,
-    /// What BYLAYER means on it.
+    /// The line type of BYLAYER entities.
     pub line_type: String,
     /// Colour number.
     pub colour: u8,
-    /// What is unusual about it.
+    /// Unusual states of the layer.
     pub states: Vec<LayerState>,
 }
 
-/// States of a layer.
+/// An unusual state of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerState {
     /// Switched off.
@@ -20,7 +20,7 @@ pub enum LayerState {
     Frozen,
     /// Locked.
     Locked,
-    /// In use, but missing from the layer table.
+    /// Used by entities, but missing from the layer table.
     Unlisted,
 }
 
@@ -30,7 +30,7 @@ impl Layer {
         Self { name: name.to_owned(), line_type: "CONTINUOUS".to_owned(), colour: 7, states: Vec::new() }
     }
 
-    /// Whether it is in this state.
+    /// Whether the layer is in this state.
     pub fn is(&self, state: LayerState) -> bool {
         self.states.contains(&state)
     }

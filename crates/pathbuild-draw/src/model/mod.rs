@@ -1,4 +1,4 @@
-//! What a drawing is made of.
+//! The data model of drawings.
 
 mod entity;
 mod layer;

@@ -1,29 +1,29 @@
 use super::{NoteKind, Pair};
 
-/// How a sheet is written.
+/// Options for writing a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// $ACADVER.
     pub version: Version,
-    /// $DWGCODEPAGE, and the encoding of texts before R2007; `None`: the variable is missing, texts are as for `ANSI_1252`.
+    /// $DWGCODEPAGE, and the encoding of texts before R2007. `None` omits the variable and encodes texts as `ANSI_1252`.
     pub code_page: Option<String>,
-    /// How characters become bytes.
+    /// The encoding of texts.
     pub encoding: TextEncoding,
-    /// $INSUNITS; `None`: the variable is missing.
+    /// $INSUNITS; `None` omits the variable.
     pub units: Option<i16>,
-    /// Ends of lines.
+    /// The line ends of ASCII DXF.
     pub line_ends: LineEnds,
-    /// Binary DXF.
+    /// Whether to write binary DXF.
     pub binary: bool,
-    /// Begin with a byte order mark.
+    /// Whether to start with a byte order mark.
     pub byte_order_mark: bool,
-    /// What is left out.
+    /// Parts of the file to omit.
     pub left_out: Vec<Part>,
-    /// Header variables that are added, or get other values.
+    /// Header variables to add or override.
     pub header: Vec<(String, Pair)>,
-    /// As what notes are written.
+    /// The entity that notes are written as.
     pub note_kind: NoteKind,
-    /// How high notes are where there is room, in mm.
+    /// Letter height of notes in mm, if there is room.
     pub note_height: f64,
 }
 
@@ -45,7 +45,7 @@ impl Default for Options {
     }
 }
 
-/// The versions of DXF that are written.
+/// The supported versions of DXF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Version {
@@ -63,7 +63,7 @@ pub enum Version {
 }
 
 impl Version {
-    /// All of them, oldest first.
+    /// All versions, oldest first.
     pub const ALL: [Self; 10] = [
         Self::R10,
         Self::R12,
@@ -77,7 +77,7 @@ impl Version {
         Self::R2018,
     ];
 
-    /// The usual name, such as `R2000`.
+    /// The usual name, for example `R2000`.
     pub fn name(self) -> &'static str {
         match self {
             Self::R10 => "R10",
@@ -94,19 +94,19 @@ impl Version {
     }
 }
 
-/// How the characters of names and texts become bytes.
+/// The encoding of names and texts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TextEncoding {
-    /// As the version demands: UTF-8 from R2007 on, before that the code page, with `\U+XXXX` for what it lacks.
+    /// As the version demands: UTF-8 from R2007 on, and before that the code page, with `\U+XXXX` for missing characters.
     #[default]
     Proper,
-    /// UTF-8 whatever the version, as careless scripts do.
+    /// UTF-8 regardless of the version, as careless scripts do.
     Utf8,
     /// `\U+XXXX` for everything outside ASCII, as QCAD does.
     Escaped,
 }
 
-/// The ends of lines of ASCII DXF.
+/// The line ends of ASCII DXF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum LineEnds {
@@ -116,7 +116,7 @@ pub enum LineEnds {
     Cr,
 }
 
-/// Parts of a DXF file that simple writers leave out.
+/// Parts of a DXF file that simple writers omit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the DXF names say it")]
 pub enum Part {
@@ -125,6 +125,6 @@ pub enum Part {
     Blocks,
     Objects,
     Handles,
-    /// The last pair, 0/EOF.
+    /// The final pair 0/EOF.
     Eof,
 }

@@ -1,6 +1,6 @@
 use std::ops::{Add, Mul, Sub};
 
-/// A point (or a vector) in world coordinates, in mm.
+/// A point or vector in world coordinates, in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[expect(missing_docs, reason = "coordinates")]
 pub struct Point {
@@ -10,7 +10,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// A point in the drawing's plane.
+    /// A point in the plane of the drawing.
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x, y, z: 0.0 }
     }
@@ -26,24 +26,24 @@ impl Point {
         Self { x: self.x + distance * cos, y: self.y + distance * sin, ..self }
     }
 
-    /// The distance to another point, seen from above.
+    /// The horizontal distance to another point.
     pub fn distance(self, other: Self) -> f64 {
         libm::hypot(other.x - self.x, other.y - self.y)
     }
 
-    /// The direction in which another point lies, in degrees from -180 to 180.
+    /// The direction to another point, in degrees from -180 to 180.
     pub fn direction(self, other: Self) -> f64 {
         libm::atan2(other.y - self.y, other.x - self.x).to_degrees()
     }
 
-    /// The vector turned about the origin.
+    /// The vector rotated around the origin.
     pub fn turned(self, degrees: f64) -> Self {
         let (sin, cos) = sin_cos(degrees);
         Self { x: self.x * cos - self.y * sin, y: self.x * sin + self.y * cos, ..self }
     }
 }
 
-/// Sine and cosine of an angle in degrees: exact in the four directions that most drawings are made of.
+/// Sine and cosine of an angle in degrees, exact for multiples of 90 degrees, which most drawings consist of.
 pub(crate) fn sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),

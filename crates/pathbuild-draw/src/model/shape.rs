@@ -1,6 +1,6 @@
 use super::{MText, Point, Text};
 
-/// The shape of an entity, in world coordinates: that of a mirrored one is given as it is seen.
+/// The shape of an entity in world coordinates, even if the entity is mirrored.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the DXF names say it")]
 pub enum Shape {
@@ -44,27 +44,27 @@ pub struct Circle {
     pub radius: f64,
 }
 
-/// Lines and arcs in one piece.
+/// A polyline of lines and arcs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// As which DXF entity it is written.
+    /// The DXF entity to write.
     pub kind: PolylineKind,
-    /// The corners.
+    /// The vertices.
     pub vertices: Vec<Vertex>,
-    /// Whether the last corner is joined to the first.
+    /// Whether the last vertex is connected to the first.
     pub closed: bool,
 }
 
-/// A corner of a polyline.
+/// A vertex of a polyline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// Where.
+    /// The position.
     pub point: Point,
-    /// Of the piece from here to the next corner: tan of a quarter of the arc's angle, positive counterclockwise; 0 is a line.
+    /// Bulge of the segment to the next vertex: the tangent of a quarter of the arc's angle, positive counterclockwise; 0 for a line.
     pub bulge: f64,
 }
 
-/// The DXF entities that are polylines.
+/// The DXF entities for polylines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PolylineKind {
     /// LWPOLYLINE, or POLYLINE in versions before R14.
@@ -72,7 +72,7 @@ pub enum PolylineKind {
     Light,
     /// POLYLINE with VERTEX entities.
     Heavy,
-    /// POLYLINE in space.
+    /// Three-dimensional POLYLINE.
     Spatial,
 }
 
@@ -81,76 +81,76 @@ pub enum PolylineKind {
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Ellipse {
     pub centre: Point,
-    /// From the centre to the end of the longer axis.
+    /// From the centre to the end of the major axis.
     pub major: Point,
-    /// The shorter axis divided by the longer one.
+    /// The ratio of the minor axis to the major axis.
     pub ratio: f64,
     pub start: f64,
     pub end: f64,
 }
 
-/// A B-spline by its control points, or by fit points alone.
+/// A B-spline, defined by control points or only by fit points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
-    /// 3 for the usual cubic.
+    /// The degree; usually 3.
     pub degree: u8,
     /// The control points.
     pub control: Vec<Point>,
-    /// As many as control points + degree + 1.
+    /// The knots: as many as control points + degree + 1.
     pub knots: Vec<f64>,
-    /// One for each control point, or none.
+    /// The weights: one for each control point, or none.
     pub weights: Vec<f64>,
     /// Points on the curve.
     pub fit: Vec<Point>,
-    /// Whether the flag says closed.
+    /// Whether the flag for closed splines is set.
     pub closed: bool,
 }
 
-/// A block put into the drawing.
+/// A block reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Insert {
     /// The block's name.
     pub block: String,
-    /// Where the block's base point comes to lie.
+    /// The position of the block's base point.
     pub at: Point,
     /// Factors in x, y and z.
     pub scale: Point,
-    /// Degrees, counterclockwise.
+    /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
-    /// Columns, rows.
+    /// Number of columns and rows.
     pub count: (i16, i16),
-    /// Between columns, between rows.
+    /// Distance between columns and between rows.
     pub spacing: (f64, f64),
 }
 
-/// A horizontal dimension. What is seen of it stands in its block.
+/// A horizontal dimension. Its visible parts are in its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dimension {
-    /// The first point that is measured from.
+    /// The first measured point.
     pub from: Point,
-    /// The other one.
+    /// The second measured point.
     pub to: Point,
     /// A point on the dimension line.
     pub line: Point,
-    /// What is written on it.
+    /// The label.
     pub label: String,
-    /// The middle of the label.
+    /// The centre of the label.
     pub text: Point,
-    /// The block.
+    /// The name of the block.
     pub block: String,
 }
 
-/// A group code with its value, as they stand in the file.
+/// A group code with its value, as in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
     /// The group code.
     pub code: i32,
-    /// The value, of any type.
+    /// The value as text, whatever its type.
     pub value: String,
 }
 
 impl Pair {
-    /// A pair.
+    /// Creates a pair.
     pub fn new(code: i32, value: impl Into<String>) -> Self {
         Self { code, value: value.into() }
     }
@@ -162,20 +162,20 @@ impl Arc {
         self.centre.polar(self.radius, degrees)
     }
 
-    /// The angle it covers, more than 0 and at most 360 degrees.
+    /// The angle covered, greater than 0 and at most 360 degrees.
     pub fn sweep(&self) -> f64 {
         let sweep = (self.end - self.start).rem_euclid(360.0);
         if sweep == 0.0 { 360.0 } else { sweep }
     }
 
-    /// The arc of a bulge; `None` where it is straight or without length.
+    /// The arc of a bulge; `None` if it is straight or has no length.
     pub fn bulged(from: Point, to: Point, bulge: f64) -> Option<Self> {
         let chord = from.distance(to);
         if bulge == 0.0 || chord == 0.0 {
             return None;
         }
         let radius = chord * (1.0 + bulge * bulge) / (4.0 * bulge.abs());
-        // From the chord's middle to the centre, to the left of the chord.
+        // From the midpoint of the chord to the centre, positive to the left of the chord.
         let offset = chord * (1.0 - bulge * bulge) / (4.0 * bulge);
         let unit = (to - from) * (1.0 / chord);
         let middle = (from + to) * 0.5;
@@ -186,7 +186,7 @@ impl Arc {
 }
 
 impl Polyline {
-    /// The pieces: from, to, bulge.
+    /// The segments as (start, end, bulge).
     pub fn pieces(&self) -> impl Iterator<Item = (Point, Point, f64)> + '_ {
         let next = self.vertices.iter().skip(1).chain(self.vertices.first().filter(|_| self.closed));
         self.vertices.iter().zip(next).map(|(a, b)| (a.point, b.point, a.bulge))

@@ -1,23 +1,23 @@
 use super::Point;
 
-/// A text of one line.
+/// A single-line text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// The string as it stands in the file.
+    /// The string as it appears in the file.
     pub value: String,
-    /// The point that the alignment is relative to; the left one of the two for aligned and fitted texts.
+    /// The alignment point; the left one of the two for aligned and fitted texts.
     pub anchor: Point,
-    /// In mm.
+    /// Letter height in mm.
     pub height: f64,
-    /// Degrees, counterclockwise.
+    /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
     /// Group 72.
     pub horizontal: Horizontal,
     /// Group 73.
     pub vertical: Vertical,
-    /// The letters run from right to left (71 bit 2).
+    /// Whether the text is mirrored horizontally (group 71, bit 2).
     pub backwards: bool,
-    /// 71 bit 4.
+    /// Whether the text is upside down (group 71, bit 4).
     pub upside_down: bool,
 }
 
@@ -31,11 +31,11 @@ pub enum Horizontal {
     Centre,
     /// 2
     Right,
-    /// 3, with the other end
+    /// 3, with the second alignment point
     Aligned(Point),
-    /// 4: in the middle both ways
+    /// 4: centred in both directions
     Middle,
-    /// 5, with the other end
+    /// 5, with the second alignment point
     Fit(Point),
 }
 
@@ -50,26 +50,27 @@ pub enum Vertical {
     Top,
 }
 
-/// A text of several lines.
+/// A multi-line text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MText {
-    /// The string with its formatting codes, as it stands in the file.
+    /// The string with its formatting codes, as in the file.
     pub value: String,
     /// Insertion point.
     pub anchor: Point,
-    /// Height of a line's letters in mm.
+    /// Letter height in mm.
     pub height: f64,
-    /// Which point of the text the anchor is.
+    /// The point of the text that lies at the anchor.
     pub attachment: Attachment,
-    /// How the rotation is written.
+    /// The rotation, in the form in which it is written.
     pub direction: Direction,
-    /// Longest piece in characters, the rest in chunks before it (group 3); `None`: 250 as the CADs do.
+    /// Maximum length in characters of the final chunk; longer texts are split, with the earlier chunks in group 3. `None` for 250, as CAD
+    /// programs use.
     pub chunk: Option<usize>,
-    /// Width of the box (group 41), 0 for none.
+    /// Width of the box (group 41); 0 for no limit.
     pub width: f64,
 }
 
-/// Group 71 of MTEXT, 1 to 9 line by line from the upper left.
+/// Group 71 of MTEXT: 1 to 9, row by row from the upper left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Attachment {
@@ -84,7 +85,7 @@ pub enum Attachment {
     BottomRight,
 }
 
-/// How the direction of an MTEXT stands in the file.
+/// The form in which the direction of an MTEXT is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
     /// Group 50, in degrees.

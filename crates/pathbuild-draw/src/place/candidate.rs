@@ -2,22 +2,22 @@ use super::piece::ElementPart;
 use crate::draft::Block;
 use crate::model::{Arc, Circle, Ellipse, Entity, Insert, Layer, Line, Point, Polyline, Shape, Spline};
 
-/// An element that a text can go to.
+/// An element that a text may belong to.
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
-    /// Its index among the entities; `None` for what a block brought.
+    /// Its index among the entities; `None` if it comes from a block.
     pub(crate) entity: Option<usize>,
-    /// Lower case.
+    /// The layer in lower case.
     pub(crate) layer: String,
-    /// Lines of type HIDDEN, end and turn markers take no text.
+    /// Whether it accepts a text; lines of type HIDDEN, end markers and turn markers do not.
     pub(crate) takes_text: bool,
     pub(crate) pieces: Vec<ElementPart>,
 }
 
-/// Blocks in blocks are followed this deep; a block that holds itself is not the placement's concern.
+/// Maximum nesting depth of blocks to follow, which also bounds the recursion for blocks that contain themselves.
 const DEPTH: u8 = 8;
 
-/// Every element of a list of entities, blocks expanded.
+/// All elements of a list of entities, with blocks expanded.
 pub(crate) fn candidates(entities: &[Entity], blocks: &[Block], layers: &[Layer]) -> Vec<Candidate> {
     let mut found = Vec::new();
     for (index, entity) in entities.iter().enumerate().filter(|(_, entity)| !entity.paper) {
@@ -98,7 +98,7 @@ fn of_ellipse(ellipse: &Ellipse) -> Vec<Point> {
     (0..=32).map(at).collect()
 }
 
-/// Near enough for a text: the control polygon, or the fit points.
+/// The control polygon or the fit points, an approximation that suffices for placing texts.
 fn of_spline(spline: &Spline) -> Vec<Point> {
     if spline.fit.is_empty() { spline.control.clone() } else { spline.fit.clone() }
 }
@@ -141,7 +141,7 @@ fn expand(
     }
 }
 
-/// The offsets of the columns and rows.
+/// The offsets of an insert's columns and rows.
 fn copies(insert: &Insert) -> impl Iterator<Item = Point> + '_ {
     let (columns, rows) = insert.count;
     let at = |column, row| {

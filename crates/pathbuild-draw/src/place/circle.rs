@@ -1,7 +1,7 @@
 use super::plain;
 use crate::model::{Entity, Horizontal, MText, Orientation, Point, Shape, Text, Vertical};
 
-/// The circle by which a text finds its element.
+/// The circle by which a text is matched with its element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct TextCircle {

@@ -1,4 +1,4 @@
-//! Where the text of an element goes, so that by the rules of book: language/parameter-texts it belongs to that element.
+//! Positions each text so that it belongs to its element by the rules of book: language/parameter-texts.
 
 mod candidate;
 mod circle;

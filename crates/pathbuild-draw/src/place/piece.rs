@@ -1,6 +1,6 @@
 use crate::model::{Arc, Circle, Line, Point};
 
-/// A part of an element, as the assignment of texts sees it.
+/// A part of an element, as used for matching texts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ElementPart {
     Circle(Circle),
@@ -8,11 +8,11 @@ pub(crate) enum ElementPart {
     Line(Line),
 }
 
-/// Circles before arcs before lines, whatever the distance.
+/// Priority of an element's part: circles before arcs before lines, regardless of distance.
 pub(crate) type Rank = u8;
 
 impl ElementPart {
-    /// Rank and distance when a text circle overlaps this piece. (book: language/parameter-texts)
+    /// Rank and distance if a text circle overlaps this part. (book: language/parameter-texts)
     pub(crate) fn overlapped(&self, centre: Point, radius: f64) -> Option<(Rank, f64)> {
         match self {
             Self::Circle(circle) => {
@@ -31,7 +31,7 @@ impl ElementPart {
         }
     }
 
-    /// How far a point is from the piece; negative inside a circle.
+    /// The distance of a point from the part; negative inside a circle.
     pub(crate) fn clearance(&self, point: Point) -> f64 {
         let to_ends = |a: Point, b: Point| point.distance(a).min(point.distance(b));
         match self {
@@ -44,7 +44,7 @@ impl ElementPart {
         }
     }
 
-    /// Centres for a text circle of this radius that overlaps the piece, the best looking first.
+    /// Centres at which a text circle of this radius overlaps the part, the best looking first.
     pub(crate) fn seats(&self, radius: f64) -> Vec<Point> {
         const ALONG: [f64; 11] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.28, 0.72, 0.1, 0.9];
         const ASIDE: [f64; 3] = [0.6, -0.6, 0.0];
@@ -82,7 +82,7 @@ fn covers(arc: &Arc, point: Point) -> bool {
     (arc.centre.direction(point) - arc.start).rem_euclid(360.0) <= arc.sweep()
 }
 
-/// The foot of the perpendicular, where it lies within the line.
+/// The foot of the perpendicular, if it lies on the line.
 fn foot(line: &Line, point: Point) -> Option<Point> {
     let (along, to) = (line.to - line.from, point - line.from);
     let length2 = along.x * along.x + along.y * along.y;

@@ -1,4 +1,4 @@
-/// The lines of an MTEXT's plain text: without formatting codes, `%%c` and the like as they are.
+/// The lines of an MTEXT as plain text: without formatting codes, but with `%%c` and the like unchanged.
 pub(crate) fn lines(value: &str) -> Vec<String> {
     let mut plain = String::new();
     let mut chars = value.chars().peekable();
@@ -39,7 +39,7 @@ fn stacked(chars: &mut Chars<'_>, plain: &mut String) {
     }
 }
 
-/// `\U+XXXX` is one character; the reader decodes it before it looks at the formatting.
+/// Replaces `\U+XXXX` by one character, since the reader decodes it before the formatting.
 fn unicode(chars: &mut Chars<'_>, plain: &mut String) {
     chars.next();
     let digits: String = chars.by_ref().take(4).collect();

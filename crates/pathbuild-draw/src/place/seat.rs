@@ -6,10 +6,10 @@ use crate::model::{
     Vertical,
 };
 
-/// Letters get smaller by these factors where there is no room.
+/// Factors by which the letters are reduced if there is no room.
 const SHRINK: [f64; 7] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1];
 
-/// Gives every note its place: each entity with a note is followed by the TEXT or MTEXT that says it.
+/// Positions every note: each entity with a note is followed by its TEXT or MTEXT.
 pub(crate) fn seat_notes(
     entities: Vec<Entity>,
     candidates: &[Candidate],
@@ -37,7 +37,7 @@ fn kind_of(note: &Note, options: &Options) -> NoteKind {
     }
 }
 
-/// Whether a text circle of this centre and radius is good for the target on this layer.
+/// A test of whether a text circle with this centre and radius suits the target on this layer.
 type Rule<'a> = fn(&Seats<'a>, usize, &str, Point, f64) -> bool;
 
 struct Seats<'a> {
@@ -47,7 +47,7 @@ struct Seats<'a> {
 }
 
 impl<'a> Seats<'a> {
-    /// Marks the element that a text of the drawing itself belongs to.
+    /// Marks the element that an ordinary text of the drawing belongs to.
     fn take_for_text(&mut self, entity: &Entity, kind: NoteKind) {
         let is_kind = match entity.shape {
             Shape::Text(_) => kind == NoteKind::Text,
@@ -76,7 +76,8 @@ impl<'a> Seats<'a> {
         Some(written(entity, note, kind, centre, height))
     }
 
-    /// A centre and a height of letters: first where no other element is near, else where the rules still give it to this one.
+    /// A centre and a letter height for a note: preferably far from all other elements, otherwise anywhere that the rules assign to the
+    /// target.
     fn place(
         &self,
         target: usize,
@@ -100,7 +101,7 @@ impl<'a> Seats<'a> {
         })
     }
 
-    /// Whether the circle overlaps the target, and is well clear of all else.
+    /// Whether the circle overlaps the target and keeps well clear of everything else.
     fn is_alone(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let others = self
             .candidates
@@ -112,7 +113,7 @@ impl<'a> Seats<'a> {
             && pieces.all(|piece| piece.clearance(centre) > 1.1 * radius + 0.05)
     }
 
-    /// Whether the rules give the text to the target when its turn comes, also when lengths are a little off.
+    /// Whether the rules assign the text to the target when its turn comes, even if lengths are slightly off.
     fn is_given(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let near = |factor: f64| self.found(layer, centre, factor * radius);
         if self.candidates[target].takes_text {
@@ -122,7 +123,7 @@ impl<'a> Seats<'a> {
         }
     }
 
-    /// The element that a text circle finds among those that have no text yet.
+    /// The element that a text circle matches among those that have no text yet.
     fn found(&self, layer: &str, centre: Point, radius: f64) -> Option<usize> {
         let free = self.candidates.iter().enumerate().filter(|(index, candidate)| {
             candidate.takes_text && !self.taken[*index] && candidate.layer == layer
@@ -150,7 +151,7 @@ fn extent(note: &Note, kind: NoteKind, height: f64) -> Extent {
     }
 }
 
-/// The entity that says a note: its anchor is at the lower left (TEXT) or upper left (MTEXT), as CADs have it.
+/// The entity for a note, anchored at the lower left (TEXT) or upper left (MTEXT), as CAD programs do.
 fn written(entity: &Entity, note: &Note, kind: NoteKind, centre: Point, height: f64) -> Entity {
     let extent = extent(note, kind, height);
     let corner = |up: f64| Point::new(centre.x - extent.width / 2.0, centre.y + up * extent.height / 2.0);

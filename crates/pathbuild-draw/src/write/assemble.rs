@@ -6,7 +6,7 @@ use super::{header, tidy};
 use crate::model::{Entity, Part, Shape, Version};
 use crate::sheet::Sheet;
 
-/// Puts the sections together: with one handle for each thing, owners, and without what the options leave out.
+/// Joins the sections: assigns unique handles and owners, and omits the parts that the options exclude.
 pub(crate) fn assemble<'a>(sheet: &'a Sheet, mut written: Written<'a>) -> Vec<Pair<'a>> {
     let options = sheet.options();
     let is_in = |part: Part| !options.left_out.contains(&part);
@@ -40,14 +40,14 @@ pub(crate) fn assemble<'a>(sheet: &'a Sheet, mut written: Written<'a>) -> Vec<Pa
     pairs
 }
 
-/// Gives handles and owners to blocks and entities.
+/// Assigns handles and owners to blocks and entities.
 struct Entities<'a, 'o> {
-    /// In the order of their tags.
+    /// The entities in the order of their tags.
     tagged: Vec<&'a Entity>,
     version: Version,
     has_handles: bool,
     owners: &'o Owners,
-    /// The block records of model and paper space.
+    /// The handles of the block records of model and paper space.
     spaces: [u64; 2],
 }
 
@@ -63,7 +63,7 @@ impl<'a, 'o> Entities<'a, 'o> {
         owner.filter(|_| self.has_handles && self.version >= Version::R2000)
     }
 
-    /// BLOCK and ENDBLK get handles of their own; what lies between them belongs to the block.
+    /// Blocks: BLOCK and ENDBLK get handles of their own, and everything between them is owned by the block.
     fn blocks(&self, records: Vec<Record<'a>>, next: &mut impl FnMut() -> Option<u64>) -> Vec<Pair<'a>> {
         let mut pairs = Vec::new();
         let mut owner = None;
@@ -84,7 +84,7 @@ impl<'a, 'o> Entities<'a, 'o> {
         pairs
     }
 
-    /// Entities of one block, or of model and paper space.
+    /// The entities of a block, or of model and paper space.
     fn entities(
         &self,
         records: Vec<Record<'a>>,

@@ -2,7 +2,7 @@ use super::encoding::Encoder;
 use super::record::Pair;
 use crate::model::{LineEnds, Options, Version};
 
-/// ASCII DXF: a line for the code, a line for the value.
+/// Writes ASCII DXF: one line for the code, one for the value.
 pub(crate) fn ascii(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     let encoder = Encoder::of(options);
     let line_end: &[u8] = match options.line_ends {
@@ -23,7 +23,7 @@ pub(crate) fn ascii(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     bytes
 }
 
-/// A group code, to the right in three columns.
+/// Appends a group code, right-aligned in three columns.
 fn append_code(code: i32, bytes: &mut Vec<u8>) {
     match u8::try_from(code) {
         Ok(short @ ..10) => bytes.extend([b' ', b' ', b'0' + short]),
@@ -32,7 +32,7 @@ fn append_code(code: i32, bytes: &mut Vec<u8>) {
     }
 }
 
-/// Binary DXF. A number that is none is written as 0: the form has no way to say it.
+/// Writes binary DXF. A malformed number is written as 0, since the format cannot represent it.
 pub(crate) fn binary(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     let encoder = Encoder::of(options);
     let mut bytes = b"AutoCAD Binary DXF\r\n\x1a\0".to_vec();
@@ -51,7 +51,7 @@ pub(crate) fn binary(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     bytes
 }
 
-/// The types of values by group code, as the DXF reference has them.
+/// Appends a value in the type that the DXF reference gives for its group code.
 fn append_value(pair: &Pair<'_>, encoder: Encoder, version: Version, bytes: &mut Vec<u8>) {
     let value = pair.value.trim();
     match pair.code {

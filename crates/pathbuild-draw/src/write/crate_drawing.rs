@@ -8,7 +8,7 @@ use super::tickets::Tickets;
 use crate::model::{Entity, Layer, LayerState, Shape, Version};
 use crate::sheet::Sheet;
 
-/// Entities carry this plus their index instead of a handle.
+/// Added to the index of an entity to form its tag, which stands in for the handle.
 pub(crate) const TAG: u64 = 1 << 60;
 
 /// The usual line types with their patterns in mm: dashes positive, gaps negative, dots 0.
@@ -26,7 +26,7 @@ pub const LINE_TYPES: [(&str, &[f64]); 11] = [
     ("PHANTOM", &[31.75, -6.35, 6.35, -6.35, 6.35, -6.35]),
 ];
 
-/// The sheet as a drawing of the crate. Entities of the drawing come first in the count of tags, then those of the blocks.
+/// Converts a sheet to a drawing of the crate `dxf`. Tags are counted through the entities of the drawing, then those of the blocks.
 pub(crate) fn drawing(sheet: &Sheet, tickets: &mut Tickets) -> Drawing {
     let mut drawing = Drawing::new();
     drawing.clear();

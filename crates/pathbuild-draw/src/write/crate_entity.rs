@@ -13,7 +13,7 @@ use crate::model::{
     Spline, Version,
 };
 
-/// The entity as the crate has it, in object coordinates.
+/// Converts an entity to the type of the crate `dxf`, in object coordinates.
 pub(crate) fn entity_type(
     entity: &Entity,
     version: Version,
@@ -40,17 +40,17 @@ pub(crate) fn entity_type(
         Shape::MText(shape) => EntityType::MText(mtext(shape, entity, tickets)),
         Shape::Solid(corners) => EntityType::Solid(solid(corners, plane)),
         Shape::Dimension(shape) => EntityType::RotatedDimension(dimension(shape, tickets)),
-        // Only keeps the place: its pairs are replaced.
+        // Only a placeholder: its pairs are replaced.
         Shape::Raw(_) => EntityType::ModelPoint(ModelPoint::default()),
     }
 }
 
-/// A point as it is.
+/// Converts a point unchanged.
 pub(crate) fn point(point: Point) -> CratePoint {
     CratePoint::new(point.x, point.y, point.z)
 }
 
-/// A point in object coordinates.
+/// Converts a point to object coordinates.
 pub(crate) fn object_point(at: Point, plane: Orientation) -> CratePoint {
     match plane {
         Orientation::Mirrored => CratePoint::new(0.0 - at.x, at.y, 0.0 - at.z),
@@ -58,7 +58,7 @@ pub(crate) fn object_point(at: Point, plane: Orientation) -> CratePoint {
     }
 }
 
-/// Group 210.
+/// The normal (group 210).
 pub(crate) fn normal(plane: Orientation) -> Vector {
     match plane {
         Orientation::Upright => Vector::z_axis(),
@@ -67,7 +67,7 @@ pub(crate) fn normal(plane: Orientation) -> Vector {
     }
 }
 
-/// Group 38.
+/// The elevation (group 38).
 pub(crate) fn elevation(polyline: &Polyline, plane: Orientation) -> f64 {
     polyline.vertices.first().map_or(0.0, |first| object_point(first.point, plane).z)
 }
@@ -128,7 +128,7 @@ fn heavy_polyline(polyline: &Polyline, plane: Orientation, drawing: &mut Drawing
     made
 }
 
-/// Centre and axis are in world coordinates always; seen from below, the parameters run the other way round.
+/// Centre and axis are always in world coordinates; seen from below, the parameters run in the opposite direction.
 fn ellipse(ellipse: &Ellipse, plane: Orientation) -> CrateEllipse {
     let (start, end) =
         if is_mirrored(plane) { (-ellipse.end, -ellipse.start) } else { (ellipse.start, ellipse.end) };

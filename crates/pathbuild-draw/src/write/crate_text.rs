@@ -7,7 +7,7 @@ use super::tickets::Tickets;
 use crate::model::{Attachment, Direction, Entity, Horizontal, MText, Orientation, Point, Text, Vertical};
 use crate::place::text_circle;
 
-/// Longest piece of an MTEXT in characters when nothing else is asked for.
+/// Default length in characters of an MTEXT's chunks.
 const CHUNK: usize = 250;
 
 pub(crate) fn text(text: &Text, entity: &Entity, tickets: &mut Tickets) -> CrateText {
@@ -28,7 +28,7 @@ pub(crate) fn text(text: &Text, entity: &Entity, tickets: &mut Tickets) -> Crate
     }
 }
 
-/// Groups 10 and 11: as soon as the text is not left and on its baseline, 11 is the anchor and 10 only follows from it.
+/// Groups 10 and 11: for any alignment but left on the baseline, 11 is the anchor and 10 is derived from it.
 fn points(text: &Text, entity: &Entity) -> (Point, Option<Point>) {
     match text.horizontal {
         Horizontal::Aligned(other) | Horizontal::Fit(other) => (text.anchor, Some(other)),

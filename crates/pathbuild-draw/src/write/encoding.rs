@@ -2,17 +2,17 @@ use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 
 use crate::model::{Options, TextEncoding, Version};
 
-/// How strings become bytes in a sheet.
+/// Encodes the strings of a sheet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Encoder {
-    /// `None`: ASCII only.
+    /// The encoding; `None` for ASCII only.
     encoding: Option<&'static Encoding>,
 }
 
 impl Encoder {
     pub(crate) fn of(options: &Options) -> Self {
         let encoding = match options.encoding {
-            // A byte order mark says the same of the whole file.
+            // A byte order mark implies UTF-8 for the whole file.
             TextEncoding::Proper if options.version >= Version::R2007 || options.byte_order_mark => {
                 Some(UTF_8)
             }
@@ -23,7 +23,7 @@ impl Encoder {
         Self { encoding }
     }
 
-    /// Appends a string; what the encoding lacks becomes `\U+XXXX`, control characters become carets.
+    /// Appends a string. Characters missing from the encoding become `\U+XXXX`, control characters become carets.
     pub(crate) fn append(self, string: &str, bytes: &mut Vec<u8>) {
         for c in string.chars() {
             match c {
@@ -50,7 +50,7 @@ impl Encoder {
     }
 }
 
-/// The encoding of a value of $DWGCODEPAGE; `None` where it is not known: ASCII with escapes is right in any.
+/// The encoding for a value of $DWGCODEPAGE. `None` if it is unknown: ASCII with escapes is correct in any encoding.
 fn code_page(name: &str) -> Option<&'static Encoding> {
     let lower = name.to_ascii_lowercase();
     let number = lower.strip_prefix("ansi_").or_else(|| lower.strip_prefix("dos"));

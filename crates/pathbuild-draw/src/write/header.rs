@@ -2,14 +2,14 @@ use super::record::{Pair, Record, kind as name};
 use crate::model::{Part, Version};
 use crate::sheet::Sheet;
 
-/// A day of 2025, as a Julian date: files do not tell when they were written.
+/// A fixed date in 2025 as a Julian date, since the output must not depend on the time of writing.
 const DATE: &str = "2460676.5";
 const GUID: &str = "{00000000-0000-0000-0000-000000000000}";
 
-/// Pointers to objects that are not written.
+/// Header variables that refer to objects that are not written.
 const POINTERS: [&str; 4] = ["$DRAGVS", "$CMATERIAL", "$INTERFEREOBJVS", "$INTERFEREVPVS"];
 
-/// The header section's pairs: what the crate writes, with everything set that it would make up.
+/// The pairs of the header section: the output of the crate, with fixed values for everything it would make up.
 pub(crate) fn pairs<'a>(sheet: &'a Sheet, mut variables: Vec<Record<'a>>, hand_seed: u64) -> Vec<Pair<'a>> {
     let options = sheet.options();
     variables.retain(|variable| !POINTERS.contains(&name(variable)));
@@ -43,7 +43,7 @@ fn fixed(variable: &str, hand_seed: u64) -> Option<String> {
     })
 }
 
-/// Sets a variable, adds it at the end, or takes it out.
+/// Sets a variable, adds it at the end, or removes it.
 fn change<'a>(variables: &mut Vec<Record<'a>>, wanted: &'a str, value: Option<Pair<'a>>) {
     let at = variables.iter().position(|variable| name(variable) == wanted);
     match (at, value) {

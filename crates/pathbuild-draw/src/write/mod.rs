@@ -1,9 +1,9 @@
-//! A sheet as DXF, through the crate `dxf`.
+//! Writes sheets as DXF through the crate `dxf`.
 //!
-//! The crate knows which groups an entity has in which version. What it gets wrong or lacks is put right on its output, pair by pair:
-//! it doubles handles, forgets the handles of tables, the owners, model and paper space, writes group 430 empty, drops alignment
-//! points at the origin, does not know frozen layers, escapes carets and umlauts, and stamps each file with the time and a random
-//! number. So strings are handed to it as tickets and put back here, and entities carry tags in place of handles.
+//! The crate knows which groups an entity has in each version. Its errors and omissions are corrected in its output, pair by pair: it
+//! duplicates handles; omits the handles of tables, the owners, and model and paper space; writes an empty group 430; drops alignment
+//! points at the origin; does not know frozen layers; escapes carets and umlauts; and puts the time and a random number into each file.
+//! Strings are therefore passed as tickets and restored here, and entities carry tags in place of handles.
 
 mod assemble;
 mod bytes;
@@ -27,12 +27,12 @@ use crate::sheet::Sheet;
 use tickets::Tickets;
 use written::Written;
 
-/// ASCII DXF.
+/// Writes ASCII DXF.
 pub(crate) fn ascii(sheet: &Sheet) -> Vec<u8> {
     with_pairs(sheet, |pairs| bytes::ascii(pairs, sheet.options()))
 }
 
-/// Binary DXF.
+/// Writes binary DXF.
 pub(crate) fn binary(sheet: &Sheet) -> Vec<u8> {
     with_pairs(sheet, |pairs| bytes::binary(pairs, sheet.options()))
 }
@@ -41,12 +41,12 @@ fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[record::Pair<'_>]) -> Vec<u8>)
     with_written(sheet, |written| write(&assemble::assemble(sheet, written)))
 }
 
-/// Lets the crate write a sheet, without its template.
+/// Lets the crate write a sheet without its template.
 fn with_written<T>(sheet: &Sheet, next: impl FnOnce(Written<'_>) -> T) -> T {
     let mut tickets = Tickets::default();
     let drawing = crate_drawing::drawing(sheet, &mut tickets);
     let mut text = Vec::new();
-    // In memory, and without a thumbnail, the crate has no way to fail.
+    // Saving to memory without a thumbnail cannot fail.
     _ = drawing.save(&mut text);
     let text = String::from_utf8_lossy(&text);
     let mut written = Written::of(&text, &tickets);

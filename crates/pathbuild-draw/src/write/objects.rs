@@ -1,28 +1,28 @@
 use super::record::Pair;
 use crate::model::Version;
 
-/// Handles of the objects that other sections refer to.
+/// The objects section, with handles that other sections refer to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Objects {
     first: u64,
 }
 
-/// The objects every drawing of a CAD has. `#n` is the handle of object n, `#m` and `#p` the block records of model and paper space.
+/// The objects of every CAD drawing. `#n` is the handle of object n; `#m` and `#p` are the block records of model and paper space.
 const R2000: &str = include_str!("objects_r2000.txt");
 const R13: &str = include_str!("objects_r13.txt");
 
-/// How many handles the objects take.
+/// Number of handles that the objects occupy.
 const COUNT: u64 = 16;
 const LAYOUTS: [u64; 2] = [4, 5];
 const PLOT_STYLE: u64 = 10;
 
 impl Objects {
-    /// The objects take their handles from here on.
+    /// Creates the objects with handles from `first` on.
     pub(crate) fn from(first: u64) -> Self {
         Self { first }
     }
 
-    /// The first handle behind them.
+    /// The first handle after those of the objects.
     pub(crate) fn end(self) -> u64 {
         self.first + COUNT
     }
@@ -35,7 +35,7 @@ impl Objects {
         self.first + PLOT_STYLE
     }
 
-    /// The section's pairs.
+    /// The pairs of the section.
     pub(crate) fn pairs(self, version: Version, spaces: [u64; 2]) -> Vec<Pair<'static>> {
         let text = if version >= Version::R2000 { R2000 } else { R13 };
         let mut lines = text.lines();

@@ -2,7 +2,7 @@ use std::borrow::Cow;
 
 use crate::model;
 
-/// A group code with its value: of the crate's text, of the sheet, or made here.
+/// A group code with its value, borrowed from the crate's output or the sheet, or created here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Pair<'a> {
     pub(crate) code: i32,
@@ -14,22 +14,22 @@ impl<'a> Pair<'a> {
         Self { code, value: value.into() }
     }
 
-    /// A handle or a pointer to one.
+    /// A pair for a handle or a pointer to one.
     pub(crate) fn handle(code: i32, handle: u64) -> Self {
         Self::new(code, format!("{handle:X}"))
     }
 
-    /// A whole number as CADs align them.
+    /// A pair for an integer, aligned as CAD programs do.
     pub(crate) fn integer(code: i32, number: i64) -> Self {
         Self::new(code, format!("{number:>6}"))
     }
 
-    /// The same pair, borrowed for as long as this one lives.
+    /// The pair with its value borrowed.
     pub(crate) fn borrowed(&self) -> Pair<'_> {
         Pair { code: self.code, value: Cow::Borrowed(&self.value) }
     }
 
-    /// The same pair on its own.
+    /// The pair with its value cloned.
     pub(crate) fn owned(&self) -> Pair<'static> {
         Pair { code: self.code, value: Cow::Owned(self.value.clone().into_owned()) }
     }
@@ -44,7 +44,7 @@ impl<'a> From<&'a model::Pair> for Pair<'a> {
 /// The pairs from one group 0 to the next.
 pub(crate) type Record<'a> = Vec<Pair<'a>>;
 
-/// Takes DXF apart.
+/// Splits DXF into records.
 pub(crate) fn records(text: &str) -> Vec<Record<'_>> {
     let mut lines = text.lines();
     let mut records: Vec<Record<'_>> = Vec::new();
@@ -58,7 +58,7 @@ pub(crate) fn records(text: &str) -> Vec<Record<'_>> {
     records
 }
 
-/// What kind of record it is: the value of group 0.
+/// The type of a record: the value of group 0.
 pub(crate) fn kind<'r>(record: &'r [Pair<'_>]) -> &'r str {
     record.first().map_or("", |pair| pair.value.as_ref())
 }
@@ -68,7 +68,7 @@ pub(crate) fn value<'r>(record: &'r [Pair<'_>], code: i32) -> Option<&'r str> {
     record.iter().find(|pair| pair.code == code).map(|pair| pair.value.as_ref())
 }
 
-/// Sets the first pair of a code, or adds one.
+/// Sets the first pair of a code, or appends it.
 pub(crate) fn set<'a>(record: &mut Record<'a>, pair: Pair<'a>) {
     match record.iter_mut().find(|old| old.code == pair.code) {
         Some(old) => *old = pair,
@@ -76,12 +76,12 @@ pub(crate) fn set<'a>(record: &mut Record<'a>, pair: Pair<'a>) {
     }
 }
 
-/// Drops all pairs of some codes.
+/// Removes all pairs of some codes.
 pub(crate) fn drop_codes(record: &mut Record<'_>, codes: &[i32]) {
     record.retain(|pair| !codes.contains(&pair.code));
 }
 
-/// Puts the handle, and the owner if there is one, behind group 0 in place of those the crate wrote.
+/// Inserts the handle, and the owner if there is one, after group 0, in place of those that the crate wrote.
 pub(crate) fn identify(record: &mut Record<'_>, code: i32, handle: Option<u64>, owner: Option<u64>) {
     drop_codes(record, &[5, 105, 330]);
     let handle = handle.map(|handle| Pair::handle(code, handle));

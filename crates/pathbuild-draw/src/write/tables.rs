@@ -4,14 +4,14 @@ use super::record::{Pair, Record, drop_codes, identify, kind, value};
 use crate::model::{Layer, LayerState, Version};
 use crate::sheet::Sheet;
 
-/// The tables in the order in which CADs write them.
+/// The tables in the order in which CAD programs write them.
 const TABLES: [&str; 9] =
     ["VPORT", "LTYPE", "LAYER", "STYLE", "VIEW", "UCS", "APPID", "DIMSTYLE", "BLOCK_RECORD"];
 
 /// The handles of the block records, by block name.
 pub(crate) type Owners = Vec<(String, u64)>;
 
-/// What the tables section needs to know.
+/// Input for the tables section.
 pub(crate) struct Tables<'a> {
     pub(crate) sheet: &'a Sheet,
     /// The handle of the plot style that layers refer to.
@@ -56,7 +56,7 @@ impl Tables<'_> {
         (pairs, owners)
     }
 
-    /// The records of a table, without unlisted layers and without names that the crate added because an entity spells them otherwise.
+    /// The records of a table, without unlisted layers and without names that the crate added because an entity spells them differently.
     fn listed<'r>(&self, table: &str, mut records: Vec<Record<'r>>) -> Vec<Record<'r>> {
         let mut names = BTreeSet::new();
         records.retain(|record| {
@@ -98,14 +98,14 @@ impl Tables<'_> {
         match table {
             "LAYER" => self.mend_layer(record),
             "LTYPE" if version >= Version::R13 => mend_line_type(record),
-            // Handles of styles and blocks that the crate leaves empty.
+            // Handles of styles and blocks, which the crate leaves empty.
             "DIMSTYLE" => drop_codes(record, &[340, 341, 342, 343, 344, 345, 346, 347]),
             "BLOCK_RECORD" => self.mend_block_record(record),
             _ => {}
         }
     }
 
-    /// The crate knows no layer flags and points at a plot style that does not exist.
+    /// Adds layer flags, which the crate does not know, and removes its pointer to a plot style that does not exist.
     fn mend_layer(&self, record: &mut Record<'_>) {
         let Some(layer) = self.layer(record) else { return };
         let flags = i64::from(layer.is(LayerState::Frozen)) + 4 * i64::from(layer.is(LayerState::Locked));
@@ -131,7 +131,7 @@ impl Tables<'_> {
     }
 }
 
-/// Each dash is followed by its kind.
+/// Inserts the type after each dash.
 fn mend_line_type(record: &mut Record<'_>) {
     let kind = |pair: &Pair<'_>| (pair.code == 49).then(|| Pair::new(74, "     0"));
     let pairs = std::mem::take(record).into_iter();

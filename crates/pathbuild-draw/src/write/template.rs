@@ -3,7 +3,7 @@ use super::with_written;
 use super::written::Written;
 use crate::sheet::Sheet;
 
-/// What stands around a drawing, as the crate writes it, without handles: made once, put around many.
+/// A frame around a drawing, as written by the crate, without handles: created once and shared by many drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
     tables: Vec<Record<'static>>,
@@ -13,7 +13,7 @@ pub struct Template {
 }
 
 impl Template {
-    /// Of a sheet without texts that belong to elements: its first `early` entities come before what it is put around.
+    /// Creates a template from a sheet without parameter texts. Its first `early` entities precede those of the surrounded drawing.
     pub fn new(sheet: &Sheet, early: usize) -> Self {
         with_written(sheet, |written| {
             let is_block = |record: &&Record<'_>| kind(record) == "BLOCK_RECORD" && !is_space(record);
@@ -35,7 +35,7 @@ impl Template {
         })
     }
 
-    /// Adds it to the records of a sheet, without its last `left_out` records.
+    /// Adds the template to the records of a sheet, without its last `left_out` records.
     pub(crate) fn put_around<'a>(&'a self, written: &mut Written<'a>, left_out: usize) {
         written.tables.extend(borrowed(&self.tables));
         written.blocks.extend(borrowed(&self.blocks));

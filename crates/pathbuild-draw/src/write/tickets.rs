@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 
 use super::record::Record;
 
-/// Stands for strings while they pass through the crate `dxf`, which would change some of their characters.
+/// Placeholders for strings while they pass through the crate `dxf`, which would change some of their characters.
 #[derive(Debug, Default)]
 pub(crate) struct Tickets {
     numbers: BTreeMap<String, usize>,
@@ -11,7 +11,7 @@ pub(crate) struct Tickets {
 }
 
 impl Tickets {
-    /// The string itself when nothing in it is in danger, else its ticket.
+    /// The string itself if the crate leaves it unchanged, otherwise its ticket.
     pub(crate) fn ticket(&mut self, string: &str) -> String {
         let is_safe = |c: char| (' '..='~').contains(&c) && !matches!(c, '^' | '<');
         if string.chars().all(is_safe) {
@@ -25,7 +25,7 @@ impl Tickets {
         format!("<{number}>")
     }
 
-    /// Puts the strings back in place of their tickets.
+    /// Replaces the tickets by their strings.
     pub(crate) fn redeem_all<'a>(&'a self, record: &mut Record<'a>) {
         for pair in record {
             if let Some(string) = self.redeem(&pair.value) {

@@ -1,11 +1,11 @@
 use super::record::{Pair, Record, drop_codes, set, value};
 use crate::model::{Change, Direction, Entity, Shape, Version};
 
-/// Groups of MTEXT that are written; the crate adds those of columns and of a background, which no older program reads.
+/// Groups of MTEXT to keep. The crate adds groups for columns and a background, which older programs cannot read.
 const MTEXT: [i32; 25] =
     [0, 5, 330, 100, 67, 8, 6, 62, 48, 60, 10, 20, 30, 40, 41, 71, 72, 3, 1, 7, 73, 44, 210, 220, 230];
 
-/// Drops what the crate writes without being asked: empty names, pointers to nothing, and subclasses in versions without them.
+/// Removes unwanted output of the crate: empty names, dangling pointers, and subclasses in versions without them.
 pub(crate) fn common(record: &mut Record<'_>, version: Version) {
     record.retain(|pair| match pair.code {
         100 => version >= Version::R13,
@@ -15,7 +15,7 @@ pub(crate) fn common(record: &mut Record<'_>, version: Version) {
     });
 }
 
-/// Puts one entity right as the crate wrote it.
+/// Corrects an entity in the crate's output.
 pub(crate) fn entity(record: &mut Record<'_>, entity: &Entity) {
     match &entity.shape {
         Shape::Text(_) => text(record),
@@ -28,7 +28,7 @@ pub(crate) fn entity(record: &mut Record<'_>, entity: &Entity) {
     }
 }
 
-/// Reduces MTEXT to its usual groups and these. The crate's second group 50 counts columns.
+/// Reduces an MTEXT to its usual groups and those of its direction. The crate's second group 50 counts columns.
 fn reduce(record: &mut Record<'_>, direction: &[i32]) {
     let mut is_first = true;
     record.retain(|pair| {
@@ -37,7 +37,7 @@ fn reduce(record: &mut Record<'_>, direction: &[i32]) {
     });
 }
 
-/// Restores an alignment point at the origin, and puts the vertical alignment where it belongs.
+/// Restores an alignment point at the origin, and moves the vertical alignment to its place.
 fn text(record: &mut Record<'_>) {
     let is_aligned = value(record, 72).or(value(record, 73)).is_some();
     if is_aligned && value(record, 11).is_none() {
@@ -50,7 +50,7 @@ fn text(record: &mut Record<'_>) {
     }
 }
 
-/// Makes the changes that the drawing asks for.
+/// Applies the changes that the drawing requests.
 pub(crate) fn change<'a>(record: &mut Record<'a>, changes: &'a [Change]) {
     for change in changes {
         match change {

@@ -4,19 +4,19 @@ use super::tickets::Tickets;
 use super::tidy;
 use crate::model::{Entity, Version};
 
-/// What the crate wrote, section by section.
+/// The output of the crate, section by section.
 #[derive(Debug, Default)]
 pub(crate) struct Written<'a> {
-    /// Header variables: the pair with the name, and those of its value.
+    /// Header variables: the pair with the name, and the pairs of its value.
     pub(crate) header: Vec<Record<'a>>,
-    /// The records of all tables, without heads.
+    /// The records of all tables, without their heads.
     pub(crate) tables: Vec<Record<'a>>,
     pub(crate) blocks: Vec<Record<'a>>,
     pub(crate) entities: Vec<Record<'a>>,
 }
 
 impl<'a> Written<'a> {
-    /// Takes the crate's text apart and puts the strings back in place of their tickets.
+    /// Splits the output of the crate and replaces the tickets by their strings.
     pub(crate) fn of(text: &'a str, tickets: &'a Tickets) -> Self {
         let mut written = Self::default();
         let mut section = String::new();
@@ -43,7 +43,7 @@ impl<'a> Written<'a> {
         written
     }
 
-    /// Puts right what the crate gets wrong about entities.
+    /// Corrects the entities in the crate's output.
     pub(crate) fn tidy(&mut self, tagged: &[&Entity], version: Version) {
         for record in self.entities.iter_mut().chain(&mut self.blocks) {
             tidy::common(record, version);
@@ -58,7 +58,7 @@ fn variables<'a>(pairs: &[Pair<'a>]) -> Vec<Record<'a>> {
     pairs.chunk_by(|_, next| next.code != 9).map(<[Pair<'_>]>::to_vec).collect()
 }
 
-/// The entity of a record by the tag that it has for a handle.
+/// The entity of a record, by the tag in place of its handle.
 pub(crate) fn entity_of<'e>(record: &Record<'_>, tagged: &[&'e Entity]) -> Option<&'e Entity> {
     let tag = u64::from_str_radix(value(record, 5)?, 16).ok()?;
     let index = usize::try_from(tag.checked_sub(TAG)?).ok()?;

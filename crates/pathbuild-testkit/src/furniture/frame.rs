@@ -19,7 +19,7 @@ const PARTS: [(&str, &str); 12] = [
     ("Lagerbock für Welle", "GG-20"),
 ];
 
-/// An A3 sheet: border, title block, parts list, remarks.
+/// Draws an A3 sheet: border, title block, parts list, remarks.
 pub(super) fn draw(room: &mut Room) {
     let sheet = border();
     room.blocks.push(sheet);
@@ -49,7 +49,7 @@ pub(super) fn text(value: &str, anchor: Point, height: f64, horizontal: Horizont
     }))
 }
 
-/// The border with marks in the middle of its sides.
+/// The border, with marks at the middle of each side.
 fn border() -> Block {
     let corners = [(-10.0, -10.0), (390.0, -10.0), (390.0, 267.0), (-10.0, 267.0)].map(Point::from);
     let side = |index: usize| Line { from: corners[index], to: corners[(index + 1) % 4] };

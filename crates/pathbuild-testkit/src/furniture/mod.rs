@@ -1,5 +1,5 @@
-//! What a workshop's drawing has around the path: a frame with a title block, a parts list, the part itself with holes, centre lines,
-//! hatching and dimensions, screws as blocks. Never on a path layer; always the same for the same seed.
+//! The surroundings of the path in a typical drawing: a frame with a title block, a parts list, the part itself with holes, centre lines,
+//! hatching and dimensions, and screws as blocks. None of it is on a path layer, and the same seed gives the same result.
 
 mod frame;
 mod part;
@@ -11,24 +11,24 @@ use crate::random::Random;
 use pathbuild_draw::model::{Entity, Layer, LineEnds, Point, Shape, Version};
 use pathbuild_draw::{Block, Draft, DrawError, Sheet, Template};
 
-/// The smallest size that a drawing comes to, in bytes of ASCII with CRLF in R2000, and the span above it.
+/// Minimum size of a drawing in bytes of ASCII with CRLF in R2000, and the range above it.
 const LEAST: usize = 38_500;
 const SPAN: usize = 8_000;
 
-/// How many different furnitures there are.
+/// Number of variants of furniture.
 const VARIANTS: usize = 16;
 
-/// Most lines of hatching. Fewer are drawn where the path is large.
+/// Maximum number of hatch lines. Large paths get fewer.
 const HATCH_LINES: usize = 160;
 
-/// The furnitures as they are written. Kept, because even a library of thousands of drawings has but few different ones.
+/// Cache of written furniture, since even a library of thousands of drawings uses only a few variants.
 static KEPT: [[OnceLock<Arc<Template>>; VARIANTS]; Version::ALL.len()] =
     [const { [const { OnceLock::new() }; VARIANTS] }; Version::ALL.len()];
 
-/// Finishes a drawing, with the furniture of a seed around it, filled up so that it has a usual size.
+/// Finishes a drawing with the furniture of a seed, padded to a typical size.
 ///
 /// # Errors
-/// Those of [`Draft::finish`].
+/// The errors of [`Draft::finish`].
 pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<DrawError>> {
     let Some(seed) = seed else { return draft.finish() };
     add_layers(&mut draft);
@@ -41,7 +41,7 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     let all = sheet.entities().iter().chain(&room.entities).chain(inner);
     let size = size::estimate(sheet.layers().len(), blocks.len(), all);
     let target = LEAST + random.below(SPAN);
-    // The estimate is for CRLF: with one character less in each line, more lines come to the same size.
+    // The estimate assumes CRLF: with one byte less per line, more lines are needed for the same size.
     let target = if sheet.options().line_ends == LineEnds::CrLf { target } else { target * 20 / 17 };
     let hatch_lines = (target.saturating_sub(size) / size::HATCH_LINE).min(HATCH_LINES);
     let version = sheet.options().version;
@@ -49,8 +49,8 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     Ok(sheet.within(Arc::clone(template), HATCH_LINES - hatch_lines))
 }
 
-/// Nothing but the furniture, with all the hatching as its last entities. A CAD writes in the order of drawing: the frame first,
-/// then the path, then what was added to it.
+/// The furniture alone, with all hatch lines as its last entities. Entities are in the order in which a user draws: the frame first, then
+/// the path, then what was added to it.
 fn template(variant: usize, version: Version) -> Template {
     let mut room = Room::of(variant);
     part::hatch(&mut room);
@@ -76,7 +76,7 @@ fn add_layers(draft: &mut Draft) {
     }
 }
 
-/// The layers, with the line type that BYLAYER means on them and their colours.
+/// The layers with their line types and colours.
 const LAYERS: [(&str, &str, u8); 9] = [
     (FRAME, "CONTINUOUS", 8),
     (TITLE, "CONTINUOUS", 7),
@@ -99,7 +99,7 @@ const HATCH: &str = "SCHRAFFUR";
 const MEASURES: &str = "MAßE";
 const NOTES: &str = "HINWEISE 1-4";
 
-/// What is being drawn.
+/// The furniture under construction.
 struct Room {
     random: Random,
     entities: Vec<Entity>,
@@ -131,7 +131,7 @@ impl Room {
     }
 }
 
-/// Colour and line type are the layer's, as nearly all entities of a CAD have them.
+/// An entity with BYLAYER colour and line type, like nearly all entities of CAD programs.
 fn by_layer(entity: Entity, layer: &str) -> Entity {
     Entity { layer: Some(layer.to_owned()), line_type: None, ..entity }
 }

@@ -3,11 +3,11 @@ use super::{CENTRE, HATCH, HATCH_LINES, HIDDEN, MEASURES, OUTLINE, Room, by_laye
 use pathbuild_draw::Block;
 use pathbuild_draw::model::{Dimension, Entity, Horizontal, Point, Polyline, PolylineKind, Shape, Vertex};
 
-/// The part's lower left and upper right corners.
+/// Lower left and upper right corner of the part.
 const LOW: Point = Point::new(-5.0, 60.0);
 const HIGH: Point = Point::new(200.0, 225.0);
 
-/// The part in two views, with holes, screws, centre lines and dimensions.
+/// Draws the part in two views, with holes, screws, centre lines and dimensions.
 pub(super) fn draw(room: &mut Room) {
     let corner = room.random.between(5.0, 20.0, 2.5);
     outline(room, corner);
@@ -26,7 +26,7 @@ pub(super) fn draw(room: &mut Room) {
     dimension(room, LOW, HIGH, 2);
 }
 
-/// A polyline with rounded and slanted corners.
+/// Draws a polyline with rounded and chamfered corners.
 fn outline(room: &mut Room, corner: f64) {
     let at = |x: f64, y: f64, bulge: f64| Vertex { point: Point::new(x, y), bulge };
     let vertices = vec![
@@ -75,7 +75,7 @@ fn hole(room: &mut Room, at: Point, diameter: f64) {
     room.line(at.polar(reach, 270.0), at.polar(reach, 90.0), CENTRE);
 }
 
-/// The head of a screw from above.
+/// The head of a screw, seen from above.
 fn screw() -> Block {
     let corner = |index: u8| Point::default().polar(2.886_751_345_948, f64::from(index) * 60.0);
     let sides = (0..6).map(|index| Entity::line(corner(index), corner(index + 1)));
@@ -84,7 +84,7 @@ fn screw() -> Block {
     Block { name: "DIN912_M6".to_owned(), base: Point::default(), entities }
 }
 
-/// A horizontal dimension with its block, as CADs write it.
+/// Draws a horizontal dimension with its block, as CAD programs write it.
 fn dimension(room: &mut Room, from: Point, to: Point, index: usize) {
     let y = LOW.y - 6.0 - 4.0 * index as f64;
     let (left, right) = (Point::new(from.x, y), Point::new(to.x, y));
@@ -106,12 +106,12 @@ fn arrow(tip: Point, side: f64) -> Entity {
     Entity::new(Shape::Solid([tip, a, b, b]))
 }
 
-/// Hatching: slanted lines over a quarter of the part.
+/// Draws hatching: slanted lines over a quarter of the part.
 pub(super) fn hatch(room: &mut Room) {
     let (low, high) = (Point::new(112.5, 140.0), Point::new(197.5, 222.5));
     let (width, height) = (high.x - low.x, high.y - low.y);
     for index in 1..=HATCH_LINES {
-        // Where the line y = x + offset cuts the field's edges.
+        // Offset of the line y = x + offset, which is clipped to the field.
         let offset = (width + height) * index as f64 / (HATCH_LINES + 1) as f64 - width;
         let from = Point::new(low.x + (-offset).max(0.0), low.y + offset.max(0.0));
         let to = Point::new(low.x + (height - offset).min(width), low.y + (width + offset).min(height));

@@ -1,14 +1,14 @@
 use pathbuild_draw::model::{Entity, Shape};
 
-/// What header, usual tables, empty blocks and objects take; each layer; each block.
+/// Bytes of the fixed parts (header, usual tables, empty blocks and objects), of a layer, and of a block.
 const FRAME: usize = 14_500;
 const LAYER: usize = 155;
 const BLOCK: usize = 500;
 
-/// Bytes of one line of the hatching.
+/// Bytes of a hatch line.
 pub(super) const HATCH_LINE: usize = 167;
 
-/// Bytes that a drawing will have in R2000, to a few per cent.
+/// Estimated size of a drawing in bytes in R2000, precise to a few per cent.
 pub(super) fn estimate<'a>(
     layers: usize,
     blocks: usize,

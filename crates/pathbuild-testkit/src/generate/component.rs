@@ -7,15 +7,15 @@ use pathbuild_draw::Draft;
 use pathbuild_draw::Sheet;
 use pathbuild_draw::model::{Entity, LineEnds, Point, Version};
 
-/// Where the first path begins, and how far above it the next one does.
+/// The start of the first path, and the vertical distance to the next.
 const ORIGIN: Point = Point::new(20.0, 80.0);
 const ROW: f64 = 90.0;
 
-/// Width and height of the field in which a feature is drawn.
+/// Width and height of the field for one feature.
 const FIELD: Point = Point::new(34.0, 26.0);
 const FIELDS_IN_ROW: usize = 4;
 
-/// The drawing of a component with its file name.
+/// The drawing of a component, with its file name.
 pub(super) fn drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.random(index);
     let paths = plan.paths(index);
@@ -31,13 +31,13 @@ pub(super) fn drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     (plan.file(index), finished(draft, furniture))
 }
 
-/// A generated drawing has room for its texts: its elements lie apart.
+/// Finishes a generated drawing. Its elements are far enough apart that there is room for all texts.
 pub(super) fn finished(draft: Draft, furniture: u64) -> Sheet {
     finish(draft, Some(furniture))
         .unwrap_or_else(|errors| unreachable!("a generated drawing has a fault: {}", errors[0]))
 }
 
-/// How a drawing is written, and the seed of its furniture.
+/// Chooses options for writing the drawing, and returns the seed of its furniture.
 pub(super) fn options(draft: &mut Draft, random: &mut Random) -> u64 {
     let furniture = random.next();
     if random.once_in(8) {
@@ -49,12 +49,12 @@ pub(super) fn options(draft: &mut Draft, random: &mut Random) -> u64 {
     furniture
 }
 
-/// Some CADs cannot write points in layer names.
+/// A layer name; sometimes without points, which some CAD programs do not allow.
 fn layer(name: &str, random: &mut Random) -> String {
     if random.once_in(5) { name.replace('.', "_") } else { name.to_owned() }
 }
 
-/// What people copy into projects: a line from start to end on a layer that is no path's.
+/// Draws a line from start to end on a layer without a path, for copying into projects.
 fn proxy_line(draft: &mut Draft, path: &PathPlan, start: Point) {
     let layer = format!("{} PROXY", path.name.split('.').next().unwrap_or_default());
     draft.layer(&layer);
@@ -70,13 +70,13 @@ pub(super) fn embedding_text(path: &PathPlan, value: &str) -> String {
     format!(">{} T{t} O{o} {m}{variable}", path.name)
 }
 
-/// One path: features in rows above the line from start to end, with sweeps between them.
+/// Draws a path: features in rows above the line from start to end, with sweeps between them.
 fn draw_path(path: &PathPlan, start: Point, features: usize, random: &mut Random) -> Vec<Entity> {
     let tool = Tool::of(path, random);
     let mut pen = Pen::new(random, start, &tool.start_text(path));
     for feature in 0..features {
         let (row, column) = (feature / FIELDS_IN_ROW, feature % FIELDS_IN_ROW);
-        // Rows are gone through to and fro.
+        // Consecutive rows run in opposite directions.
         let column = if row % 2 == 0 { column } else { FIELDS_IN_ROW - 1 - column };
         let field = Point::new(FIELD.x * column as f64, 16.0 + FIELD.y * row as f64);
         draw_feature(&mut pen, &tool, start + field);

@@ -3,14 +3,14 @@ use super::plan::{PathPlan, comma};
 use crate::random::Random;
 use pathbuild_draw::model::Point;
 
-/// What the texts of a path need to know.
+/// Parameters that the texts of a path depend on.
 pub(super) struct Tool {
     pub(super) thickness: f64,
     cutter: f64,
     infeed: f64,
-    /// The value of B, a number or the path's variable.
+    /// The value of B: a number or the path's variable.
     bottom: String,
-    /// Whether the start's text gives B, so that elements need not.
+    /// Whether the text at the start gives B, so that elements need not.
     bottom_is_inherited: bool,
 }
 
@@ -34,19 +34,19 @@ impl Tool {
         format!("{}\\PO{o}\\PT{t}\\PI{i}{bottom}{variable}", path.signature.material)
     }
 
-    /// The text of an element that is milled to B.
+    /// The text of an element milled to B.
     fn bottom_text(&self, more: &str) -> String {
         let own = if self.bottom_is_inherited { String::new() } else { format!("B{}", self.bottom) };
         format!("{own} {more}").trim().to_owned()
     }
 
-    /// A depth of marks, above every B.
+    /// A marking depth, above every B.
     fn mark(&self) -> String {
         comma(self.thickness - 0.4)
     }
 }
 
-/// Draws one feature in the field whose lower left corner is given.
+/// Draws a random feature in the field with this lower left corner.
 pub(super) fn draw_feature(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     match pen.random.below(6) {
         0 => contour(pen, tool, field),
@@ -62,7 +62,7 @@ fn corner(field: Point, x: f64, y: f64) -> Point {
     field + Point::new(x, y)
 }
 
-/// A closed contour with rounded corners.
+/// Draws a closed contour with rounded corners.
 fn contour(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     let width = pen.random.between(14.0, 26.0, 0.5);
     let height = pen.random.between(10.0, 18.0, 0.5);
@@ -76,7 +76,7 @@ fn contour(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.arc(corner(field, 3.0, 0.0), 0.414_213_562_373, "CONTINUOUS", &text);
 }
 
-/// An open chain of lines and arcs, milled deeper step by step.
+/// Draws an open chain of lines and arcs with increasing depth.
 fn groove(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.sweep(field, tool.thickness);
     let steps = 3 + pen.random.below(4);
@@ -92,7 +92,7 @@ fn groove(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     }
 }
 
-/// Lines with support bars, which leave room for the cutter.
+/// Draws lines with support bars that leave room for the cutter.
 fn bars(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.sweep(field, tool.thickness);
     let length = pen.random.between(20.0, 28.0, 0.5);
@@ -102,7 +102,7 @@ fn bars(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.line(corner(field, length, 15.0), "CENTER", &text);
 }
 
-/// Marks, some of them on a layer with a suffix.
+/// Draws marks, some of them on a layer with a suffix.
 fn marks(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.sweep(field, tool.thickness);
     let text = format!("D{}", tool.mark());
@@ -111,7 +111,7 @@ fn marks(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.line(corner(field, 24.0, 0.0), "DIVIDE", &text);
 }
 
-/// A row of drilled holes, the last one only marked.
+/// Draws a row of drilled holes; the last one is only marked.
 fn holes(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     let count = 2 + pen.random.below(3);
     for hole in 0..count {
@@ -124,7 +124,7 @@ fn holes(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     }
 }
 
-/// Two circles milled as spirals, one of them for a mark.
+/// Draws two helical circles, one of them for marking.
 fn helixes(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.sweep(corner(field, 6.0, 8.0), tool.thickness);
     let diameter = tool.cutter * pen.random.pick(&[1.5, 2.0, 3.0]);

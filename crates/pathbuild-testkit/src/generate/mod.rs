@@ -1,5 +1,5 @@
-//! Libraries of drawings as a workshop has them, for benchmarks and property tests: any number of components, projects that embed
-//! them, fixture and variable projects. All of them compile without errors, and the same seed gives the same bytes.
+//! Generates realistic libraries of drawings for benchmarks and property tests: any number of components, projects that embed them, fixture
+//! projects and variable projects. All of them compile without errors, and the same seed gives the same bytes.
 
 mod component;
 mod features;
@@ -10,8 +10,8 @@ mod project;
 use pathbuild_draw::Sheet;
 use plan::Plan;
 
-/// A library: `components` component drawings, `components / 10` projects of ten embeddings each, and `components / 50` variable
-/// projects with as many fixture projects. Nothing is kept: each drawing is made when it is asked for, on any thread.
+/// A library: `components` component drawings, `components / 10` projects with ten embeddings each, and `components / 50` variable projects
+/// with as many fixture projects. Drawings are generated on demand, on any thread.
 #[derive(Clone, Copy, Debug)]
 pub struct Library {
     plan: Plan,
@@ -24,17 +24,17 @@ pub fn library(components: usize, seed: u64) -> impl Iterator<Item = (String, Sh
 }
 
 impl Library {
-    /// A library of so many components.
+    /// Creates a library with this number of components.
     pub fn new(components: usize, seed: u64) -> Self {
         Self { plan: Plan::new(components, seed) }
     }
 
-    /// How many drawings there are.
+    /// The number of drawings.
     pub fn len(&self) -> usize {
         self.plan.components() + self.projects() + 2 * self.variable_projects()
     }
 
-    /// Whether there is none.
+    /// Whether there are no drawings.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -47,8 +47,8 @@ impl Library {
         self.plan.components() / 50
     }
 
-    /// A drawing with its name relative to the library's directory: components first, then projects, then fixture and variable
-    /// projects in turn. An index past the end begins anew.
+    /// A drawing with its name relative to the library's directory: first components, then projects, then fixture and variable projects
+    /// alternating. Indices beyond the end wrap around.
     pub fn drawing(&self, index: usize) -> (String, Sheet) {
         let index = index.checked_rem(self.len()).unwrap_or_default();
         let Some(behind) = index.checked_sub(self.plan.components()) else {
@@ -61,12 +61,12 @@ impl Library {
         }
     }
 
-    /// The directories that hold drawings, in the order in which they are searched.
+    /// The directories of the drawings, in search order.
     pub fn directories(&self) -> Vec<String> {
         self.plan.directories()
     }
 
-    /// A pathbuild.toml for it.
+    /// A pathbuild.toml for the library.
     pub fn configuration(&self) -> String {
         let names: Vec<String> = self.directories().iter().map(|name| format!("{name:?}")).collect();
         let names = names.join(", ");

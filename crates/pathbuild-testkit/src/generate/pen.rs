@@ -1,7 +1,7 @@
 use crate::random::Random;
 use pathbuild_draw::model::{Arc, Entity, Point, Shape};
 
-/// Draws a path from element to element.
+/// Draws a path element by element.
 #[derive(Debug)]
 pub(super) struct Pen<'a> {
     pub(super) random: &'a mut Random,
@@ -18,15 +18,15 @@ impl<'a> Pen<'a> {
         self.entities.push(entity);
     }
 
-    /// A line from here.
+    /// Draws a line from the current point.
     pub(super) fn line(&mut self, to: Point, line_type: &str, text: &str) {
-        // One in four is drawn from its end, as it happens when people copy and mirror.
+        // One line in four is drawn from its end, as happens when users copy and mirror.
         let (from, end) = if self.random.once_in(4) { (to, self.at) } else { (self.at, to) };
         self.add(Entity::line(from, end).typed(line_type).note(text));
         self.at = to;
     }
 
-    /// An arc from here, by its bulge.
+    /// Draws an arc with this bulge from the current point.
     pub(super) fn arc(&mut self, to: Point, bulge: f64, line_type: &str, text: &str) {
         match Arc::bulged(self.at, to, bulge) {
             Some(arc) => self.add(Entity::new(Shape::Arc(arc)).typed(line_type).note(text)),
@@ -35,12 +35,12 @@ impl<'a> Pen<'a> {
         self.at = to;
     }
 
-    /// A circle around this point.
+    /// Draws a circle around the current point.
     pub(super) fn circle(&mut self, diameter: f64, line_type: &str, text: &str) {
         self.add(Entity::circle(self.at, diameter).typed(line_type).note(text));
     }
 
-    /// A rapid move, with a sweep height of its own now and then.
+    /// Draws a rapid move, sometimes with its own sweep height.
     pub(super) fn sweep(&mut self, to: Point, thickness: f64) {
         if self.random.once_in(6) {
             let height = thickness + self.random.between(1.0, 6.0, 0.5);
@@ -50,7 +50,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Ends the path.
+    /// Draws the end marker and returns the path.
     pub(super) fn end(mut self, at: Point) -> Vec<Entity> {
         self.add(Entity::end(at));
         self.entities

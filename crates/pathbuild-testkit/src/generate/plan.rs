@@ -1,14 +1,14 @@
 use crate::random::Random;
 use pathbuild_draw::model::Point;
 
-/// What a library consists of; every drawing can be worked out from it without the others.
+/// The composition of a library. Every drawing follows from it independently of the others.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
     components: usize,
     seed: u64,
 }
 
-/// What an embedding must know of a path.
+/// Properties of a path that matter for embedding it.
 #[derive(Clone, Debug)]
 pub(super) struct PathPlan {
     pub(super) name: String,
@@ -17,22 +17,22 @@ pub(super) struct PathPlan {
     pub(super) variable: Option<(f64, f64)>,
 }
 
-/// What the segment that embeds a path must agree with.
+/// Properties of a path that the embedding segment must match.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Signature {
     pub(super) thickness: f64,
     pub(super) cutter: f64,
     pub(super) material: &'static str,
-    /// From the start to the end of the path.
+    /// The vector from the start to the end of the path.
     pub(super) chord: Point,
 }
 
-/// Numbers of component drawings begin here; those of projects are 8000 to 8999.
+/// First number of component drawings; projects have the numbers 8000 to 8999.
 const FIRST: usize = 1000;
 const NUMBERS: usize = 7000;
 const PROJECTS: usize = 1000;
 
-/// Streams of random numbers.
+/// Offsets of the random number streams.
 const SIGNATURE: u64 = 1 << 32;
 const SHAPE: u64 = 2 << 32;
 const PROJECT: u64 = 3 << 32;
@@ -42,12 +42,12 @@ impl Plan {
         Self { components, seed }
     }
 
-    /// Random numbers for the paths of a component.
+    /// The random numbers for the paths of a component.
     pub(super) fn random(&self, index: usize) -> Random {
         Random::new(self.seed, SHAPE + index as u64)
     }
 
-    /// Random numbers for a project.
+    /// The random numbers for a project.
     pub(super) fn project_random(&self, index: usize) -> Random {
         Random::new(self.seed, PROJECT + index as u64)
     }
@@ -70,7 +70,7 @@ impl Plan {
         (0..count).map(path).collect()
     }
 
-    /// Two neighbours have the same, so that a fixture project can take either of them.
+    /// The signature of a path. Pairs of neighbours share it, so that a fixture project can embed either of them.
     fn signature(&self, index: usize, path: usize) -> Signature {
         let mut random = Random::new(self.seed, SIGNATURE + (index / 2 * 8 + path) as u64);
         Signature {
@@ -81,7 +81,7 @@ impl Plan {
         }
     }
 
-    /// The file of a component, named after the paths that it holds.
+    /// The file name of a component, derived from the paths it contains.
     pub(super) fn file(&self, index: usize) -> String {
         let paths = self.paths(index);
         let (first, last) = (&paths[0].name, &paths[paths.len() - 1].name);
@@ -112,7 +112,7 @@ pub(super) fn project_name(index: usize, path: usize) -> String {
     format!("{}.{}P", 8000 + index % PROJECTS, path + 10 * (index / PROJECTS))
 }
 
-/// A number as people write it in these drawings, with a decimal comma.
+/// A number with a decimal comma, as common in these drawings.
 pub(super) fn comma(number: f64) -> String {
     number.to_string().replace('.', ",")
 }

@@ -6,13 +6,13 @@ use pathbuild_draw::Draft;
 use pathbuild_draw::Sheet;
 use pathbuild_draw::model::{Entity, Point};
 
-/// Embeddings in a project.
+/// Number of embeddings in a project.
 const EMBEDDINGS: usize = 10;
 
-/// Distance of the embeddings in a project.
+/// Distance between the embeddings of a project.
 const GRID: f64 = 170.0;
 
-/// Numbers of the paths of fixture and variable projects.
+/// Path numbers of fixture and variable projects.
 const FIXTURE: usize = 8;
 const VARIABLE: usize = 7;
 
@@ -31,7 +31,7 @@ fn any_path(plan: &Plan, random: &mut Random) -> PathPlan {
     paths.swap_remove(random.below(paths.len()))
 }
 
-/// A path that is drawn for this cutter: a random one, else the next of the components behind it.
+/// A random path for this cutter, or otherwise the next suitable component.
 fn path_for(plan: &Plan, cutter: f64, random: &mut Random) -> PathPlan {
     let first = random.below(plan.components());
     let paths = (0..plan.components()).map(|offset| plan.paths((first + offset) % plan.components()));
@@ -41,7 +41,7 @@ fn path_for(plan: &Plan, cutter: f64, random: &mut Random) -> PathPlan {
     suitable.swap_remove(random.below(suitable.len()))
 }
 
-/// A fixture project: its three path names are variables.
+/// A fixture project, with three path names as variables.
 pub(super) fn fixture(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.project_random(index + plan.components());
     let choices = choices(plan, &mut random);
@@ -51,7 +51,7 @@ pub(super) fn fixture(plan: &Plan, index: usize) -> (String, Sheet) {
     project(&project_name(index, FIXTURE), &segments(&choices), &definitions, &mut random)
 }
 
-/// A variable project: it embeds a fixture project and sets its variables.
+/// A variable project, which embeds a fixture project and sets its variables.
 pub(super) fn variable(plan: &Plan, index: usize) -> (String, Sheet) {
     let mut random = plan.project_random(index + plan.components());
     let choices = choices(plan, &mut random);
@@ -63,7 +63,7 @@ pub(super) fn variable(plan: &Plan, index: usize) -> (String, Sheet) {
     project(&project_name(index, VARIABLE), &[segment], "", &mut random)
 }
 
-/// A variable and the two paths that it may name.
+/// A variable with its two permitted paths.
 struct Choice {
     variable: char,
     paths: [PathPlan; 2],
@@ -84,7 +84,7 @@ fn segments(choices: &[Choice]) -> Vec<(String, Signature)> {
     choices.iter().map(segment).collect()
 }
 
-/// Two paths that can stand for each other, of this cutter where one is given.
+/// Two interchangeable paths, for a given cutter if there is one.
 fn neighbours(plan: &Plan, cutter: Option<f64>, random: &mut Random) -> [PathPlan; 2] {
     let pairs = plan.components() / 2;
     let begin = random.below(pairs);
@@ -98,7 +98,7 @@ fn neighbours(plan: &Plan, cutter: Option<f64>, random: &mut Random) -> [PathPla
     (0..pairs).map(pair).find(|pair| pair.iter().all(is_plain)).unwrap_or_else(|| pair(0))
 }
 
-/// What embeds this project must agree with.
+/// The properties that a segment embedding this project must match.
 fn signature(segments: &[(String, Signature)]) -> Signature {
     let thickness = segments.iter().map(|(_, signature)| signature.thickness).fold(0.0, f64::max);
     let rows = segments.len().div_ceil(5);
@@ -132,7 +132,7 @@ fn project(
     (format!("projects/{name}.dxf"), finished(draft, furniture))
 }
 
-/// A subpath segment from here, of the length that the path has, in some direction.
+/// Draws a subpath segment with the length of the path from the current point, in a random direction.
 fn embed(pen: &mut Pen<'_>, text: &str, signature: Signature) {
     let turn = pen.random.pick(&[0.0, 15.0, 30.0, 45.0, -30.0]);
     let length = Point::default().distance(signature.chord);

@@ -1,5 +1,5 @@
-//! Which moves come into clamps, told from what is drawn: passes of straight lines and rapid moves between them. Clamps are upright
-//! rectangles here, and none stands where the tool goes up or down. (book: language/keep-outs)
+//! Finds moves into clamps by a simple geometric model: passes along straight lines, and rapid moves between them. Clamps are axis-parallel
+//! rectangles here, and none is located where the tool plunges or retracts. (book: language/keep-outs)
 
 use std::collections::BTreeMap;
 
@@ -7,22 +7,22 @@ use pathbuild_path::{KeepOut, Path, Segment, SegmentKind, SubpathName, Xy};
 
 use super::{Finding, Instance, Model};
 
-/// Lengths in mm that differ by no more are the same.
+/// Tolerance in mm within which lengths are equal.
 const LENGTH: f64 = 1e-6;
 
 /// X and Y in mm, or cosine and sine of an angle.
 type Pair = [f64; 2];
 
-/// A path where it stands in a program.
+/// A path as placed in a program.
 struct Occurrence {
     instance: Instance,
     path: Path,
-    /// The occurrence that embeds it, and by which element.
+    /// Index of the embedding occurrence, and the element that embeds this one.
     parent: Option<(usize, Option<String>)>,
     place: Place,
 }
 
-/// Where a drawing comes to lie.
+/// Placement of a drawing in a program.
 #[derive(Clone, Copy)]
 struct Place {
     origin: Pair,
@@ -30,7 +30,7 @@ struct Place {
     raised: f64,
 }
 
-/// A straight move at one height.
+/// A straight move at constant height.
 struct Move {
     occurrence: usize,
     element: Option<String>,
@@ -39,7 +39,7 @@ struct Move {
     z: f64,
 }
 
-/// A path and all that it embeds, unfolded.
+/// A path with everything it embeds, expanded.
 struct Unfolded<'m> {
     model: &'m Model,
     occurrences: Vec<Occurrence>,
@@ -47,7 +47,7 @@ struct Unfolded<'m> {
 }
 
 impl Model {
-    /// The moves of a path without errors that come into clamps.
+    /// The moves of a path without errors that hit clamps.
     pub(super) fn entered_clamps(&self, root: &Instance) -> Vec<Finding> {
         let mut unfolded = Unfolded { model: self, occurrences: Vec::new(), moves: Vec::new() };
         let place = Place { origin: [0.0; 2], turn: [1.0, 0.0], raised: 0.0 };
@@ -57,7 +57,7 @@ impl Model {
 }
 
 impl Unfolded<'_> {
-    /// Adds a path, its moves, and what it embeds.
+    /// Adds a path, its moves, and everything it embeds.
     fn unfold(
         &mut self,
         instance: Instance,
@@ -90,7 +90,7 @@ impl Unfolded<'_> {
                     go("cut", *z);
                 }
                 if passes.len().is_multiple_of(2) {
-                    // To and fro: the last pass ended where the first began.
+                    // Passes alternate in direction, so an even number ends where the first began.
                     go("rapid move", path.embedded_sweep_height());
                 }
             }
@@ -110,7 +110,7 @@ impl Unfolded<'_> {
         }
     }
 
-    /// One finding for each clamp, each element of the innermost path that holds both, and each kind of move.
+    /// One finding for each clamp, each element of the innermost path that contains both, and each kind of move.
     fn findings(&self) -> Vec<Finding> {
         let mut entries: BTreeMap<_, (u32, f64)> = BTreeMap::new();
         for (number, occurrence) in self.occurrences.iter().enumerate() {
@@ -143,14 +143,14 @@ impl Unfolded<'_> {
         entries.into_iter().map(finding).collect()
     }
 
-    /// Whether a move comes into a clamp of a drawing: it is lower than that, and nearer than the cutter's radius.
+    /// Whether a move hits a clamp: it is lower than the clamp, and closer than the cutter's radius.
     fn is_in(&self, it: &Move, around: &Occurrence, clamp: &KeepOut) -> bool {
         let radius = self.occurrences[0].path.tool / 2.0;
         it.z < clamp.height + around.place.raised - LENGTH
             && distance(it.ends.map(|end| around.place.back(end)), &corners(clamp)) < radius - LENGTH
     }
 
-    /// The innermost path that holds a clamp's drawing and a move, and the element in it that leads to the move.
+    /// The innermost path that contains a clamp's drawing and a move, and its element that leads to the move.
     fn common(&self, clamp: usize, it: &Move) -> (usize, Option<String>) {
         let parent = |number: usize| self.occurrences[number].parent.as_ref();
         let around_clamp: Vec<usize> =
@@ -164,7 +164,7 @@ impl Unfolded<'_> {
 }
 
 impl Place {
-    /// Such that two points come to lie where the first two are, the second in its direction.
+    /// The placement that maps the first inner point to the first outer point, and the direction of the second accordingly.
     fn from_to(inner: [Pair; 2], outer: [Pair; 2], raised: f64) -> Self {
         let turn = times(direction(outer), conjugate(direction(inner)));
         Self { origin: minus(outer[0], times(turn, inner[0])), turn, raised }
@@ -180,13 +180,13 @@ impl Place {
     }
 }
 
-/// The heights of the passes from the upper face down.
+/// The heights of the passes, from the surface down.
 fn passes(surface: f64, infeed: f64, bottom: f64) -> impl Iterator<Item = f64> {
     let next = move |z: &f64| (*z > bottom + LENGTH).then(|| (z - infeed).max(bottom));
     std::iter::successors(Some(surface), next).skip(1)
 }
 
-/// Least and greatest X, and Y, of a rectangle.
+/// Minimum and maximum of X and Y of a rectangle.
 fn corners(clamp: &KeepOut) -> [Pair; 2] {
     let points: Vec<Pair> = clamp.outline.iter().map(|curve| pair(curve.start())).collect();
     [0, 1].map(|axis| {
@@ -195,7 +195,7 @@ fn corners(clamp: &KeepOut) -> [Pair; 2] {
     })
 }
 
-/// Between a line and a rectangle, for lines that are upright or level.
+/// The distance between a line and a rectangle, for axis-parallel lines.
 fn distance(ends: [Pair; 2], rectangle: &[Pair; 2]) -> f64 {
     let gap = [0, 1].map(|axis| {
         let (low, high) = (ends[0][axis].min(ends[1][axis]), ends[0][axis].max(ends[1][axis]));

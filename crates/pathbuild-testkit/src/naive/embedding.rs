@@ -1,4 +1,4 @@
-//! How an embedding is judged. (book: language/embedding; the order: book: reference/diagnostics)
+//! Checks embeddings. (book: language/embedding; the order: book: reference/diagnostics)
 
 use pathbuild_path::{
     Allowed, Bindings, Definition, Examined, Letter, Path, PathName, Segment, SegmentKind, Subpath,
@@ -8,16 +8,16 @@ use regex::Regex;
 
 use super::{Finding, Instance, Model};
 
-/// How deep embedding may be below the path that is checked.
+/// Maximum depth of embedding below the checked path.
 const DEEPEST: usize = 10;
 
-/// Lengths in mm that differ by no more are the same.
+/// Tolerance in mm within which lengths are equal.
 const LENGTH: f64 = 0.001;
 
-/// A walk through all that a path embeds.
+/// A traversal of everything that a path embeds.
 pub(super) struct Visit<'m> {
     model: &'m Model,
-    /// The paths that are being gone through, outermost first.
+    /// The paths being visited, outermost first.
     open: Vec<Instance>,
     pub(super) found: Vec<Finding>,
 }
@@ -27,7 +27,7 @@ impl<'m> Visit<'m> {
         Self { model, open: Vec::new(), found: Vec::new() }
     }
 
-    /// Goes through a path and all that it embeds; whether anything in it is an error.
+    /// Visits a path and everything it embeds. Returns whether there are errors.
     pub(super) fn path(&mut self, instance: &Instance) -> bool {
         let drawing = &self.model.drawings[instance.0];
         self.found.extend(drawing.faults());
@@ -51,7 +51,7 @@ impl<'m> Visit<'m> {
         is_wrong
     }
 
-    /// Reports what is found in a path; whether it is an error.
+    /// Reports the findings in a path. Returns whether any is an error.
     fn report(&mut self, (drawing, ..): &Instance, found: &[pathbuild_diagnostic::Diagnostic]) -> bool {
         let drawing = &self.model.drawings[*drawing];
         for diagnostic in found {
@@ -64,7 +64,7 @@ impl<'m> Visit<'m> {
         found.iter().any(pathbuild_diagnostic::Diagnostic::is_error)
     }
 
-    /// Judges one embedding and goes through what is embedded; whether anything is an error.
+    /// Checks an embedding and visits the embedded path. Returns whether there are errors.
     fn embedding(&mut self, outer: &Instance, path: &Path, segment: &Segment, subpath: &Subpath) -> bool {
         let model = self.model;
         let drawing = &model.drawings[outer.0];
@@ -82,7 +82,7 @@ impl<'m> Visit<'m> {
                 return self.stop(at("PB502", &[value]));
             }
             SubpathName::Found { name, has_more } => {
-                // A warning.
+                // This is only a warning.
                 self.found.extend(has_more.as_ref().map(|value| at("PB502", &[value])));
                 name
             }
@@ -142,7 +142,7 @@ impl<'m> Visit<'m> {
         true
     }
 
-    /// E of the embedding path, else the first --restrict that is about it.
+    /// Whether E of the embedding path allows the name; without E, the first applicable `--restrict` decides.
     fn is_allowed(&self, path: &Path, name: &PathName) -> bool {
         let is_in = |rule: &str, name: &PathName| {
             Regex::new(rule).is_ok_and(|pattern| pattern.is_match(name.as_str()))
@@ -156,7 +156,7 @@ impl<'m> Visit<'m> {
 }
 
 impl Model {
-    /// What a subpath embeds, where one drawing holds it.
+    /// The path that a subpath embeds, if exactly one drawing defines it.
     pub(super) fn child(&self, outer: &Instance, name: &PathName, subpath: &Subpath) -> Option<Instance> {
         let holder = *self.holders(outer.0, name).first()?;
         let paths = &self.drawings[holder].content.paths;
@@ -166,14 +166,14 @@ impl Model {
     }
 }
 
-/// Whether a letter or digit touches the name in what stands behind `>`.
+/// Whether a letter or digit directly adjoins the name in the text after `>`.
 fn is_glued(value: &str, name: &str) -> bool {
     let at = value.find(name).unwrap_or_default();
     let (before, behind) = (value[..at].chars().last(), value[at + name.len()..].chars().next());
     [before, behind].into_iter().flatten().any(char::is_alphanumeric)
 }
 
-/// Whether a variable may have a value.
+/// Whether a variable accepts a value.
 pub(super) fn allows(definition: &Definition, value: &str) -> bool {
     match &definition.values {
         Allowed::Range { from, to, .. } => {
@@ -184,7 +184,7 @@ pub(super) fn allows(definition: &Definition, value: &str) -> bool {
     }
 }
 
-/// What of M, T, O and the length does not fit: the code, and the letter.
+/// Mismatches in M, T, O and the length: the code, and the letter.
 fn misfits(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, String)> {
     let differs = |a: f64, b: f64| (a - b).abs() > LENGTH;
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! What a file's name promises and covers. (book: language/layers-and-names)
+//! Compares file names with the paths that they announce. (book: language/layers-and-names)
 
 use std::sync::LazyLock;
 
@@ -14,7 +14,7 @@ static END: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?i)[0-9]{4}(?:[.][0-9]+)?[A-Z]? *[-\u{2013}] *[0-9]{4}(?:[.][0-9]+)?[A-Z]?"));
 
 impl Drawing {
-    /// What is wrong with its name.
+    /// Findings about the name of the drawing.
     pub(super) fn name_faults(&self) -> Vec<Finding> {
         let stem = stem(&self.path);
         if stem.to_lowercase().ends_with("_q") || self.content.diagnostics.iter().any(Diagnostic::is_error) {
@@ -22,7 +22,7 @@ impl Drawing {
         }
         let held: Vec<String> =
             self.content.paths.iter().map(|(raw, _)| raw.name.to_string().to_uppercase()).collect();
-        // Commas: what stands before and behind a range does not run into each other.
+        // Commas keep the parts before and after a range separate.
         let singles = END.replace_all(stem, ",");
         let finding = |code: &str, name: &str, path: Option<String>| Finding {
             code: code.to_owned(),

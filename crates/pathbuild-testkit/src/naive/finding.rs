@@ -1,9 +1,9 @@
 use pathbuild_diagnostic::{Diagnostic, Lang};
 
-/// Something that is found, so far as the model knows it. What the program says of it must have all the words in it.
+/// A finding as far as the model knows it. The program's message must contain all its words.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Finding {
-    /// Such as `PB503`.
+    /// The code, for example `PB503`.
     pub code: String,
     /// The file.
     pub file: String,
@@ -11,12 +11,12 @@ pub struct Finding {
     pub path: Option<String>,
     /// The handle of the element.
     pub handle: Option<String>,
-    /// The message, or parts of it.
+    /// Words of the message.
     pub words: Vec<String>,
 }
 
 impl Finding {
-    /// Of a diagnostic that is about a drawing, located.
+    /// Converts a located diagnostic about a drawing.
     pub fn of(diagnostic: &Diagnostic) -> Self {
         Self {
             code: diagnostic.code().to_string(),
@@ -27,12 +27,12 @@ impl Finding {
         }
     }
 
-    /// Of a diagnostic of reading, binding or walking.
+    /// Converts a diagnostic of reading, binding or walking.
     pub(super) fn shared(diagnostic: &Diagnostic, file: &str) -> Self {
         Self { file: file.to_owned(), ..Self::of(diagnostic) }
     }
 
-    /// Where a cycle closes is found on every way that leads there: it is one finding.
+    /// Removes the chain of a cycle: it is found on every way that leads to it, but counts once.
     fn without_chain(mut self) -> Self {
         if self.code == "PB509" {
             self.words.clear();
@@ -40,7 +40,7 @@ impl Finding {
         self
     }
 
-    /// Whether the program means the same.
+    /// Whether a finding of the program is the same.
     fn is_meant_by(&self, program: &Self) -> bool {
         let place = |it: &Self| (it.code.clone(), it.file.clone(), it.path.clone(), it.handle.clone());
         place(self) == place(program)
@@ -48,14 +48,14 @@ impl Finding {
     }
 }
 
-/// In order, each once.
+/// Sorts findings and removes duplicates.
 pub(super) fn each_once(mut found: Vec<Finding>) -> Vec<Finding> {
     found.sort();
     found.dedup();
     found
 }
 
-/// What only one of both finds.
+/// Findings that only one of both sides has.
 pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
     let mut open: Vec<Finding> = model.iter().cloned().map(Finding::without_chain).collect();
     open = each_once(open);
@@ -65,7 +65,7 @@ pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
     }
     let mut differences = Vec::new();
     for found in each_once(program) {
-        // The one that says most: others may mean what says less.
+        // Choose the most specific match, since other findings may match the less specific ones.
         let meant = (0..open.len()).filter(|place| open[*place].is_meant_by(&found));
         match meant.max_by_key(|place| open[*place].words.concat().len()) {
             Some(place) => _ = open.remove(place),

@@ -1,6 +1,6 @@
-//! What a check of a library finds, told the plain way: every file is read, every name is looked at, and each path is gone through as
-//! often as it is embedded. No database, no index, nothing kept. Only reading, binding and walking are the program's own; how files are
-//! found, how embeddings are judged and what comes into clamps is written here once more from the specification, so that the program is not held against itself.
+//! A straightforward model of checking a library: every file is read, every name is examined, and each path is visited as often as it is
+//! embedded, without a database, an index or caching. Reading, binding and walking are shared with the program; finding files, checking
+//! embeddings and clamps are reimplemented here from the specification, so that the program is not compared with itself.
 //! (book: language/layers-and-names, book: language/variables, book: language/chains-and-passes, book: language/keep-outs,
 //! book: reference/diagnostics)
 
@@ -26,16 +26,16 @@ pub use finding::{Finding, differences};
 /// Files by their paths, with `/` between directories.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-/// What the configuration says.
+/// The relevant part of the configuration.
 #[derive(Clone, Debug, Default)]
 pub struct Rules {
-    /// Directories in which paths are looked for beside the drawing's own.
+    /// Directories that are searched for paths besides the drawing's own.
     pub search: Vec<String>,
     /// PARENT and CHILD of each `--restrict`.
     pub restrict: Vec<(String, String)>,
 }
 
-/// Everything that is drawn.
+/// All drawings of a library.
 pub struct Model {
     drawings: Vec<Drawing>,
     language: Arc<Language>,
@@ -48,14 +48,14 @@ struct Drawing {
     content: RawFile,
     clamps: Vec<KeepOut>,
     clamp_problems: Vec<Diagnostic>,
-    /// None of its paths becomes a program.
+    /// Whether none of its paths becomes a program because a clamp is unclear.
     has_unclear_clamps: bool,
 }
 
-/// A path with values: the drawing's number, the path's among its paths, the values.
+/// A path with values: index of the drawing, index of the path in it, and the values.
 type Instance = (usize, usize, Bindings);
 
-/// What is expected without anything that a configuration can change.
+/// The default settings of the language, without any configuration.
 pub fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
@@ -76,7 +76,7 @@ impl Model {
         Self { drawings, language, rules: rules.clone() }
     }
 
-    /// What a check of the drawings in a directory and below finds.
+    /// The findings of checking the drawings in a directory and below.
     pub fn check(&self, directory: &str) -> Vec<Finding> {
         let wanted = |drawing: &&Drawing| drawing.path.starts_with(&format!("{directory}/"));
         let numbers: Vec<usize> =
@@ -92,7 +92,7 @@ impl Model {
         finding::each_once(found)
     }
 
-    /// What a check of one path alone finds; nothing where there is no such drawing.
+    /// The findings of checking a single path; none if the drawing does not exist.
     pub fn check_alone(&self, file: &str, name: &str) -> Vec<Finding> {
         let Some(number) = self.drawings.iter().position(|drawing| drawing.path == file) else {
             return Vec::new();
@@ -104,7 +104,7 @@ impl Model {
         finding::each_once(found)
     }
 
-    /// The paths of the drawings in a directory and below: file and name.
+    /// The paths of the drawings in a directory and below, as file and name.
     pub fn paths(&self, directory: &str) -> Vec<(String, String)> {
         let below = self.drawings.iter().filter(|it| it.path.starts_with(&format!("{directory}/")));
         let names = |it: &Drawing| {
@@ -129,12 +129,12 @@ impl Model {
         &self.drawings[*drawing].content.paths[*path].0
     }
 
-    /// A path without errors in its drawing and its values.
+    /// The bound path, unless its drawing or values have errors.
     fn sound(&self, instance: &Instance) -> Option<Path> {
         self.bound(instance).path.filter(|path| !path.has_faults())
     }
 
-    /// A path as far as it is known, with what is wrong with its values.
+    /// The path as far as it is known, with the errors in its values.
     fn bound(&self, instance: &Instance) -> Examined {
         pathbuild_path::examine(self.raw(instance), &instance.2, &self.language)
     }
@@ -157,12 +157,12 @@ impl Drawing {
         }
     }
 
-    /// Its lines to be copied into projects.
+    /// Its proxy lines.
     fn proxies(&self, language: &Language) -> Vec<ProxyLine> {
         proxy_lines(&drawn(&self.bytes, &|_| true), language)
     }
 
-    /// What is wrong with the drawing and is about none of its paths.
+    /// Findings about the drawing itself rather than its paths.
     fn faults(&self) -> Vec<Finding> {
         let own = self.content.diagnostics.iter().chain(&self.clamp_problems);
         let own = own.map(|found| Finding::shared(found, &self.path));

@@ -1,4 +1,4 @@
-//! Where paths are: names of files against names of paths. (book: language/layers-and-names)
+//! Finds the files of paths by comparing file names with path names. (book: language/layers-and-names)
 
 use std::cmp::Ordering;
 use std::sync::LazyLock;
@@ -18,7 +18,7 @@ pub(super) fn pattern(text: &str) -> Regex {
 }
 
 impl Model {
-    /// The drawings that define a path to which a drawing refers.
+    /// The drawings that define a path which a drawing refers to.
     pub(super) fn holders(&self, from: usize, name: &PathName) -> Vec<usize> {
         if self.defines(from, name) {
             return vec![from];
@@ -46,7 +46,7 @@ pub(super) fn stem(path: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// Whether a file of this stem may hold a path by the default patterns.
+/// Whether a file with this stem may define a path, by the default patterns.
 pub(super) fn may_hold(stem: &str, path: &str) -> bool {
     let Some(path) = PATH.captures(path) else { return false };
     let path: Vec<&str> = (1..=3).map(|group| &path[group]).collect();
@@ -60,11 +60,11 @@ pub(super) fn may_hold(stem: &str, path: &str) -> bool {
         || parts.any(|part| compare(&part, &path).is_eq())
 }
 
-/// How a part of a file's name lies to a path's name.
+/// Compares a part of a file name with a path name.
 fn compare(file: &[String], path: &[&str]) -> Ordering {
     for (file, path) in file.iter().zip(path) {
         if file.is_empty() {
-            // What the file does not say more of covers all that is left of the path.
+            // The rest of the path is covered by a file name that does not specify it.
             return Ordering::Equal;
         }
         let order = match (file.parse::<u64>(), path.parse::<u64>()) {

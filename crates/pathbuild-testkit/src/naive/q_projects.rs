@@ -1,4 +1,4 @@
-//! What a Q-project and its drawing say against each other. (book: language/q-projects)
+//! Disagreements between Q-projects and their drawings. (book: language/q-projects)
 
 use pathbuild_path::approx::coincide;
 use pathbuild_path::{
@@ -9,11 +9,11 @@ use super::embedding::allows;
 use super::names::{directory, stem};
 use super::{Drawing, Finding, Model};
 
-/// Lengths in mm that differ by no more are the same.
+/// Tolerance in mm within which lengths are equal.
 const LENGTH: f64 = 0.001;
 
 impl Model {
-    /// Of each pair among some drawings.
+    /// The findings for each pair among some drawings.
     pub(super) fn q_projects(&self, numbers: &[usize]) -> Vec<Finding> {
         let mut found = Vec::new();
         for drawing in numbers {
@@ -87,7 +87,7 @@ impl Model {
         found
     }
 
-    /// Where a proxy line disagrees with its own path.
+    /// The disagreements between a proxy line and its own path.
     fn proxy_faults(&self, number: usize, proxy: &ProxyLine) -> Vec<Finding> {
         let drawing = &self.drawings[number];
         let at = |word: &str| Finding {
@@ -132,7 +132,7 @@ impl Model {
     }
 }
 
-/// The path that a proxy line joins the ends of, where it does not join those of the one it names.
+/// The path whose ends a proxy line connects, if these are not the ends of the path that it names.
 fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
     let (start, end) = (proxy.curve.start(), proxy.curve.end());
     let joins = |path: &usize| {
@@ -144,7 +144,7 @@ fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
     if all.contains(&named) { None } else { all.first().copied() }
 }
 
-/// What a subpath says that a proxy line does not: letters and variables.
+/// Letters and variables in which a subpath differs from a proxy line.
 fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     let mut found = Vec::new();
     for (letter, name, here) in [(Letter::T, "T", subpath.thickness), (Letter::O, "O", subpath.tool)] {
@@ -170,7 +170,7 @@ fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     found
 }
 
-/// Whether two values say the same: numbers with a point or a comma do.
+/// Whether two values are equal; numbers may have a decimal point or a comma.
 fn is_same(a: &str, b: &str) -> bool {
     let both = parse_number(a).zip(parse_number(b));
     a == b || both.is_some_and(|(a, b)| (a - b).abs() < 1e-6)

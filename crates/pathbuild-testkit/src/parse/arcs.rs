@@ -47,7 +47,7 @@ fn arc_by_angles(cursor: &mut Cursor) -> Parsed<Drawn> {
     Ok(one(Shape::Arc(arc), Some(centre.polar(radius, end))))
 }
 
-/// DXF arcs run counterclockwise: one drawn clockwise has its ends exchanged.
+/// A DXF arc, which always runs counterclockwise: the ends of a clockwise one are swapped.
 fn directed(centre: Point, radius: f64, from: f64, to: f64, clockwise: bool) -> Arc {
     let (start, end) = if clockwise { (to, from) } else { (from, to) };
     Arc { centre, radius, start, end }

@@ -2,14 +2,14 @@ use super::lexer::Token;
 use pathbuild_draw::DrawError;
 use pathbuild_draw::model::Point;
 
-/// A place between the tokens of a line.
+/// A position between the tokens of a line.
 #[derive(Debug)]
 pub(crate) struct Cursor {
     tokens: std::vec::IntoIter<Token>,
     pub(crate) line: u32,
-    /// The column of the token taken last.
+    /// The column of the last token taken.
     column: u32,
-    /// What `@` and `to` are counted from.
+    /// The reference point for `@` and `to`.
     pub(crate) base: Option<Point>,
 }
 
@@ -32,13 +32,13 @@ impl Cursor {
         self.peek().is_some_and(|token| token.quoted)
     }
 
-    /// Whether the next token looks like a point or a number, and not like a word.
+    /// Whether the next token looks like a point or a number rather than a word.
     pub(crate) fn is_at_number(&self) -> bool {
         let starts = |c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | '@');
         self.peek_word().is_some_and(|word| word.starts_with(starts))
     }
 
-    /// An error at the token taken last.
+    /// An error at the last token taken.
     pub(crate) fn error(&self, message: impl Into<String>) -> DrawError {
         DrawError::new(self.line, self.column, message)
     }
@@ -51,7 +51,7 @@ impl Cursor {
         Err(self.error(format!("the line ends here; expected {expected}")))
     }
 
-    /// Takes a word if it is this one.
+    /// Takes the next word if it is this one.
     pub(crate) fn take(&mut self, word: &str) -> bool {
         let found = self.peek_word() == Some(word);
         if found {
@@ -68,7 +68,7 @@ impl Cursor {
         Err(self.error(format!("expected `{word}`, found {:?}", token.text)))
     }
 
-    /// A name: a word, or in quotes.
+    /// Takes a name: a word or a quoted string.
     pub(crate) fn name(&mut self, what: &str) -> Parsed<String> {
         self.next(what).map(|token| token.text)
     }
@@ -88,7 +88,7 @@ impl Cursor {
         })
     }
 
-    /// A number that must be more than 0.
+    /// Takes a number, which must be positive.
     pub(crate) fn length(&mut self, what: &str) -> Parsed<f64> {
         let length = self.number(what)?;
         if length > 0.0 {
@@ -102,7 +102,7 @@ impl Cursor {
         token.text.parse().map_err(|_| self.error(format!("{:?} is no {what}", token.text)))
     }
 
-    /// `x,y` or `x,y,z`, or `@dx,dy` counted from the last point.
+    /// Takes `x,y` or `x,y,z`, or `@dx,dy` relative to the last point.
     pub(crate) fn point(&mut self, what: &str) -> Parsed<Point> {
         let token = self.next(what)?;
         let relative = token.text.strip_prefix('@');
@@ -120,7 +120,7 @@ impl Cursor {
         Ok(point)
     }
 
-    /// Points as long as there are some.
+    /// Takes points as long as there are any.
     pub(crate) fn points(&mut self, what: &str) -> Parsed<Vec<Point>> {
         let mut points = Vec::new();
         while self.is_at_number() {
@@ -129,7 +129,7 @@ impl Cursor {
         Ok(points)
     }
 
-    /// That nothing is left.
+    /// Checks that no tokens are left.
     pub(crate) fn end(&mut self) -> Parsed<()> {
         match self.next("nothing") {
             Ok(token) => Err(self.error(format!("{:?} is not expected here", token.text))),

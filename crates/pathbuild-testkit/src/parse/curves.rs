@@ -65,7 +65,7 @@ fn numbers(cursor: &mut Cursor, what: &str) -> Parsed<Vec<f64>> {
     Ok(numbers)
 }
 
-/// Knots of a curve that begins and ends in its outer control points.
+/// Knots of a curve that begins and ends at its outer control points.
 fn clamped_knots(control: usize, degree: usize) -> Vec<f64> {
     let spans = control - degree;
     (0..=control + degree).map(|index| index.saturating_sub(degree).min(spans) as f64).collect()

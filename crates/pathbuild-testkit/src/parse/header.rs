@@ -15,12 +15,12 @@ const WORDS: [&str; 11] = [
     "furniture",
 ];
 
-/// Whether a line that begins with this word says how the drawing is written.
+/// Whether this word begins a line with an option for writing the drawing.
 pub(crate) fn is_option(word: &str) -> bool {
     WORDS.contains(&word)
 }
 
-/// Reads such a line.
+/// Parses an option.
 pub(crate) fn option(cursor: &mut Cursor, options: &mut Options, furniture: &mut Option<u64>) -> Parsed<()> {
     let word = cursor.name("an option")?;
     match word.as_str() {

@@ -1,15 +1,15 @@
 use pathbuild_draw::DrawError;
 
-/// A word of a line, or a string in quotes.
+/// A word or a quoted string.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Token {
     pub(crate) text: String,
     pub(crate) quoted: bool,
-    /// In characters, from 1.
+    /// The column in characters, counted from 1.
     pub(crate) column: u32,
 }
 
-/// Takes a line apart. A `#` where a word could begin starts a remark; `""` in a string is a quotation mark.
+/// Splits a line into tokens. A `#` at the start of a word begins a comment; `""` in a string is a quotation mark.
 pub(crate) fn tokens(line: &str, number: u32) -> Result<Vec<Token>, DrawError> {
     let mut tokens = Vec::new();
     let mut chars = (1..).zip(line.chars()).peekable();

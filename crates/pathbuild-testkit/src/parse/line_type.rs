@@ -2,7 +2,7 @@ use super::cursor::{Cursor, Parsed};
 use pathbuild_draw::Draft;
 use pathbuild_draw::LINE_TYPES;
 
-/// `linetype NAME [dash ...]`: lists a line type beside the usual ones.
+/// Parses `linetype NAME [dash ...]`, which declares a further line type.
 pub(crate) fn declare(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<()> {
     cursor.keyword("linetype")?;
     let name = cursor.name("a line type's name")?;
@@ -14,7 +14,7 @@ pub(crate) fn declare(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<()> {
     Ok(())
 }
 
-/// A line type, if one stands here: one of the usual names, a listed one, or any in quotation marks.
+/// Parses an optional line type: a usual one, a declared one, or any name in quotes.
 pub(crate) fn option(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<Option<String>> {
     let Some(token) = cursor.peek() else { return Ok(None) };
     let name = token.text.clone();
@@ -27,7 +27,7 @@ pub(crate) fn option(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<Option<St
     Ok(Some(name))
 }
 
-/// A line type.
+/// Parses a line type.
 pub(crate) fn expect(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<String> {
     if let Some(name) = option(cursor, draft)? {
         return Ok(name);
@@ -40,7 +40,7 @@ fn unknown(name: &str) -> String {
     format!("{name:?} is no known line type; list it with `linetype {name}`, or put it in quotation marks")
 }
 
-/// The pattern of a line type that is known by its name.
+/// The pattern of a usual or declared line type.
 fn pattern(name: &str, draft: &Draft) -> Option<Vec<f64>> {
     if let Some((_, pattern)) = draft.line_types.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
         return Some(pattern.clone());

@@ -1,4 +1,4 @@
-//! The text form of drawings. README.md of this crate describes it for those who write it.
+//! The text form of drawings. The README.md of this crate describes it for authors.
 
 mod arcs;
 mod cursor;
@@ -19,10 +19,10 @@ use pathbuild_draw::{DrawError, Sheet};
 use crate::furniture::finish;
 use statement::Parser;
 
-/// Reads a drawing in text form.
+/// Parses a drawing in text form.
 ///
 /// # Errors
-/// All faults of the text, each with its line and column.
+/// All errors in the text, each with its line and column.
 pub fn sheet(text: &str) -> Result<Sheet, Vec<DrawError>> {
     let mut parser = Parser::default();
     for (number, line) in (1..).zip(text.lines()) {

@@ -4,7 +4,7 @@ use super::cursor::{Cursor, Parsed};
 use super::header::note_kind;
 use pathbuild_draw::model::{Entity, Note, Orientation, Point, Shape};
 
-/// The parameter text and whatever else stands behind an element's shape; it holds for all entities of the line.
+/// Parses the parameter text and the modifiers after an element's shape. They apply to all entities of the line.
 pub(crate) fn modifiers(cursor: &mut Cursor, entities: &mut [Entity]) -> Parsed<()> {
     while let Some(token) = cursor.peek() {
         if token.quoted {
@@ -108,7 +108,7 @@ fn handle(cursor: &mut Cursor, entities: &mut [Entity]) -> Parsed<()> {
     Ok(())
 }
 
-/// Puts all points of a shape at a height.
+/// Moves all points of a shape to a height.
 fn raise(shape: &mut Shape, z: f64) {
     let points: Vec<&mut Point> = match shape {
         Shape::Line(line) => vec![&mut line.from, &mut line.to],

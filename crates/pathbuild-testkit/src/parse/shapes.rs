@@ -47,14 +47,14 @@ fn typed(mut drawn: Drawn, line_type: &str) -> Drawn {
     drawn
 }
 
-/// A shape whose line type follows from the verb; a line unless another shape is named.
+/// A shape whose line type follows from the verb. The default shape is a line.
 fn verb(cursor: &mut Cursor, line_type: &str) -> Parsed<Drawn> {
     let shape =
         ["line", "arc", "circle", "polyline", "ellipse", "spline"].into_iter().find(|word| cursor.take(word));
     geometry(cursor, shape.unwrap_or("line")).map(|drawn| typed(drawn, line_type))
 }
 
-/// A shape with its line type, CONTINUOUS if none is named.
+/// A shape with its line type; the default is CONTINUOUS.
 fn plain(cursor: &mut Cursor, draft: &mut Draft, word: &str) -> Parsed<Drawn> {
     if !matches!(word, "line" | "arc" | "circle" | "polyline" | "ellipse" | "spline") {
         return Err(cursor.error(format!("{word:?} is no element and no option")));
@@ -86,7 +86,7 @@ pub(crate) fn one(shape: Shape, end: Option<Point>) -> Drawn {
     Drawn { entities: vec![Entity::new(shape)], end }
 }
 
-/// Where a line or arc begins: a point, or with `to` the end of what was drawn before.
+/// The start of a line or arc: a point, or `to` for the end of the previous element.
 pub(crate) fn begin(cursor: &mut Cursor) -> Parsed<Point> {
     if cursor.take("to") {
         let last = cursor.base;
@@ -97,7 +97,7 @@ pub(crate) fn begin(cursor: &mut Cursor) -> Parsed<Point> {
     Ok(from)
 }
 
-/// `P P [P ...]` or `to P [P ...]`: a line between each two.
+/// `P P [P ...]` or `to P [P ...]`: a line between consecutive points.
 fn lines(cursor: &mut Cursor) -> Parsed<Drawn> {
     let mut from = begin(cursor)?;
     let mut entities = Vec::new();

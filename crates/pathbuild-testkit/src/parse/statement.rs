@@ -12,31 +12,31 @@ const STATES: [(&str, LayerState); 4] = [
     ("unlisted", LayerState::Unlisted),
 ];
 
-/// What has been read so far.
+/// The state of the parser.
 #[derive(Debug, Default)]
 pub(crate) struct Parser {
     draft: Draft,
-    /// The seed of what stands around the path.
+    /// The seed of the furniture around the path.
     furniture: Option<u64>,
     errors: Vec<DrawError>,
-    /// The block that is being defined, with its line.
+    /// The block being defined, with its line.
     block: Option<(Block, u32)>,
-    /// The raw entity that is being read, with its line.
+    /// The raw entity being read, with its line.
     raw: Option<(Vec<Pair>, u32)>,
-    /// Where the entity before ended.
+    /// The end of the previous entity.
     last: Option<Point>,
-    /// Whether the line before drew an entity that `set` can change.
+    /// Whether the previous line drew an entity that `set` can change.
     has_entity: bool,
 }
 
-/// What an entity line gives: entities, and where they end.
+/// The entities of a line, and their end point.
 pub(crate) struct Drawn {
     pub(crate) entities: Vec<Entity>,
     pub(crate) end: Option<Point>,
 }
 
 impl Parser {
-    /// Reads a line.
+    /// Parses a line.
     pub(crate) fn line(&mut self, line: &str, number: u32) {
         let result = match self.raw.take() {
             Some((pairs, begun)) => self.raw_line(line, number, pairs, begun),
@@ -47,7 +47,7 @@ impl Parser {
         self.errors.extend(result.err());
     }
 
-    /// The whole drawing, and the seed of its furniture if it has some.
+    /// The whole drawing, and the seed of its furniture, if any.
     pub(crate) fn finish(mut self) -> Result<(Draft, Option<u64>), Vec<DrawError>> {
         if let Some((_, line)) = self.raw {
             self.errors.push(DrawError::new(line, 1, "this `raw` has no `endraw`"));
@@ -176,7 +176,7 @@ impl Parser {
         Ok(())
     }
 
-    /// A line of a raw entity: a group code, a blank, and the value as it is.
+    /// Parses a line of a raw entity: a group code, a space, and the verbatim value.
     fn raw_line(&mut self, line: &str, number: u32, mut pairs: Vec<Pair>, begun: u32) -> Parsed<()> {
         let line = line.trim_start();
         if line.trim_end() == "endraw" {

@@ -2,7 +2,7 @@ use super::cursor::{Cursor, Parsed};
 use super::statement::Drawn;
 use pathbuild_draw::model::{Attachment, Direction, Entity, Horizontal, MText, Point, Shape, Text, Vertical};
 
-/// Height of letters where nothing is said, in mm.
+/// Default letter height in mm.
 const HEIGHT: f64 = 2.5;
 
 /// `text P "..." [height H] [rotate A] [align ...] [backwards] [upside-down]`

@@ -1,4 +1,4 @@
-//! What each statement of the text form writes.
+//! The output of each statement of the text form.
 
 use crate::records::{Record, entities, number, value};
 

@@ -1,4 +1,4 @@
-//! What ezdxf says of the files: an audit must find nothing to complain about and nothing to repair.
+//! Audits the files with ezdxf, which must find no errors and need no repairs.
 
 use std::path::Path;
 use std::process::Command;
@@ -36,7 +36,7 @@ spline fit 0,0 1,1 2,0
 circle 0,0 d 9 paper
 "#;
 
-/// A Python that has ezdxf: that of the variable `PATHBUILD_EZDXF`, else python3.
+/// A Python with ezdxf: the one given by `PATHBUILD_EZDXF`, or python3.
 #[expect(clippy::disallowed_methods, reason = "where an oracle is")]
 fn python() -> Option<String> {
     let python = std::env::var("PATHBUILD_EZDXF").unwrap_or_else(|_| "python3".to_owned());

@@ -1,4 +1,4 @@
-//! The bytes of the files: versions, encodings, line ends, what is left out, and that they are always the same.
+//! The bytes of the files: versions, encodings, line ends, omitted parts, and determinism.
 
 use dxf::Drawing;
 use dxf::entities::EntityType;
@@ -51,7 +51,7 @@ fn binary_and_ascii_say_the_same() {
         let sheet = sheet(&in_version(version)).unwrap();
         let [ascii, binary] = [sheet.to_dxf(), sheet.to_binary_dxf()]
             .map(|bytes| Drawing::load(&mut bytes.as_slice()).unwrap());
-        // The crate cannot read texts with backslashes, and reads those of binary files from R2007 on as Latin-1.
+        // The crate cannot read texts with backslashes, and decodes those of binary files as Latin-1 from R2007 on.
         let is_text = |kind: &EntityType| matches!(kind, EntityType::Text(_) | EntityType::MText(_));
         let shapes = |drawing: &Drawing| {
             let shapes = drawing.entities().map(|entity| entity.specific.clone());

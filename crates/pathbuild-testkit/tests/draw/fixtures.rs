@@ -1,4 +1,4 @@
-//! The container of several files and expectations.
+//! Fixtures with several files and expectations.
 
 use pathbuild_diagnostic::{Code, Handle};
 use pathbuild_testkit::{Content, Fixture};

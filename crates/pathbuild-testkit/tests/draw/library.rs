@@ -38,7 +38,7 @@ fn the_same_seed_gives_the_same_bytes_in_any_order() {
     assert_ne!(other, in_turn[5].1);
 }
 
-/// The paths of a drawing, with check values for their variables; nothing may be wrong with any of them.
+/// The paths of a drawing, with example values for their variables, after checking that none has findings.
 fn paths(name: &str, sheet: &Sheet) -> Vec<Path> {
     let file = raw_file(&drawing(&sheet.to_dxf()), &language());
     assert_eq!(file.diagnostics, [], "{name}");

@@ -1,8 +1,8 @@
-//! Where the texts of elements are put, checked by a measurement of its own: points are sampled on text circles and elements.
+//! The positions of parameter texts, checked independently by sampling points on text circles and elements.
 
 use pathbuild_testkit::{Entity, Shape, Sheet, sheet, text_circle};
 
-/// Points on an element, close enough together that no text circle slips between them.
+/// Points on an element, dense enough that no text circle fits between them.
 fn samples(shape: &Shape) -> Vec<(f64, f64)> {
     let steps = (0..=2000).map(|i| f64::from(i) / 2000.0);
     match shape {
@@ -18,7 +18,7 @@ fn samples(shape: &Shape) -> Vec<(f64, f64)> {
                 .map(|(sin, cos)| (arc.centre.x + arc.radius * cos, arc.centre.y + arc.radius * sin))
                 .collect()
         }
-        // A text overlaps a circle from inside as well: all of its disc counts.
+        // A text may also overlap a circle from inside, so the whole disc counts.
         Shape::Circle(circle) => {
             let rings = (0..=20).map(|i| circle.radius * f64::from(i) / 20.0);
             let around = |r: f64| (0..72).map(move |i| (r, libm::sincos(f64::from(i * 5).to_radians())));
@@ -151,7 +151,7 @@ fn polylines_ellipses_and_splines_take_texts() {
     assert!(sheet("spline fit 0,0 10,10 20,0 \"B0\"").is_ok());
 }
 
-/// The circles of book: language/parameter-texts, worked out by hand for letters of 10 mm and texts of five characters: w = 30, h = 10.
+/// The circles of book: language/parameter-texts, computed by hand for letters of 10 mm and texts of five characters: w = 30, h = 10.
 #[test]
 fn the_text_circle_follows_the_anchor() {
     let circle = |text: &str| {

@@ -1,9 +1,9 @@
-//! What the tests of this crate share: a DXF file taken apart into records by nothing but its lines.
+//! Shared helpers: a DXF file split into records, knowing nothing but its line structure.
 
 /// The pairs from one group 0 to the next.
 pub(crate) type Record = Vec<(i32, String)>;
 
-/// The records of ASCII DXF whose bytes are UTF-8 (or ASCII).
+/// The records of ASCII DXF encoded in UTF-8.
 pub(crate) fn records(bytes: &[u8]) -> Vec<Record> {
     let text = std::str::from_utf8(bytes).unwrap();
     let lines: Vec<&str> = text.lines().collect();

@@ -1,4 +1,4 @@
-//! What is drawn on a path's layers.
+//! Scenes of what is drawn on the layers of a path.
 
 use std::collections::BTreeMap;
 
@@ -13,19 +13,19 @@ use crate::scene::{Arc, Element, ElementKind, Embedded, KeepOut, Label, Paramete
 /// A path as it is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnSource<'a> {
-    /// Its drawing, as it is shown.
+    /// The display name of its drawing.
     pub file: &'a str,
-    /// What is drawn.
+    /// The drawn elements.
     pub raw: &'a RawPath,
-    /// Where that is in the file.
+    /// Their positions in the file.
     pub positions: &'a SourceMap,
-    /// The texts of its drawing, also those of other paths.
+    /// The texts of its drawing, including those of other paths.
     pub texts: &'a [AssignedText],
-    /// What holds for its elements.
+    /// The effective parameters of its elements.
     pub in_force: &'a [InForce],
 }
 
-/// A path without a program: what is drawn, where it is drawn.
+/// A path without a program: the drawn elements, in the coordinates of the drawing.
 pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
     let mut scene = ScenePath {
         name: source.raw.name.as_str().to_owned(),
@@ -50,7 +50,7 @@ pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
 }
 
 impl ScenePath {
-    /// Adds what is drawn of the last path in [`ScenePath::embedded`]; gives the index of its first element.
+    /// Adds the elements of the last path in [`ScenePath::embedded`]. Returns the index of its first element.
     pub(super) fn draw(&mut self, source: &DrawnSource<'_>, placement: &Placement) -> u32 {
         let path = number(self.embedded.len()).saturating_sub(1);
         let first = self.elements.len();
@@ -64,14 +64,14 @@ impl ScenePath {
     }
 }
 
-/// An element as it is known to texts: where it is in the file, and its shape there.
+/// An element as texts refer to it: its position in the file, and its shape as drawn.
 type Known = (Option<Position>, DrawnShape);
 
 struct Drawn<'a> {
     source: &'a DrawnSource<'a>,
     placement: &'a Placement,
     path: u32,
-    /// By element.
+    /// The effective parameters by element.
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
 }
 
@@ -125,7 +125,7 @@ impl Drawn<'_> {
         self.source.positions.positions().get(id.0 as usize).copied()
     }
 
-    /// A text with the elements among `shapes` that it belongs to.
+    /// A text with those elements among `shapes` that it belongs to.
     fn label(&self, text: &AssignedText, shapes: &[Known], first: usize) -> Label {
         let is_owner = |(position, shape): &Known| {
             text.elements
@@ -152,7 +152,7 @@ fn parameter(known: &InForceParameter) -> Parameter {
     }
 }
 
-/// A clamp, moved by that much.
+/// A clamp, moved by an offset.
 pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
     let placement = Placement::from_origin(Xy::new(-x, -y));
     KeepOut {
@@ -162,7 +162,7 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
     }
 }
 
-/// Whether two shapes of one entity are the same. Special circles are what their position says.
+/// Whether two shapes of one entity are the same. For special circles, the position in the file decides.
 fn is_same(a: &DrawnShape, b: &DrawnShape) -> bool {
     match (a, b) {
         (DrawnShape::Circle { centre: a, .. }, DrawnShape::Circle { centre: b, .. }) => a == b,
@@ -182,7 +182,7 @@ fn element_kind(role: Role) -> ElementKind {
     }
 }
 
-/// A shape where it comes to lie.
+/// A shape in the coordinates of the program.
 fn placed(shape: &DrawnShape, placement: &Placement) -> Shape {
     match shape {
         DrawnShape::Curve(curve) => curve_shape(&placement.place_curve(curve)),
@@ -192,7 +192,7 @@ fn placed(shape: &DrawnShape, placement: &Placement) -> Shape {
     }
 }
 
-/// A curve as a shape.
+/// Converts a curve to a shape.
 pub(super) fn curve_shape(curve: &Curve) -> Shape {
     match curve {
         Curve::Line(line) => Shape::Line { from: pair(line.start), to: pair(line.end) },

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 
 use crate::scene::{Finding, Said};
 
-/// Numbers findings. `file` is the drawing that is shown: of what is wrong elsewhere the place is where the drawing embeds that.
+/// Numbers findings. `file` is the drawing shown: a finding in another drawing is placed where that is embedded.
 pub fn findings(diagnostics: &[Diagnostic], file: &str) -> Vec<Finding> {
     (1..).zip(diagnostics).map(|(number, diagnostic)| finding(number, diagnostic, file)).collect()
 }

@@ -1,32 +1,32 @@
-//! A program that was read.
+//! Scenes of G-code programs.
 
 use pathbuild_gcode::interpret::Step;
 use pathbuild_gcode::summary::Summary;
 
 use crate::scene::{Move, ScenePath, Totals};
 
-/// A program that was read.
+/// A G-code program that was read.
 #[derive(Clone, Copy, Debug)]
 pub struct GcodeSource<'a> {
-    /// Its file, as it is shown.
+    /// The display name of its file.
     pub file: &'a str,
-    /// What it makes the machine do.
+    /// Its interpreted steps.
     pub steps: &'a [Step],
-    /// Its text; what is no UTF-8 in it is replaced.
+    /// Its text; invalid UTF-8 is replaced.
     pub text: &'a [u8],
-    /// Cutter diameter in mm, where it is known.
+    /// Cutter diameter in mm, if known.
     pub tool: Option<f64>,
-    /// --rapid in mm/min.
+    /// The value of `--rapid` in mm/min.
     pub rapid: Option<f64>,
 }
 
-/// A text with LF alone at the ends of its lines, which are those that the reader counts.
+/// Converts line ends to LF, so that lines are the ones that the reader counts.
 pub(super) fn plain_lines(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     if text.contains('\n') { text.replace("\r\n", "\n").replace('\r', " ") } else { text.replace('\r', "\n") }
 }
 
-/// A program without elements.
+/// The scene of a program, without elements.
 pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
     let moves = source.steps.iter().filter_map(Step::as_move);
     let summary = Summary::of(source.steps, false).total;

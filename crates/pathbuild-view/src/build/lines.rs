@@ -1,21 +1,21 @@
-//! Which line of a text makes a program's moves. A post may write other rapid moves than the native program, cycles for holes, and several
-//! lines for a move, so that lines are found by where moves end.
+//! Matches the moves of a program with lines of its text. A post may write other rapid moves than the native program, cycles for holes, and
+//! several lines for a move, so lines are matched by the ends of moves.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Axes, Heights, Move, Options, Pace, Position, interpret_each};
 
-/// Tolerance in mm within which two ends are one place: above what inches with four decimals lose.
+/// Tolerance in mm within which two ends are the same: larger than the rounding error of inches with four decimals.
 const SAME_PLACE: f64 = 0.006;
 
-/// Number of moves of the text that are searched for the end of one move.
+/// Maximum number of moves in the text that are searched for the end of one move.
 const SEARCHED: usize = 4096;
 
-/// For each move of a program, the line that makes it in a text that was written from it; `None` where none is found.
+/// For each move of a program, its line in the text that was written from it; `None` if there is none.
 pub(super) fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut written: Vec<(u32, Move)> = Vec::new();
     interpret_each(text, dialect, &options, &mut |step| {
-        // What leads to the first position that is wholly known belongs to the frame.
+        // Moves before the first fully known position belong to the frame.
         if let Some((line, it)) = step.as_move()
             && (!written.is_empty() || it.from.known == Axes::ALL)
         {
@@ -28,7 +28,7 @@ pub(super) fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> V
 
 struct Finder<'a> {
     written: &'a [(u32, Move)],
-    /// The first written move that belongs to no move yet.
+    /// Index of the first written move that is not matched yet.
     next: usize,
     last: Option<u32>,
 }
@@ -41,7 +41,7 @@ impl Finder<'_> {
         }
     }
 
-    /// The first line of a cut, which ends where the last of its pieces does.
+    /// The first line of a cut. The cut ends where its last piece ends.
     fn cut(&mut self, it: &Move) -> Option<u32> {
         let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
         let rest = &self.written[self.next..self.written.len().min(self.next + SEARCHED)];
@@ -53,8 +53,8 @@ impl Finder<'_> {
         Some(first)
     }
 
-    /// A rapid move before the next cut with the same ends, else with the same end, else in the same direction; where a line stands for
-    /// several, the line of the one before.
+    /// The line of a rapid move before the next cut: one with the same ends, or else with the same end, or else in the same direction. If
+    /// one line stands for several moves, it is the line of the move before.
     fn rapid(&mut self, it: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);

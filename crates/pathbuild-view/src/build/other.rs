@@ -1,4 +1,4 @@
-//! What is drawn on layers that are no path layers.
+//! Shapes on layers without a path.
 
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{Arc, Curve, TextCircle, Xy};

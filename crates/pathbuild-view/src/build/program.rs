@@ -1,4 +1,4 @@
-//! A path with its program.
+//! Scenes of paths with their programs.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, moves_of};
@@ -11,40 +11,40 @@ use super::gcode::plain_lines;
 use super::lines::lines_of_moves;
 use crate::scene::{Bar, ElementKind, Embedded, Move, MoveKind, NativeText, ProbeMark, ScenePath, Totals};
 
-/// The parameter of the first probe.
+/// The number of the parameter for the first probe.
 const FIRST_PARAMETER: usize = 51;
 
-/// A program and where it comes from.
+/// A program with the origin of its steps.
 #[derive(Clone, Copy, Debug)]
 pub struct ProgramSource<'a> {
     /// The program.
     pub program: &'a Program,
-    /// Where its steps come from; paths are indices into `parts`.
+    /// The origin of its steps; paths are indices into `parts`.
     pub trace: &'a Trace<usize>,
-    /// The paths in it: as drawn, and with every parameter known.
+    /// Its paths, as drawn and with all parameters bound.
     pub parts: &'a [(DrawnSource<'a>, &'a Path)],
-    /// Its native text, made without cutting moves.
+    /// Its native text, written without splitting moves.
     pub text: &'a str,
-    /// Its text as `emit` writes it; `None` where only the native text is to be seen.
+    /// Its text as written by `emit`; `None` to show only the native text.
     pub emitted: Option<EmittedText<'a>>,
-    /// --rapid in mm/min.
+    /// The value of `--rapid` in mm/min.
     pub rapid: Option<f64>,
 }
 
-/// The text of a program's file.
+/// The emitted text of a program.
 #[derive(Clone, Copy, Debug)]
 pub struct EmittedText<'a> {
-    /// The file, where `emit` writes it.
+    /// The file that `emit` writes, if any.
     pub file: Option<&'a str>,
-    /// Its text; what is no UTF-8 in it is replaced.
+    /// Its text; invalid UTF-8 is replaced.
     pub bytes: &'a [u8],
-    /// How it is read.
+    /// The dialect for reading it.
     pub dialect: Dialect,
-    /// Whether a post wrote it, and the native text is another.
+    /// Whether a post wrote it, so that it differs from the native text.
     pub is_posted: bool,
 }
 
-/// A path with its program.
+/// The scene of a path with its program.
 pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
     let ProgramSource { program, trace, parts, text, emitted, rapid } = source;
     let mut builder = Builder { scene: ScenePath::default(), first_elements: Vec::new() };
@@ -102,7 +102,7 @@ fn totals(program: &Program, rapid: Option<f64>) -> Totals {
 
 struct Builder {
     scene: ScenePath,
-    /// Of each occurrence the index of its first element.
+    /// Index of the first element of each occurrence.
     first_elements: Vec<u32>,
 }
 
@@ -127,7 +127,7 @@ impl Builder {
         Some(self.first_elements.get(drawn.occurrence as usize)? + drawn.element?)
     }
 
-    /// The bars along the segments and circles of a path.
+    /// The support bars along the segments and circles of a path.
     fn bars(&mut self, path: &Path, placement: &Placement, raised: f64, first: u32) {
         for segment in &path.segments {
             let shape = path.drawn.elements[segment.element as usize].shape;
@@ -169,7 +169,7 @@ impl Builder {
         }
     }
 
-    /// Numbers elements in the order in which the tool begins to cut them.
+    /// Numbers the elements in cutting order.
     fn number_elements(&mut self) {
         let mut next = 1;
         for it in &self.scene.moves {
@@ -183,7 +183,7 @@ impl Builder {
     }
 }
 
-/// The circle that a cutter's centre runs on, clockwise from its lowest point.
+/// The circle of a cutter's centre, clockwise from its lowest point.
 fn circle(centre: Xy, radius: f64) -> Curve {
     let low = Xy::new(centre.x, centre.y - radius);
     Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })

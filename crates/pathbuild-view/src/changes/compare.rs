@@ -1,5 +1,5 @@
-//! Finding the changes. What is the same in both programs is set aside. Of the rest a row that is the same elsewhere is shifted; every other
-//! move is judged by its line in the plane: how deep it is milled at last, how fast and in how many passes, before and after.
+//! Finds the changes between two programs. Equal moves are set aside. Among the rest, a run of moves that occurs at another place is
+//! shifted; every other move is classified by its line in the plane: its final depth, feed and number of passes, before and after.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::scene::{Move, Point};
 /// The origin of a program.
 const ORIGIN: Point = [0.0; 2];
 
-/// The changes from one program to another, in the order of the new one. Empty where both do the same.
+/// The changes from one program to another, in the order of the new one. Empty if both are equivalent.
 pub fn compare(old: &[Move], new: &[Move]) -> Vec<Change> {
     let rows = differing(old, new);
     if rows.is_empty() {
@@ -24,9 +24,9 @@ pub fn compare(old: &[Move], new: &[Move]) -> Vec<Change> {
     rows.into_iter().flat_map(|(old, new)| comparison.changed(&old, &new)).collect()
 }
 
-/// The rows of moves in which two programs differ.
+/// The runs of moves in which two programs differ.
 fn differing(old: &[Move], new: &[Move]) -> Vec<(Range<usize>, Range<usize>)> {
-    // How the tool comes to the first place that is wholly known is the machine's business.
+    // The way to the first fully known position depends on the machine.
     let begin = |moves: &[Move]| moves.iter().take_while(|it| !it.way.from.known.has(Axes::ALL)).count();
     let (was, is) = (begin(old), begin(new));
     let interner = Interner::new(old.len() + new.len());
@@ -46,7 +46,7 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// What became of the moves where both programs differ.
+    /// Classifies the moves in a pair of differing runs.
     fn changed(&self, old: &Range<usize>, new: &Range<usize>) -> Vec<Change> {
         let mut changes = Vec::new();
         match self.shifted(old, new) {
@@ -61,8 +61,8 @@ impl Comparison<'_> {
         changes
     }
 
-    /// The cuts of both rows with what is between them, where all of them are the same but elsewhere. The ways there and back are left out:
-    /// their other ends are where they were.
+    /// A shift, if the cuts of both runs and the moves between them are equal except for their position. The approach and the departure are
+    /// excluded, since their other ends did not move.
     fn shifted(&self, old: &Range<usize>, new: &Range<usize>) -> Option<Change> {
         let (old, new) = (cuts(self.old, old)?, cuts(self.new, new)?);
         let by = [0, 1].map(|axis| self.new[new.start].to()[axis] - self.old[old.start].to()[axis]);
@@ -72,12 +72,12 @@ impl Comparison<'_> {
         is_shifted.then_some(Change { kind: ChangeKind::Shifted(by), old, new })
     }
 
-    /// Each move by its line.
+    /// Classifies each move by its line.
     fn judge(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
         let (behind, before) = (old.end, new.start);
         for index in old {
             let it = &self.old[index];
-            // What is still milled is judged where it is milled now.
+            // A line that is still milled is classified by its move in the new program.
             if is_rapid(it) || !self.is.contains_key(&Line::of(it)) {
                 add(changes, ChangeKind::Removed, index..index + 1, before..before);
             }
@@ -89,7 +89,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// What became of a line of the new program.
+    /// The change of a line of the new program.
     fn kind(&self, line: &Line) -> ChangeKind {
         let (Some(was), Some(is)) = (self.was.get(line), self.is.get(line)) else { return ChangeKind::Added };
         let raised = ((is.bottom - was.bottom) * 1000.0).round() / 1000.0 + 0.0;
@@ -102,7 +102,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Adds a move; to the change before, if it is of the same kind and stands next to it.
+/// Adds a move; merges it with the previous change if that is adjacent and of the same kind.
 fn add(changes: &mut Vec<Change>, kind: ChangeKind, old: Range<usize>, new: Range<usize>) {
     match changes.last_mut() {
         Some(last) if last.kind == kind && last.old.end == old.start && last.new.end == new.start => {
@@ -112,7 +112,7 @@ fn add(changes: &mut Vec<Change>, kind: ChangeKind, old: Range<usize>, new: Rang
     }
 }
 
-/// From the first cut of a row to behind the last.
+/// The range from the first to the last cut of a run.
 fn cuts(moves: &[Move], row: &Range<usize>) -> Option<Range<usize>> {
     let is_cut = |index: &usize| moves[*index].kind.cuts();
     let first = row.clone().find(is_cut)?;

@@ -1,4 +1,4 @@
-//! Changes of one kind together, as people are told of them.
+//! Groups changes by kind, for messages.
 
 use super::identity::is_rapid;
 use super::{Change, ChangeKind};
@@ -7,17 +7,17 @@ use crate::scene::{Move, Point};
 /// All moves of a path that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// How; `None`: only rapid moves, of which it is enough to know that they are others.
+    /// The kind of change; `None` for rapid moves, of which only the number matters.
     pub kind: Option<ChangeKind>,
-    /// How many moves: of the new program, of those that are gone the old.
+    /// Number of moves in the new program, or in the old one for removed moves.
     pub moves: usize,
-    /// Their length in mm.
+    /// Their total length in mm.
     pub length: f64,
-    /// Where the first of them ends, in the program's coordinates.
+    /// The end of the first one, in the coordinates of the program.
     pub at: Option<Point>,
 }
 
-/// The changes by kind, in the order in which the kinds are first met. Rapid moves come last.
+/// The changes by kind, in order of first occurrence. Rapid moves come last.
 pub fn groups(changes: &[Change], old: &[Move], new: &[Move]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut rapids = Group { kind: None, moves: 0, length: 0.0, at: None };

@@ -1,4 +1,4 @@
-//! When two moves are the same, and when they lie on one line.
+//! Equality of moves, and of the lines that they follow.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use pathbuild_gcode::interpret::{Axes, Path, Position};
 
 use crate::scene::{Move, MoveKind, Point};
 
-/// All that a move does, in µm and µm/min: two programs that were printed differ by less.
+/// Everything that a move does, in µm and µm/min, which hides differences from printing numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Deed {
     kind: MoveKind,
@@ -15,7 +15,7 @@ pub(super) struct Deed {
     feed: Option<i64>,
 }
 
-/// An arc without its ends.
+/// An arc without its end points.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Turn {
     axes: [usize; 2],
@@ -25,12 +25,13 @@ struct Turn {
 }
 
 impl Deed {
-    /// That of a move, seen from a place in the plane.
+    /// The deed of a move, relative to a point in the plane.
     pub(super) fn of(it: &Move, origin: Point) -> Self {
         let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
         let end =
             |end: &Position| [0, 1, 2].map(|axis| known(end, axis).map(|at| micrometres(at - shift(axis))));
-        // A rapid move is known by where it leads: it comes from where the move before ends, which at a program's beginning nobody knows.
+        // A rapid move is identified by its end only: it starts where the previous move ends, which is unknown at the beginning of a
+        // program.
         let (kind, from) =
             if is_rapid(it) { (MoveKind::Sweep, [None; 3]) } else { (it.kind, end(&it.way.from)) };
         let arc = match it.way.path {
@@ -46,13 +47,13 @@ impl Deed {
     }
 }
 
-/// Where in the plane a move leads along, in whatever direction and at whatever height.
+/// The line of a move in the plane, regardless of direction and height.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Line {
     kind: MoveKind,
     ends: [[i64; 2]; 2],
     centre: Option<[i64; 2]>,
-    /// Of the two arcs with these ends and this centre the one that runs clockwise from the first end.
+    /// Distinguishes the two arcs with these ends and this centre: whether it runs clockwise from the first end.
     is_clockwise: bool,
 }
 
@@ -69,18 +70,18 @@ impl Line {
     }
 }
 
-/// What is milled along a line.
+/// The result of milling along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Milled {
     /// The lowest Z in mm.
     pub(super) bottom: f64,
-    /// The feed of the lowest pass in mm/min.
+    /// The feed of the deepest pass in mm/min.
     pub(super) feed: f64,
-    /// How often the tool goes along.
+    /// The number of passes.
     pub(super) passes: u32,
 }
 
-/// What is milled along each line of a program; rapid moves aside.
+/// The result of milling along each line of a program. Rapid moves are ignored.
 pub(super) fn lines(moves: &[Move]) -> HashMap<Line, Milled> {
     let mut lines: HashMap<Line, Milled> = HashMap::new();
     for it in moves.iter().filter(|it| !is_rapid(it)) {
@@ -94,7 +95,7 @@ pub(super) fn lines(moves: &[Move]) -> HashMap<Line, Milled> {
     lines
 }
 
-/// Whether a move is rapid, in whatever direction.
+/// Whether a move is rapid, in any direction.
 pub(super) fn is_rapid(it: &Move) -> bool {
     matches!(it.kind, MoveKind::Sweep | MoveKind::Lift)
 }

@@ -1,6 +1,6 @@
-//! What becomes of a path's moves when its drawing changes: which are added, removed, deeper, faster, shifted.
+//! Classifies how the moves of a path change with its drawing: added, removed, deeper, faster, shifted.
 //!
-//! Moves are compared in the coordinates of the program: a drawing that lies elsewhere on the sheet mills the same. (docs: "Comparing")
+//! Moves are compared in the coordinates of the program, so moving a drawing on the sheet changes nothing. (docs: "Comparing")
 
 mod compare;
 mod groups;
@@ -17,35 +17,35 @@ pub use compare::compare;
 pub use groups::{Group, groups};
 pub use words::{moves, phrase};
 
-/// Moves in a row that changed in the same way.
+/// Consecutive moves that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// How.
+    /// The kind of change.
     pub kind: ChangeKind,
-    /// The moves in the old program; empty for those that are added.
+    /// The moves in the old program; empty if they were added.
     pub old: Range<usize>,
-    /// The moves in the new program; empty for those that are removed.
+    /// The moves in the new program; empty if they were removed.
     pub new: Range<usize>,
 }
 
-/// How moves change.
+/// How moves changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ChangeKind {
-    /// They are only in the new program.
+    /// Only in the new program.
     Added,
-    /// They are only in the old program.
+    /// Only in the old program.
     Removed,
-    /// They lead along the same lines as before, but what is milled there in the end has changed.
+    /// They follow the same lines as before, with a different final result.
     Altered {
-        /// By how many mm the lowest pass is higher; below 0 it is deeper.
+        /// How many mm the deepest pass is higher; negative if it is deeper.
         raised: f64,
-        /// Its feed in mm/min before and after, where that changed.
+        /// Its feed in mm/min before and after, if that changed.
         feed: Option<[f64; 2]>,
-        /// How often the tool goes along before and after, where that changed.
+        /// The number of passes before and after, if that changed.
         passes: Option<[u32; 2]>,
     },
-    /// They are the same moves elsewhere, by so many mm in X and Y.
+    /// The same moves at another place, by this offset in mm.
     Shifted(Point),
-    /// What is milled along their lines in the end is what it was; when, in which direction or over which heights has changed.
+    /// The final result is the same, but the order, the direction or the intermediate heights changed.
     Reordered,
 }

@@ -16,7 +16,7 @@ const BEGIN: &str = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\n";
 const LINE: &str = "G1 Z-1 F150\nG1 X10 Y0 F150\nG1 X10 Y10 F150\nG0 Z5\n";
 const OTHER: &str = "G0 X20 Y0\nG1 Z-1 F150\nG1 X30 Y0 F150\nG0 Z5\n";
 
-/// What is said of a change from one program to another, each with how many moves and which length.
+/// The phrases for the changes from one program to another, with number of moves and length.
 fn said(old: &str, new: &str) -> Vec<String> {
     let (old, new) = (moves(&format!("{BEGIN}{old}")), moves(&format!("{BEGIN}{new}")));
     let groups = groups(&compare(&old, &new), &old, &new);
@@ -29,7 +29,7 @@ fn said(old: &str, new: &str) -> Vec<String> {
 #[test]
 fn the_same_moves_are_no_change() {
     assert_eq!(said(LINE, LINE), Vec::<String>::new());
-    // Half a micrometre is how programs are printed; two are a change.
+    // Half a micrometre is the precision of printed programs; two micrometres are a change.
     assert_eq!(said(LINE, &LINE.replace("X10 Y0", "X10.0004 Y0")), Vec::<String>::new());
     assert_eq!(said(LINE, &LINE.replace("X10 Y0", "X10.002 Y0")).len(), 2);
 }
@@ -54,7 +54,7 @@ fn shifted_by_as_much_everywhere_and_not_otherwise() {
     let both = |other: &str| format!("{LINE}{other}G0 X0 Y0\n");
     let shifted = OTHER.replace("Y0", "Y2");
     assert_eq!(said(&both(OTHER), &both(&shifted))[0], "shifted by (0, 2) mm 2 16");
-    // The line has also become longer.
+    // The line also gets longer.
     let longer = shifted.replace("X30", "X31");
     assert!(!said(&both(OTHER), &both(&longer))[0].contains("shifted"));
 }
@@ -82,7 +82,7 @@ fn passes_count_and_only_the_lowest_is_compared() {
     assert!(passes[0].starts_with("passes: 4 instead of 2"), "{passes:?}");
     let deeper = said(&groove(&["-1", "-2"]), &groove(&["-1", "-2.2"]));
     assert!(deeper[0].starts_with("0.2 mm deeper"), "{deeper:?}");
-    // Other heights on the way to the same depth.
+    // Other intermediate heights, but the same final depth.
     let other = said(&groove(&["-1", "-2"]), &groove(&["-0.5", "-2"]));
     assert!(other[0].starts_with("the same in the end"), "{other:?}");
 }

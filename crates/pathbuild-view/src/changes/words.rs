@@ -4,7 +4,7 @@ use pathbuild_diagnostic::{Lang, Number};
 
 use super::{ChangeKind, Group};
 
-/// How a group of moves changed: "0.5 mm deeper, feed 150 instead of 300".
+/// The change of a group of moves, for example "0.5 mm deeper, feed 150 instead of 300".
 pub fn phrase(group: &Group, lang: Lang) -> String {
     match lang {
         Lang::En => english(group.kind),
@@ -12,7 +12,7 @@ pub fn phrase(group: &Group, lang: Lang) -> String {
     }
 }
 
-/// How many moves a group has: `1 move`, `12 moves`.
+/// The number of moves in a group, for example `12 moves`.
 pub fn moves(group: &Group, lang: Lang) -> String {
     let word = match (group.moves, lang) {
         (1, Lang::En) => "move",

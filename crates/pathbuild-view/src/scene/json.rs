@@ -1,12 +1,12 @@
-//! Numbers in JSON: millimetres to a millionth, so that the same scene has the same bytes everywhere.
+//! Numbers in JSON: millimetres rounded to a millionth, so that a scene has the same bytes everywhere.
 
 use serde::Serializer;
 use serde::ser::SerializeSeq;
 
-/// Digits behind the point.
+/// The precision: six decimals.
 const MILLIONTHS: f64 = 1e6;
 
-/// A coordinate or a length; 0 is never negative.
+/// Rounds a coordinate or length, and avoids a negative 0.
 pub(super) fn rounded(value: f64) -> f64 {
     (value * MILLIONTHS).round() / MILLIONTHS + 0.0
 }

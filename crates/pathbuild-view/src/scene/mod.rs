@@ -1,7 +1,7 @@
-//! The scene: what there is to see, as data.
+//! The scene: everything visible, as data.
 //!
-//! Lengths are mm. Each path has coordinates of its own, those of its program; [`ScenePath::zero`] says where their zero lies in the
-//! drawing. What belongs to no path is in the drawing's coordinates.
+//! Lengths are in mm. Each path has its own coordinates, which are those of its program; [`ScenePath::zero`] is their origin in the
+//! drawing. Everything outside of paths is in the coordinates of the drawing.
 
 mod json;
 mod moves;
@@ -15,39 +15,39 @@ pub use moves::{Move, MoveKind};
 /// The name of the JSON form.
 pub const SCHEMA: &str = "pathbuild-scene";
 
-/// The version of the JSON form: it grows when a reader of the older form would misread the newer.
+/// The version of the JSON form. It is incremented when a reader of the older form would misread the new one.
 pub const VERSION: u32 = 1;
 
-/// A place in the plane: x, y.
+/// A point in the plane: x, y.
 pub type Point = [f64; 2];
 
-/// Everything that there is to see of a path, a drawing or a program.
+/// The visible content of a path, a drawing or a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
     /// [`SCHEMA`].
     pub schema: &'static str,
     /// [`VERSION`].
     pub version: u32,
-    /// What is shown: a path's name, a drawing, a program.
+    /// Its subject: the name of a path, drawing or program.
     pub title: String,
-    /// The paths, or the one program.
+    /// The paths, or the single program.
     pub paths: Vec<ScenePath>,
-    /// What else is drawn, in grey.
+    /// Shapes on other layers, shown in grey.
     pub other_layers: Vec<OtherShape>,
     /// Clamps, which the tool must not enter below their height.
     pub keep_outs: Vec<KeepOut>,
-    /// What is wrong, numbered from 1.
+    /// Findings, numbered from 1.
     pub findings: Vec<Finding>,
 }
 
-/// A path of a drawing with its program, where it has one; or a program that was read.
+/// A path of a drawing with its program, if it has one; or a program that was read.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ScenePath {
     /// Its name.
     pub name: String,
-    /// The drawing, or the program's file.
+    /// The drawing, or the file of the program.
     pub file: String,
-    /// Where the program's X0 Y0 lies in the drawing.
+    /// The position of the program's X0 Y0 in the drawing.
     #[serde(serialize_with = "point")]
     pub zero: Point,
     /// Cutter diameter O.
@@ -56,33 +56,33 @@ pub struct ScenePath {
     pub thickness: Option<f64>,
     /// Sweep height S.
     pub sweep_height: Option<f64>,
-    /// M.
+    /// Material M.
     pub material: Option<String>,
-    /// The path itself and all that it embeds, wherever it lies.
+    /// The path itself and everything it embeds, directly or indirectly.
     pub embedded: Vec<Embedded>,
-    /// What is drawn on the layers of all these paths.
+    /// The elements on the layers of all these paths.
     pub elements: Vec<Element>,
     /// Parameter texts.
     pub texts: Vec<Label>,
     /// Support bars.
     pub bars: Vec<Bar>,
-    /// Z-probes of the program in the order in which they are measured.
+    /// Z-probes of the program, in measuring order.
     pub probes: Vec<ProbeMark>,
-    /// What the tool does, in order. Empty where the path has errors.
+    /// The moves of the tool, in order. Empty if the path has errors.
     pub moves: Vec<Move>,
     /// Lengths and times.
     pub totals: Option<Totals>,
-    /// The G-code as `emit` writes it, with LF at the ends of lines, which are counted from 1.
+    /// The G-code as written by `emit`, with LF as line ends. Lines are counted from 1.
     pub gcode: Option<String>,
-    /// The file that `emit` writes it to; `None` where it writes none.
+    /// The file that `emit` writes; `None` if it writes none.
     pub written: Option<String>,
     /// Why `emit` refuses to write a path without errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refusal: Option<Said>,
-    /// The native program, where a post writes another one.
+    /// The native program, if a post writes a different one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub native: Option<NativeText>,
-    /// Values without which there would be no program, and that nothing gives.
+    /// Example values for parameters that nothing else gives and that the program needs.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub examples: Vec<Example>,
 }
@@ -90,34 +90,34 @@ pub struct ScenePath {
 /// The native text of a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NativeText {
-    /// Its text.
+    /// The text.
     pub gcode: String,
-    /// The line of each of [`ScenePath::moves`].
+    /// The line for each of [`ScenePath::moves`].
     pub lines: Vec<Option<u32>>,
 }
 
-/// A value that a program was made with only to be shown.
+/// An example value that was assumed to build a program for display.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Example {
     /// A letter, or the name of an option.
     pub name: String,
-    /// The value; `None` where there is none either, and what depends on it is not shown.
+    /// The value; `None` if there is none, in which case everything that depends on it is omitted.
     pub value: Option<String>,
 }
 
-/// A path where it lies in a program.
+/// An embedded path with its place in a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Embedded {
     /// Its name.
     pub name: String,
     /// Its drawing.
     pub file: String,
-    /// The element that embeds it: index into [`ScenePath::elements`].
+    /// The element that embeds it, as an index into [`ScenePath::elements`].
     pub by: Option<u32>,
-    /// Where it starts and ends.
+    /// Its start and end.
     #[serde(serialize_with = "points")]
     pub ends: [Point; 2],
-    /// What it is raised by.
+    /// The height in mm that it is raised by.
     pub raised: f64,
     /// Upper face of its material, raised.
     pub thickness: f64,
@@ -128,42 +128,42 @@ pub struct Embedded {
 /// A drawn element, or a special circle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Element {
-    /// The path that it belongs to: index into [`ScenePath::embedded`].
+    /// Its path, as an index into [`ScenePath::embedded`].
     pub path: u32,
-    /// What it means.
+    /// The kind of element.
     pub kind: ElementKind,
-    /// Its type in the drawing: LINE.
+    /// The type of entity in the drawing, for example LINE.
     pub entity: &'static str,
     /// Its layer.
     pub layer: String,
     /// Its handle in the drawing.
     pub handle: Option<String>,
-    /// Where it begins in the file.
+    /// The line of the file at which it begins.
     pub line: Option<u32>,
-    /// Where it lies.
+    /// The shape.
     pub shape: Shape,
-    /// The how manieth it is that the tool cuts, from 1.
+    /// Position in cutting order, counted from 1.
     pub order: Option<u32>,
-    /// The parameters that hold for it.
+    /// The effective parameters.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<Parameter>,
 }
 
-/// A parameter that holds for an element.
+/// An effective parameter of an element.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Parameter {
     /// Its letter.
     pub letter: char,
-    /// Its value, with variables put in.
+    /// Its value, with variables substituted.
     pub value: String,
-    /// Where it comes from: own, chain, path, lender, option, default.
+    /// Its origin: own, chain, path, lender, option or default.
     pub from: &'static str,
-    /// Which path lends it, or which option gives it.
+    /// The lending path or the option.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub which: Option<String>,
 }
 
-/// What an element means.
+/// The kind of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "the names of the drawing language")]
@@ -180,7 +180,7 @@ pub enum ElementKind {
     Probe,
 }
 
-/// A shape in the plane. Arcs stay arcs; those who draw flatten them.
+/// A shape in the plane. Arcs are kept; renderers flatten them if necessary.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "the parts of a shape")]
@@ -200,7 +200,7 @@ pub enum Shape {
     },
 }
 
-/// A circular arc from one end to the other.
+/// A circular arc.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the parts of an arc")]
 pub struct Arc {
@@ -213,36 +213,36 @@ pub struct Arc {
     #[serde(serialize_with = "millimetres")]
     pub radius: f64,
     pub clockwise: bool,
-    /// How far it goes round, in degrees, above 0 up to 360.
+    /// The angle covered in degrees, greater than 0 and at most 360.
     #[serde(serialize_with = "millimetres")]
     pub degrees: f64,
 }
 
-/// A parameter text and what it belongs to.
+/// A parameter text and its elements.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Label {
-    /// The path that it belongs to: index into [`ScenePath::embedded`].
+    /// Its path, as an index into [`ScenePath::embedded`].
     pub path: u32,
-    /// What it says.
+    /// The content.
     pub text: String,
-    /// The centre of the circle by which it finds its element.
+    /// The centre of the circle by which it is matched with elements.
     #[serde(serialize_with = "point")]
     pub at: Point,
     /// The radius of that circle.
     #[serde(serialize_with = "millimetres")]
     pub radius: f64,
-    /// The elements that have it: indices into [`ScenePath::elements`].
+    /// Its elements, as indices into [`ScenePath::elements`].
     pub elements: Vec<u32>,
 }
 
 /// A support bar.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bar {
-    /// The element that it is left along.
+    /// Its element, as an index into [`ScenePath::elements`].
     pub element: u32,
-    /// The way of the cutter's centre over it.
+    /// The way of the cutter's centre over the bar.
     pub shape: Shape,
-    /// Z of its top.
+    /// Z of the top.
     #[serde(serialize_with = "millimetres")]
     pub top: f64,
 }
@@ -252,19 +252,19 @@ pub struct Bar {
 pub struct ProbeMark {
     /// The parameter that holds its height: 51 for #51.
     pub number: usize,
-    /// Where.
+    /// The position.
     #[serde(serialize_with = "point")]
     pub at: Point,
-    /// The height that is expected.
+    /// The expected height.
     #[serde(serialize_with = "millimetres")]
     pub height: f64,
     /// Probing feed in mm/min.
     pub feed: f64,
-    /// L.
+    /// The label L.
     pub label: Option<String>,
 }
 
-/// Lengths in mm and times in minutes, as the program's statistics have them.
+/// Lengths in mm and times in minutes, from the program's statistics.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Totals {
@@ -274,11 +274,11 @@ pub struct Totals {
     pub drilling: f64,
     #[serde(serialize_with = "millimetres")]
     pub sweeps: f64,
-    /// Whole minutes that a person has to reckon with; `None` where the rapid feed is not known.
+    /// Estimated working time in whole minutes; `None` if the rapid feed is unknown.
     pub minutes: Option<f64>,
 }
 
-/// What is drawn on a layer that is no path layer.
+/// A shape on a layer without a path.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "the parts of a shape")]
@@ -290,12 +290,12 @@ pub enum OtherShape {
     Text {
         layer: String,
         text: String,
-        /// The middle.
+        /// The centre.
         #[serde(serialize_with = "point")]
         at: Point,
         #[serde(serialize_with = "millimetres")]
         height: f64,
-        /// In degrees, counterclockwise.
+        /// Rotation in degrees, counterclockwise.
         #[serde(serialize_with = "millimetres")]
         rotation: f64,
     },
@@ -306,33 +306,33 @@ pub enum OtherShape {
 pub struct KeepOut {
     /// Its layer.
     pub layer: String,
-    /// Its outline, closed.
+    /// Its closed outline.
     pub outline: Vec<Shape>,
     /// Its height above the plate.
     #[serde(serialize_with = "millimetres")]
     pub height: f64,
 }
 
-/// Something that is wrong, or doubtful.
+/// A finding: an error, a warning or a note.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The number by which it stands in the picture.
+    /// The number that marks it in the picture.
     pub number: usize,
-    /// PB203.
+    /// The code, for example PB203.
     pub code: String,
-    /// Whether it is an error; else a warning or a note.
+    /// Whether it is an error.
     pub is_error: bool,
-    /// What is wrong.
+    /// The message.
     pub message: Said,
-    /// What to do about it; may be empty.
+    /// The help; may be empty.
     pub help: Said,
-    /// The file that it is in.
+    /// The file.
     pub file: Option<String>,
-    /// The path that it is in.
+    /// The path.
     pub path: Option<String>,
-    /// Its line in the file.
+    /// The line in the file.
     pub line: Option<u32>,
-    /// Where it is in the drawing that is shown; of what is wrong in an embedded path, where that is embedded.
+    /// The position in the drawing shown. A finding in an embedded path is placed where that is embedded.
     pub at: Option<Point>,
 }
 
@@ -358,14 +358,14 @@ impl Scene {
         }
     }
 
-    /// The scene in JSON, on one line, with characters that act escaped: the same for every one who shows it.
+    /// The scene as JSON on one line. Characters with special effects are escaped in the same way for all clients.
     pub fn to_json(&self) -> String {
         shown::json(&serde_json::to_string(self).expect("every part of a scene is plain data")).into_owned()
     }
 }
 
 impl Shape {
-    /// Where it begins; of a circle its centre.
+    /// The start; for a circle, the centre.
     pub fn start(&self) -> Point {
         match self {
             Self::Line { from, .. } | Self::Arc(Arc { from, .. }) => *from,
@@ -373,7 +373,7 @@ impl Shape {
         }
     }
 
-    /// Its lowest and its highest corner.
+    /// The lower left and upper right corner of the bounding box.
     pub fn extent(&self) -> [Point; 2] {
         match self {
             Self::Line { from, to } => hull(*from, *to),
@@ -384,7 +384,7 @@ impl Shape {
 }
 
 impl Arc {
-    /// The point after that share (0 to 1) of the way.
+    /// The point at a fraction (0 to 1) of the way.
     pub fn point(&self, share: f64) -> Point {
         let [x, y] = [self.from[0] - self.centre[0], self.from[1] - self.centre[1]];
         let way = if self.clockwise { -self.degrees } else { self.degrees };

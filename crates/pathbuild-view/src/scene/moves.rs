@@ -6,67 +6,67 @@ use serde::{Serialize, Serializer};
 use super::Point;
 use super::json::rounded;
 
-/// A move of the tool's tip.
+/// A move of the tool tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
-    /// What it is for.
+    /// The purpose.
     pub kind: MoveKind,
-    /// From where, to where and how. Arcs and helices stay what they are.
+    /// The geometry: start, end and curve. Arcs and helices are kept.
     pub way: interpret::Move,
     /// Its length in mm.
     pub length: f64,
-    /// The element that it belongs to: index into [`ScenePath::elements`](super::ScenePath::elements).
+    /// Its element, as an index into [`ScenePath::elements`](super::ScenePath::elements).
     pub element: Option<u32>,
     /// Its line in the G-code.
     pub line: Option<u32>,
 }
 
-/// What a move is for.
+/// The purpose of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MoveKind {
-    /// Rapid, in the plane.
+    /// Rapid move in the plane.
     Sweep,
-    /// Rapid, up or down only.
+    /// Rapid move straight up or down.
     Lift,
-    /// Cutting, straight down or up.
+    /// Cut straight down or up.
     Plunge,
-    /// Cutting along an element.
+    /// Cut along an element.
     Mill,
-    /// The same along one that is only marked.
+    /// Cut along an element that is only marked.
     Mark,
-    /// Until the probe answers.
+    /// Move until the probe triggers.
     Probe,
 }
 
 impl Move {
-    /// A move of which nothing is known but what the tool does.
+    /// A move about which only its geometry is known.
     pub fn new(way: interpret::Move, line: Option<u32>) -> Self {
         Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line }
     }
 
-    /// Whether it is known where in the plane it leads.
+    /// Whether its position in the plane is known.
     pub fn is_placed(&self) -> bool {
         self.way.from.known.and(self.way.to.known).has(Axes::XY) && self.way.named.is_none()
     }
 
-    /// Where it begins in the plane.
+    /// The start in the plane.
     pub fn from(&self) -> Point {
         [self.way.from.x(), self.way.from.y()]
     }
 
-    /// Where it ends in the plane.
+    /// The end in the plane.
     pub fn to(&self) -> Point {
         [self.way.to.x(), self.way.to.y()]
     }
 
-    /// Its lowest Z in mm; `None` where no end's is known.
+    /// Its lowest Z in mm; `None` if the height of neither end is known.
     pub fn depth(&self) -> Option<f64> {
         let ends = [&self.way.from, &self.way.to].into_iter().filter(|end| end.known.has(Axes::Z));
         ends.map(interpret::Position::z).reduce(f64::min)
     }
 
-    /// Its lowest and its highest corner in the plane; `None` where they are not known.
+    /// The corners of its bounding box in the plane; `None` if unknown.
     pub fn extent(&self) -> Option<[Point; 2]> {
         let [Some(x), Some(y), _] = self.way.extent() else { return None };
         self.is_placed().then_some([[x.0, y.0], [x.1, y.1]])
@@ -85,7 +85,7 @@ impl MoveKind {
         }
     }
 
-    /// Whether it takes material away.
+    /// Whether it removes material.
     pub fn cuts(self) -> bool {
         matches!(self, Self::Plunge | Self::Mill | Self::Mark)
     }
@@ -108,7 +108,7 @@ struct Written {
     line: Option<u32>,
 }
 
-/// The JSON form of an arc: the axes of its plane, its centre in them, and how far it goes round.
+/// The JSON form of an arc: the axes of its plane, its centre on these axes, and the angle it covers.
 #[derive(Serialize)]
 struct WrittenArc {
     axes: [usize; 2],

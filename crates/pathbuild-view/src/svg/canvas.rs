@@ -1,4 +1,4 @@
-//! SVG text. Everything that comes from a drawing passes [`escaped`].
+//! Writes SVG. All text from drawings passes through [`escaped`].
 
 use std::fmt::Write;
 
@@ -6,15 +6,15 @@ use pathbuild_diagnostic::shown;
 
 use crate::scene::Point;
 
-/// The one font; whoever has not got it takes what is near.
+/// The font, with fallbacks.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// A picture that is drawn, in px.
+/// An SVG picture under construction, in px.
 pub(super) struct Canvas {
     text: String,
 }
 
-/// Where a text's point is in it.
+/// The alignment of a text to its point.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,
@@ -34,7 +34,7 @@ impl Canvas {
         canvas
     }
 
-    /// A sheet of paper in mm, in units of its own.
+    /// A sheet of paper: its size in mm, and its size in the units of the picture.
     pub(super) fn paper([width, height]: Point, [across, down]: Point) -> Self {
         let mut text = String::with_capacity(1 << 14);
         let [width, height, across, down] = [width, height, across, down].map(n);
@@ -52,28 +52,28 @@ impl Canvas {
         self.text
     }
 
-    /// A line of SVG in which everything is ours.
+    /// Writes a line of trusted SVG.
     pub(super) fn raw(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');
     }
 
-    /// Begins a group.
+    /// Opens a group.
     pub(super) fn open(&mut self, attributes: &str) {
         self.raw(&format!("<g {attributes}>"));
     }
 
-    /// Ends it.
+    /// Closes a group.
     pub(super) fn close(&mut self) {
         self.raw("</g>");
     }
 
-    /// What a browser shows for what it stands in.
+    /// Adds the tooltip of the enclosing element.
     pub(super) fn title(&mut self, text: &str) {
         self.raw(&format!("<title>{}</title>", escaped(text)));
     }
 
-    /// A rectangle to which something is clipped.
+    /// Defines a rectangle for clipping.
     pub(super) fn clip(&mut self, id: &str, [[x, y], [right, bottom]]: [Point; 2]) {
         self.raw(&format!(
             "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
@@ -97,7 +97,7 @@ impl Canvas {
         self.raw(&format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"));
     }
 
-    /// A text whose lines of writing stand on, or round, a point.
+    /// Writes a text at a point on its baseline.
     pub(super) fn text(&mut self, [x, y]: Point, size: f64, anchor: Anchor, attributes: &str, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "",
@@ -113,7 +113,8 @@ impl Canvas {
     }
 }
 
-/// A text within SVG: on one line, what acts in it shown, what is XML's escaped, and no command of a CI runner in it.
+/// Escapes a text for SVG: puts it on one line, makes characters with special effects visible, escapes XML, and breaks up commands of CI
+/// runners.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     let mut before = ' ';
@@ -132,7 +133,7 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A number with two decimals at most, never -0.
+/// A number with at most two decimals, never -0.
 pub(super) fn n(value: f64) -> String {
     let text = format!("{:.2}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');

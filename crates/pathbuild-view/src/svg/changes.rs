@@ -1,5 +1,4 @@
-//! What a change of a drawing does to the moves of a path, as a picture. Old and new lie in one frame, so that pictures can be laid over each
-//! other.
+//! Pictures of how a changed drawing affects the moves of a path. Old and new share one frame, so that the pictures can be overlaid.
 
 use pathbuild_diagnostic::Lang;
 
@@ -10,27 +9,27 @@ use super::palette::{BAR, INK, OTHER, RAPID};
 use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
 use crate::scene::{Move, MoveKind, Point};
 
-/// Blue: what is new. Vermilion and broken: what is gone. The colour-blind tell them apart by the line.
+/// Added moves are blue, removed ones vermilion and dashed. The dashes also distinguish them for the colour-blind.
 const ADDED: &str = "#0072b2";
 const REMOVED: &str = "#d55e00";
 const SHIFTED: &str = "#009e73";
 
-/// The height of a line of the legend, and the size of its letters, in px.
+/// Height of a line of the legend, and size of its letters, in px.
 const LINE: f64 = 20.0;
 const LETTERS: f64 = 13.0;
 
-/// Which of the pictures of a change.
+/// The available pictures of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Picture {
-    /// Old and new in one, with what changed in colours and a legend.
+    /// Old and new in one picture, with changes in colour and a legend.
     Changes,
-    /// What was milled.
+    /// The moves of the old program.
     Old,
-    /// What is milled now.
+    /// The moves of the new program.
     New,
 }
 
-/// The programs of a path before and after, and what changed between them.
+/// The programs of a path before and after a change, and the differences between them.
 #[derive(Clone, Copy, Debug)]
 struct Pair<'a> {
     old: &'a [Move],
@@ -38,7 +37,7 @@ struct Pair<'a> {
     changes: &'a [Change],
 }
 
-/// Draws a change. All pictures of one have the same size and scale.
+/// Draws a change. All pictures of a change have the same size and scale.
 pub fn changes_svg(old: &[Move], new: &[Move], changes: &[Change], picture: Picture, lang: Lang) -> String {
     let frame = frame(old.iter().chain(new));
     let place = frame.of_drawing();
@@ -62,7 +61,7 @@ pub fn changes_svg(old: &[Move], new: &[Move], changes: &[Change], picture: Pict
 }
 
 impl Pair<'_> {
-    /// What stays in grey below, what changed above.
+    /// Draws unchanged moves in grey, and changed ones on top.
     fn draw(&self, canvas: &mut Canvas, place: &PageTransform) {
         let mut is_changed = vec![false; self.new.len()];
         for change in self.changes {
@@ -131,7 +130,7 @@ fn dashes(kind: Option<ChangeKind>) -> &'static str {
     }
 }
 
-/// A line of the legend.
+/// Draws a line of the legend.
 fn entry(canvas: &mut Canvas, group: &Group, top: f64, lang: Lang) {
     let middle = top + LINE / 2.0;
     let style = format!("stroke=\"{}\" stroke-width=\"2\"{}", color(group.kind), dashes(group.kind));

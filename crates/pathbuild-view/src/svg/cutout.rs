@@ -1,4 +1,4 @@
-//! The cut-out of a drawing round a place where something is wrong.
+//! Cut-outs of a drawing around a finding.
 
 use super::canvas::{Anchor, Canvas};
 use super::frame::{Frame, PageTransform, widen};
@@ -8,43 +8,44 @@ use super::{Shown, things};
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
 
-/// The picture in px.
+/// Size of the picture in px.
 const SIZE: Point = [420.0, 280.0];
 
-/// The least that it shows in mm, and how much more than what belongs together.
+/// Smallest extent shown in mm, and factor by which the picture exceeds the extent of related points.
 const LEAST: f64 = 36.0;
 const AROUND: f64 = 1.4;
 
-/// A gap that is too narrow for that is shown larger: so much of it, but no less than this, in mm.
+/// Small gaps are enlarged: the picture shows this multiple of the gap, but at least the second value in mm.
 const GAPS: f64 = 40.0;
 const NARROWEST: f64 = 4.0;
 
-/// Radius of the circle round the place, in px.
+/// Radius of the circle around the place, in px.
 const CIRCLE: f64 = 17.0;
 
-/// A text's place and its circle are as near as this, in mm, where the text itself is at fault.
+/// Distance in mm up to which a text's circle counts as being at the place, so that the text itself is at fault.
 const NEAR: f64 = 1.0;
 
-/// So many of a drawing's first paths are in it also where nothing of them is near. Thousands of them would be in each picture.
+/// Number of a drawing's first paths that are included even if they have no elements nearby. Including all of them would put thousands into
+/// each picture.
 const MOST_EMPTY: usize = 200;
 
-/// So many texts are in it at most. There is no room for more, and looking for it takes long.
+/// Maximum number of texts in a picture. More have no room, and searching for it takes long.
 const MOST_TEXTS: usize = 200;
 
-/// Where something is wrong.
+/// The place of a finding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spot {
-    /// In the drawing.
+    /// The place in the drawing.
     pub at: Point,
-    /// What belongs to it: the nearest open end, where a text stands.
+    /// Related points: the nearest open end, or the position of a text.
     pub related: Vec<Point>,
-    /// The circle by which a text looks for its element, where it finds none: centre and radius.
+    /// Centre and radius of the circle of a text that found no element.
     pub circle: Option<(Point, f64)>,
-    /// Whether it is an error; else a warning.
+    /// Whether the finding is an error rather than a warning.
     pub is_error: bool,
 }
 
-/// Draws what is drawn near a place, the place circled. Only what is near is in the picture.
+/// Draws the surroundings of a place, which is circled. Distant elements are omitted.
 pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     let window = window(spot);
     let scale = SIZE[0] / (window[1][0] - window[0][0]);
@@ -66,7 +67,7 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     canvas.finish()
 }
 
-/// The corners of what is shown: the place in the middle of what belongs to it.
+/// The corners of the area shown, centred on the place and its related points.
 fn window(spot: &Spot) -> [Point; 2] {
     let mut corners = None;
     for at in spot.related.iter().chain([&spot.at]) {
@@ -82,7 +83,7 @@ fn window(spot: &Spot) -> [Point; 2] {
     [[0, 1].map(|axis| middle[axis] - half[axis]), [0, 1].map(|axis| middle[axis] + half[axis])]
 }
 
-/// A scene without what lies outside: a large drawing would be in the picture of each of its findings.
+/// Removes everything outside of an area from a scene. Otherwise each finding's picture would contain the whole drawing.
 fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     let is_in = |[from, to]: [Point; 2]| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
     let is_near = |shape: &Shape| is_in(shape.extent());
@@ -108,7 +109,7 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     }
 }
 
-/// Drops texts that are more than a picture has.
+/// Removes texts beyond the maximum.
 fn keep_first_texts(paths: &mut [ScenePath]) {
     let mut left = MOST_TEXTS;
     for path in paths {
@@ -144,7 +145,7 @@ fn path_near(
     }
 }
 
-/// The circles by which texts at the place find their elements.
+/// The matching circles of the texts at the place.
 fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTransform) {
     for label in &path.texts {
         let away = libm::hypot(label.at[0] - spot.at[0], label.at[1] - spot.at[1]);
@@ -155,7 +156,7 @@ fn circles(canvas: &mut Canvas, path: &ScenePath, spot: &Spot, place: &PageTrans
     }
 }
 
-/// The place with a circle, and lines to what belongs to it.
+/// Circles the place, and draws lines to related points.
 fn mark(canvas: &mut Canvas, spot: &Spot, place: &PageTransform) {
     let color = if spot.is_error { ERROR } else { WARNING };
     let at = place.at(spot.at);
@@ -173,7 +174,7 @@ fn mark(canvas: &mut Canvas, spot: &Spot, place: &PageTransform) {
     canvas.close();
 }
 
-/// A line of a round length, in the lower left corner.
+/// Draws a scale bar of a round length in the lower left corner.
 fn ruler(canvas: &mut Canvas, scale: f64) {
     let decades = (-1..6).map(|decade| libm::pow(10.0, f64::from(decade)));
     let lengths = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * decade));

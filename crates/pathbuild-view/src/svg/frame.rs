@@ -1,27 +1,27 @@
-//! Where on the page the drawing lies: mm upwards become px downwards.
+//! The position of the drawing on the page. Its y axis points up, that of the page points down.
 
 use crate::scene::{Point, Scene, ScenePath, Shape};
 
-/// The room for the drawing in px, legend aside.
+/// Space for the drawing in px, without the legend.
 const ROOM: Point = [1080.0, 720.0];
 
-/// Space round the drawing in px.
+/// Margin around the drawing in px.
 const MARGIN: f64 = 40.0;
 
-/// The least that is shown, in mm: what has no extent, such as a single hole, has to have some.
+/// Smallest extent shown in mm, for drawings without an extent, such as a single hole.
 const LEAST: f64 = 10.0;
 
-/// From the drawing's coordinates to the page's.
+/// Transforms coordinates of the drawing to those of the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     low: Point,
     high: Point,
     scale: f64,
-    /// Where the upper left corner of the drawing comes to lie.
+    /// The position of the drawing's upper left corner.
     corner: Point,
 }
 
-/// From a path's coordinates to the page's.
+/// Transforms coordinates of a path to those of the page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PageTransform {
     frame: Frame,
@@ -29,7 +29,7 @@ pub(super) struct PageTransform {
 }
 
 impl Frame {
-    /// The frame round all that belongs to paths, and clamps; round other layers where there are no paths.
+    /// The frame around paths and clamps; around other layers if there are no paths.
     pub(super) fn of(scene: &Scene) -> Self {
         let mut corners: Option<[Point; 2]> = None;
         for path in &scene.paths {
@@ -55,7 +55,7 @@ impl Frame {
         Self::around(corners)
     }
 
-    /// The frame round corners: the lowest and the highest.
+    /// The frame around the corners of a bounding box.
     pub(super) fn around(corners: Option<[Point; 2]>) -> Self {
         let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [LEAST; 2]]);
         for axis in [0, 1] {
@@ -68,12 +68,12 @@ impl Frame {
         Self { low, high, scale, corner: [MARGIN + spare, MARGIN] }
     }
 
-    /// The frame of these corners at a scale, with its upper left corner somewhere.
+    /// The frame of a bounding box at a scale, with its upper left corner at a given point.
     pub(super) fn at_scale([low, high]: [Point; 2], scale: f64, corner: Point) -> Self {
         Self { low, high, scale, corner }
     }
 
-    /// Px for a mm.
+    /// Px per mm.
     pub(super) fn scale(&self) -> f64 {
         self.scale
     }
@@ -81,12 +81,12 @@ impl Frame {
     /// The page's width in px.
     pub(super) const WIDTH: f64 = ROOM[0] + 2.0 * MARGIN;
 
-    /// Where the drawing ends.
+    /// The lower edge of the drawing, with its margins.
     pub(super) fn bottom(&self) -> f64 {
         (self.high[1] - self.low[1]) * self.scale + 2.0 * MARGIN
     }
 
-    /// Everything but a thin margin.
+    /// The whole area except for a thin margin.
     pub(super) fn area(&self) -> [Point; 2] {
         [[0.0, 0.0], [Self::WIDTH, self.bottom() - MARGIN / 4.0]]
     }
@@ -95,26 +95,26 @@ impl Frame {
         PageTransform { frame: *self, zero: path.zero }
     }
 
-    /// The drawing itself.
+    /// The transform for coordinates of the drawing.
     pub(super) fn of_drawing(&self) -> PageTransform {
         PageTransform { frame: *self, zero: [0.0; 2] }
     }
 }
 
 impl PageTransform {
-    /// Px for a mm.
+    /// Px per mm.
     pub(super) fn scale(&self) -> f64 {
         self.frame.scale
     }
 
-    /// A point on the page.
+    /// Transforms a point.
     pub(super) fn at(&self, [x, y]: Point) -> Point {
         let Frame { low, high, scale, corner } = self.frame;
         [corner[0] + (x + self.zero[0] - low[0]) * scale, corner[1] + (high[1] - y - self.zero[1]) * scale]
     }
 }
 
-/// The corners of everything of a path, and of what the cutter takes away, in the drawing.
+/// The bounding boxes of everything in a path, including the removed material, in coordinates of the drawing.
 fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
     let moved = |corners: [Point; 2]| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
     let shapes = path.elements.iter().map(|element| element.shape.extent());

@@ -1,4 +1,4 @@
-//! What stands under the drawing: its name, what lines mean, the scale of depths, findings.
+//! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
 use super::Shown;
 use super::canvas::{Anchor, Canvas, n};
@@ -8,16 +8,16 @@ use super::things::SWEEP;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
 
-/// From one line to the next, in px.
+/// Line height in px.
 const LINE: f64 = 17.0;
 
-/// Letters on a line of findings.
+/// Maximum number of characters on a line of findings.
 const LETTERS: usize = 150;
 
-/// Steps of the scale of depths.
+/// Number of steps in the depth scale.
 const STEPS: u32 = 24;
 
-/// Everything under the drawing.
+/// The legend.
 pub(super) struct Legend<'a> {
     scene: &'a Scene,
     depths: &'a Depths,
@@ -33,7 +33,7 @@ impl<'a> Legend<'a> {
         Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings }
     }
 
-    /// Where the page ends.
+    /// The lower edge of the page.
     pub(super) fn bottom(&self) -> f64 {
         self.top + 5.0 * LINE + self.findings.len() as f64 * LINE
     }
@@ -99,7 +99,7 @@ impl<'a> Legend<'a> {
         facts.join(" · ")
     }
 
-    /// A line of a round length.
+    /// Draws a scale bar of a round length.
     fn scale_bar(&self, canvas: &mut Canvas, y: f64) {
         let steps = [
             0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 10_000.0, 100_000.0,
@@ -116,7 +116,7 @@ impl<'a> Legend<'a> {
     }
 }
 
-/// The kinds of lines that there are, from a place to the right as far as that; then on further lines.
+/// Draws the kinds of lines that occur, from `left` to `right`, continuing on further lines.
 pub(super) fn kinds(canvas: &mut Canvas, scene: &Scene, shown: Shown, [left, mut y]: Point, right: f64) {
     let moves = || scene.paths.iter().flat_map(|path| &path.moves);
     let has = |kind| moves().any(|it| it.kind == kind);
@@ -165,7 +165,7 @@ pub(super) fn kinds(canvas: &mut Canvas, scene: &Scene, shown: Shown, [left, mut
     }
 }
 
-/// The colours of depths.
+/// Draws the depth scale.
 pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     let Some((high, low)) = depths.range else { return };
     let label = |z: f64| format!("Z {}", mm(z));
@@ -188,13 +188,13 @@ pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
 }
 
-/// A length with three decimals at most.
+/// A length with at most three decimals.
 pub(super) fn mm(value: f64) -> String {
     let text = format!("{:.3}", value + 0.0);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A finding in lines, the first with its number.
+/// The lines of a finding, the first with its number.
 fn lines<'a>(finding: &'a Finding, shown: Shown) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |said: &'a crate::scene::Said| match shown.lang {
         Lang::En => said.en.as_str(),
@@ -212,7 +212,7 @@ fn lines<'a>(finding: &'a Finding, shown: Shown) -> Vec<(Option<&'a Finding>, St
     lines
 }
 
-/// A text broken at blanks.
+/// Wraps a text at spaces.
 fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

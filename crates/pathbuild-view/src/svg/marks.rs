@@ -1,4 +1,4 @@
-//! Numbers of order, start and end, findings.
+//! Markers: cutting order, start and end, findings.
 
 use super::Shown;
 use super::canvas::{Anchor, Canvas, n};
@@ -7,10 +7,10 @@ use super::palette::{ERROR, INK, PROBE, WARNING};
 use super::room::{Rectangle, Room, around};
 use crate::scene::{Element, ElementKind, Point, Scene, ScenePath, Shape};
 
-/// The radius of a number's circle in px.
+/// The radius in px of the circle around a number.
 const NUMBER: f64 = 7.0;
 
-/// Takes the room of symbols, which stand where they stand.
+/// Reserves the space of symbols with fixed positions.
 pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut Room) {
     for marker in markers(path).into_iter().flatten() {
         room.take(around(place.at(marker.shape.start()), 5.0));
@@ -20,7 +20,7 @@ pub(super) fn reserve(path: &ScenePath, place: &PageTransform, room: &mut Room) 
     }
 }
 
-/// The markers of a path at its start and its end.
+/// The start and end marker of a path.
 fn markers(path: &ScenePath) -> [Option<&Element>; 2] {
     let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
     [marker(ElementKind::Start), marker(ElementKind::End)]
@@ -31,7 +31,7 @@ pub(super) fn probe_radius(place: &PageTransform) -> f64 {
     (3.0 * place.scale()).clamp(5.0, 16.0)
 }
 
-/// The numbers in which the tool comes to elements, as far as there is room.
+/// Draws the cutting order of the elements, as far as there is room.
 pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     let mut numbered: Vec<(u32, &Element)> =
         path.elements.iter().filter_map(|element| Some((element.order?, element))).collect();
@@ -53,8 +53,8 @@ pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform
     canvas.close();
 }
 
-/// Where a shape's number may stand: in the middle, else nearer to an end; of a circle in its centre, if that is seen round the number, else
-/// beside it. The cutter takes so many px away on either side.
+/// Possible positions for the number of a shape: at the middle, or nearer to an end. For a circle, the centre if the circle is visible
+/// around the number, otherwise beside it. The cutter removes `kerf` px on either side.
 fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
     let along =
         |point: &dyn Fn(f64) -> Point| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| place.at(point(share)));
@@ -66,7 +66,7 @@ fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
         Shape::Circle { centre, radius } => {
             let ([x, y], radius) = (place.at(*centre), radius * place.scale());
             let out = radius.max(kerf) + NUMBER + 3.0;
-            // A hole that is drilled is a disc: a number in it would make a ring of it.
+            // A drilled hole is a disc; a number inside would make it look like a ring.
             let is_seen = radius > NUMBER + 4.0 && radius > kerf * 1.05;
             let centre = is_seen.then_some([x, y]);
             centre.into_iter().chain([[x + out, y], [x, y + out], [x, y - out], [x - out, y]]).collect()
@@ -74,7 +74,7 @@ fn places(shape: &Shape, place: &PageTransform, kerf: f64) -> Vec<Point> {
     }
 }
 
-/// Where the program's zero lies, where it starts and where it ends.
+/// Draws the program's zero point, start and end.
 pub(super) fn ends(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -112,7 +112,7 @@ fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &
     canvas.text(at, 9.5, Anchor::Start, &format!("fill=\"{color}\" {halo}"), text);
 }
 
-/// What is wrong, circled and numbered. Findings at one place share a circle.
+/// Circles and numbers findings. Findings at the same place share a circle.
 pub(super) fn findings(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room) {
     let place = frame.of_drawing();
     let mut circles: Vec<(Point, Vec<usize>, bool)> = Vec::new();

@@ -1,4 +1,4 @@
-//! Scenes as SVG: the same bytes for the same scene, light for print, in colours that the colour-blind tell apart.
+//! Scenes as SVG: deterministic output, light for printing, in colours that the colour-blind can distinguish.
 
 mod canvas;
 mod changes;
@@ -28,24 +28,24 @@ pub use sheet::sheet_pdf;
 pub(crate) use sheet::xmp;
 pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg};
 
-/// What is shown of a scene.
+/// The visible parts of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a layer of its own")]
 pub struct Shown {
-    /// Language of legend and findings.
+    /// Language of the legend and the findings.
     pub lang: Lang,
-    /// Rapid moves.
+    /// Whether to show rapid moves.
     pub rapids: bool,
-    /// Numbers of order.
+    /// Whether to show the cutting order.
     pub order: bool,
-    /// Arrows.
+    /// Whether to show arrows.
     pub arrows: bool,
-    /// Parameter texts.
+    /// Whether to show parameter texts.
     pub texts: bool,
 }
 
 impl Shown {
-    /// Everything.
+    /// Shows everything.
     pub fn all(lang: Lang) -> Self {
         Self { lang, rapids: true, order: true, arrows: true, texts: true }
     }

@@ -1,4 +1,4 @@
-//! What the tool does.
+//! Draws moves of the tool.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -11,19 +11,19 @@ use super::frame::PageTransform;
 use super::palette::{Depths, KERF, RAPID};
 use crate::scene::{Move, MoveKind, Point, ScenePath};
 
-/// Arrows stand on moves of so many px at least.
+/// Minimum length in px of a move with an arrow.
 const ROOM_FOR_ARROW: f64 = 26.0;
 
-/// Pieces into which an arc of another plane is flattened.
+/// Number of pieces for flattening an arc in another plane.
 const PIECES: u32 = 24;
 
-/// What is seen of all moves along one line, whichever way they go: the first one's direction, the depth of the deepest.
+/// All moves along one line, regardless of direction: the direction of the first and the depth of the deepest.
 struct Cut<'a> {
     way: &'a Move,
     depth: Option<f64>,
 }
 
-/// Draws the moves of a path. Moves along the same line are one [`Cut`].
+/// Draws the moves of a path. Moves along the same line are drawn as one [`Cut`].
 pub(super) fn draw(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -74,14 +74,14 @@ fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransfo
     canvas.path(&data(it, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
-/// Whether a plunge is the whole of its element; without elements it looks like one.
+/// Whether a plunge makes up its whole element. Without elements, every plunge looks like a hole.
 fn is_hole(it: &Move, path: &ScenePath) -> bool {
     it.element.is_none_or(|element| {
         matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
     })
 }
 
-/// How deep each element is cut at last.
+/// The final depth of each element.
 fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
     let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
     for it in path.moves.iter().filter(|it| it.kind.cuts() && it.kind != MoveKind::Plunge) {
@@ -92,7 +92,7 @@ fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
     bottoms
 }
 
-/// What is cut, from shallow to deep.
+/// The cuts, from shallow to deep.
 fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
     let mut cuts: Vec<Cut<'_>> = Vec::new();
@@ -107,12 +107,12 @@ fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
     cuts
 }
 
-/// The lower of two heights, of which either may be unknown.
+/// The lower of two heights, either of which may be unknown.
 fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.into_iter().chain(b).reduce(f64::min)
 }
 
-/// What moves along the same line have in common: ends in either order, and the centre.
+/// Key that is equal for moves along the same line: the ends in either order, and the centre.
 fn line_of(it: &Move) -> Vec<i64> {
     let mut ends = [it.from(), it.to()].map(|end| end.map(micrometres));
     ends.sort_unstable();
@@ -120,7 +120,7 @@ fn line_of(it: &Move) -> Vec<i64> {
     if let Path::Arc(arc) = it.way.path {
         line.extend(arc.centre.map(micrometres));
         let goes_up = it.from().map(micrometres) == ends[0];
-        // Of a full circle both ways are the same line.
+        // A full circle is the same line in both directions.
         line.push(i64::from(ends[0] == ends[1] || arc.clockwise == goes_up));
     }
     line
@@ -150,7 +150,7 @@ fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: S
     }
 }
 
-/// A small triangle in the middle of a move, in its direction.
+/// Draws a small triangle in the middle of a move, pointing in its direction.
 fn arrow(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str) {
     let (before, at) = (place.at(along(it, 0.59)), place.at(along(it, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
@@ -166,7 +166,7 @@ fn arrow(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str) {
     canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{color}\""));
 }
 
-/// The point after that share (0 to 1) of a move.
+/// The point at a fraction (0 to 1) of a move.
 pub(super) fn along(it: &Move, share: f64) -> Point {
     match it.way.path {
         Path::Line => [0, 1].map(|axis| it.from()[axis] + (it.to()[axis] - it.from()[axis]) * share),
@@ -177,7 +177,7 @@ pub(super) fn along(it: &Move, share: f64) -> Point {
     }
 }
 
-/// A move as path data: arcs of the plane stay arcs.
+/// A move as SVG path data; arcs in the plane stay arcs.
 pub(super) fn data(it: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
@@ -187,7 +187,7 @@ pub(super) fn data(it: &Move, place: &PageTransform) -> String {
     match it.way.path {
         Path::Line => _ = write!(data, "L{}", point(it.to())),
         Path::Arc(arc) if arc.plane.axes() == [0, 1] => {
-            // Two halves: a full circle has no end of its own, and its halves are never more than half a turn each.
+            // Drawn as two halves, since SVG cannot express a full circle as one arc and each half is at most half a turn.
             let turns = arc.extra_turns + 1;
             let radius = n(arc.radius(&it.way.from) * place.scale());
             let sweep = i32::from(arc.clockwise);

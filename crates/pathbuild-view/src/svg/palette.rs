@@ -1,4 +1,4 @@
-//! Colours. Kinds differ in line as well as in colour, and depths in lightness, so that print and every eye tell them apart.
+//! Colours. Kinds also differ in line style, and depths in lightness, so that they can be distinguished in print and by the colour-blind.
 //! (Okabe and Ito's palette; depths from light to dark)
 
 use crate::scene::Scene;
@@ -25,7 +25,7 @@ const DEPTHS: [[f64; 3]; 5] = [
 /// The depths of a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depths {
-    /// The highest Z at which anything is cut, and the lowest, in mm; `None` where nothing is.
+    /// The highest and the lowest Z of all cuts in mm; `None` without cuts.
     pub(super) range: Option<(f64, f64)>,
 }
 
@@ -49,7 +49,7 @@ impl Depths {
     }
 }
 
-/// The colour at a share (0 to 1) of the way down.
+/// The colour at a fraction (0 to 1) of the depth.
 pub(super) fn color(share: f64) -> String {
     let last = (DEPTHS.len() - 1) as f64;
     let place = share * last;
@@ -60,7 +60,7 @@ pub(super) fn color(share: f64) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// A small whole number as an index.
+/// Converts a small whole number to an index.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
 fn index(value: f64) -> usize {
     value as usize

@@ -1,10 +1,10 @@
-//! Where texts stand, so that none is printed over another or cut off.
+//! Positions texts so that they do not overlap and are not cut off.
 
 use std::collections::BTreeSet;
 
 use crate::scene::Point;
 
-/// What is taken of a picture: cells of a grid. Taking and asking cost as much as the text is large, however many there are.
+/// Occupied space of a picture as cells of a grid. The cost of an operation depends on the size of the text, not on the number of texts.
 pub(super) struct Room {
     area: Rectangle,
     taken: BTreeSet<(i64, i64)>,
@@ -13,34 +13,34 @@ pub(super) struct Room {
 /// Width and height of a cell in px.
 const CELL: f64 = 4.0;
 
-/// A text is looked for a place at most so many of its heights away.
+/// Maximum distance at which a text is placed, in multiples of its height.
 const FARTHEST: u32 = 6;
 
-/// So many places beside a symbol are so near that the label is not taken for that of another.
+/// Number of candidate positions so near to a symbol that the label cannot be mistaken for another's.
 const NEAREST: usize = 13;
 
 /// A rectangle in px: left, top; right, bottom.
 pub(super) type Rectangle = [Point; 2];
 
 impl Room {
-    /// All of a picture.
+    /// Creates the free space of a picture.
     pub(super) fn new(area: Rectangle) -> Self {
         Self { area, taken: BTreeSet::new() }
     }
 
-    /// Takes a rectangle.
+    /// Occupies a rectangle.
     pub(super) fn take(&mut self, rectangle: Rectangle) {
         self.taken.extend(cells(rectangle));
     }
 
-    /// Takes the first of the rectangles that meets nothing; its number.
+    /// Occupies the first of the rectangles that is free, and returns its index.
     pub(super) fn find(&mut self, candidates: &[Rectangle]) -> Option<usize> {
         let found = candidates.iter().position(|rectangle| self.met(*rectangle) == 0)?;
         self.take(candidates[found]);
         Some(found)
     }
 
-    /// The middle of a rectangle of this size that meets nothing, as near to a point as there is one; it is taken.
+    /// Occupies the free rectangle of this size that is nearest to a point, and returns its centre.
     pub(super) fn find_near(&mut self, at: Point, [width, height]: Point) -> Option<Point> {
         let [low, high] = self.area;
         let inside = |axis: usize, value: f64, size: f64| {
@@ -54,8 +54,8 @@ impl Room {
         self.find(&middles.iter().map(rectangle).collect::<Vec<_>>()).map(|found| middles[found])
     }
 
-    /// Where a label beside a symbol begins, on its base line: at the offset that is preferred, or round the symbol. `None`: there is no
-    /// room.
+    /// Occupies space for a label beside a symbol, preferably at the given offset, and returns the start of its baseline. `None` if there
+    /// is no room.
     pub(super) fn find_beside(
         &mut self,
         at: Point,
@@ -67,7 +67,7 @@ impl Room {
         self.find(&candidates[..NEAREST]).map(|found| starts[found])
     }
 
-    /// The same, farther away too, for a label that must be seen: where there is no room it stands where it meets least.
+    /// Like [`find_beside`](Self::find_beside), but also farther away. Without any room, the label is placed where it overlaps least.
     pub(super) fn beside(&mut self, at: Point, preferred: Point, size: f64, text: &str) -> Point {
         let (starts, candidates) = beside(at, preferred, size, text);
         let least = || (0..candidates.len()).min_by_key(|number| self.met(candidates[*number]));
@@ -76,7 +76,7 @@ impl Room {
         starts[least]
     }
 
-    /// How many cells of a rectangle are taken; beside the picture all are.
+    /// Number of occupied cells in a rectangle. Outside of the picture, all are occupied.
     fn met(&self, rectangle: Rectangle) -> usize {
         let [[left, top], [right, bottom]] = rectangle;
         let [[leftmost, topmost], [rightmost, lowest]] = self.area;
@@ -86,7 +86,7 @@ impl Room {
     }
 }
 
-/// Steps away from a place, the nearest first.
+/// Offsets in rows and columns, nearest first.
 fn steps() -> impl Iterator<Item = Point> {
     let rows = (0..=FARTHEST).flat_map(|row| [f64::from(row), -f64::from(row)]);
     let mut steps: Vec<Point> =
@@ -95,7 +95,7 @@ fn steps() -> impl Iterator<Item = Point> {
     steps.into_iter()
 }
 
-/// Where a label beside a symbol may begin, and what it takes there.
+/// Candidate start points and rectangles for a label beside a symbol.
 fn beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>, Vec<Rectangle>) {
     let width = width(text, size);
     let (near, row) = (8.0, size + 2.5);
@@ -111,15 +111,15 @@ fn beside([x, y]: Point, preferred: Point, size: f64, text: &str) -> (Vec<Point>
     (starts, candidates)
 }
 
-/// More cells than any text has.
+/// Larger than the number of cells of any text.
 const OUTSIDE: usize = 1 << 20;
 
-/// About how wide a text is, in px.
+/// Approximate width of a text in px.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     0.62 * size * text.chars().count() as f64
 }
 
-/// The rectangle of so many px round a point.
+/// The square around a point with this half width in px.
 pub(super) fn around([x, y]: Point, half: f64) -> Rectangle {
     [[x - half, y - half], [x + half, y + half]]
 }

@@ -1,4 +1,4 @@
-//! What is drawn, under and over the moves.
+//! Draws the elements, below and above the moves.
 
 use super::Shown;
 use super::canvas::{Anchor, Canvas, n};
@@ -8,16 +8,16 @@ use super::palette::{BAR, ERROR, INK, OTHER, PROBE, RAPID, TEXT};
 use super::room::{Rectangle, Room, width};
 use crate::scene::{Arc, Element, ElementKind, OtherShape, Point, Scene, ScenePath, Shape};
 
-/// The path's own texts have so many px at least.
+/// Minimum size in px of the path's own texts.
 const LEAST: f64 = 7.5;
 
-/// Texts of fewer px are not read.
+/// Size in px below which texts are illegible and omitted.
 const READABLE: f64 = 4.5;
 
-/// What makes a text legible over lines.
+/// A white outline that keeps texts legible over lines.
 const HALO: &str = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" paint-order=\"stroke\"";
 
-/// Other layers and clamps.
+/// Draws other layers and clamps.
 pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut Room) {
     let place = frame.of_drawing();
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
@@ -36,13 +36,13 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mu
     keep_outs(canvas, scene, &place, room);
 }
 
-/// About what a text round a point takes.
+/// The approximate rectangle of a text centred on a point.
 fn written([x, y]: Point, size: f64, text: &str) -> Rectangle {
     let half = width(text, size) / 2.0;
     [[x - half, y - size / 2.0], [x + half, y + size / 2.0]]
 }
 
-/// Clamps, with their heights in the middle.
+/// Draws clamps, with their heights in the middle.
 fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR}\" fill-opacity=\"0.14\"");
@@ -66,7 +66,7 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &m
     canvas.close();
 }
 
-/// Shapes that meet all around as one piece of path data.
+/// Adjacent shapes of an outline as one piece of path data.
 fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     let mut data = String::new();
     for it in shapes {
@@ -92,7 +92,7 @@ fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point,
     canvas.text([x, y], size, Anchor::Middle, &style, text);
 }
 
-/// Elements, texts, bars, probes, markers.
+/// Draws elements, texts, support bars, probes and markers.
 pub(super) fn over(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -119,7 +119,7 @@ pub(super) fn over(
     embedded(canvas, path, place, room);
 }
 
-/// What is drawn and is no move: with a program what embeds and what is skipped, without one everything.
+/// Draws elements that are not moves: with a program, subpaths and skipped elements; without one, everything.
 fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open("id=\"elements\" fill=\"none\" stroke-width=\"1.4\"");
     for element in &path.elements {
@@ -154,11 +154,11 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
     for label in &path.texts {
         let lines: Vec<&str> = label.text.lines().collect();
         let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
-        // The circle's radius is half the diagonal of the text.
+        // The radius of a text's circle is half the diagonal of the text.
         let (rows, letters) = (lines.len().max(1) as f64, 0.6 * longest as f64);
         let height = 2.0 * label.radius / libm::hypot(rows, letters);
         let size = (height * place.scale()).min(14.0);
-        // The path's own texts are what somebody wrote for it; those of embedded paths are there as far as they can be read.
+        // The path's own texts are always legible; those of embedded paths are shown only if they are large enough.
         let size = if label.path == 0 { size.max(LEAST) } else { size };
         if size < READABLE {
             continue;
@@ -177,7 +177,7 @@ fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mu
     canvas.close();
 }
 
-/// The point of a shape next to another point.
+/// The point of a shape that is nearest to another point.
 fn nearest(shape: &Shape, at: Point) -> Point {
     let onto_circle = |centre: Point, radius: f64| {
         let out = [at[0] - centre[0], at[1] - centre[1]];
@@ -197,7 +197,7 @@ fn nearest(shape: &Shape, at: Point) -> Point {
     }
 }
 
-/// The names of embedded paths where they start, as far as there is room.
+/// Draws the names of embedded paths at their starts, as far as there is room.
 fn embedded(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"embedded\" fill=\"{INK}\" font-style=\"italic\""));
     for inner in path.embedded.iter().skip(1) {
@@ -225,7 +225,7 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &m
     canvas.close();
 }
 
-/// A shape as path data.
+/// A shape as SVG path data.
 pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
@@ -254,5 +254,5 @@ pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
     }
 }
 
-/// What sweeps are drawn in, for the legend.
+/// The colour of sweeps, for the legend.
 pub(super) const SWEEP: &str = RAPID;

@@ -1,4 +1,4 @@
-//! What a sheet says: checklist, facts, tables.
+//! Content of a setup sheet: checklist, facts and tables.
 
 use super::facts::{self, distinct};
 use super::flow::Block;
@@ -7,7 +7,7 @@ use super::{Sheet, SheetTool};
 use crate::scene::{MoveKind, Point};
 use crate::svg::legend::mm;
 
-/// What is done before the program runs, in the order in which it is done.
+/// Steps before running the program, in the order in which they are carried out.
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut checks = vec![program(sheet, words), material(sheet, words)];
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
@@ -103,7 +103,7 @@ fn cutter(sheet: &Sheet, words: Words) -> String {
     }
 }
 
-/// Where the zero point lies.
+/// The position of the zero point.
 fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     let mut checks = Vec::new();
     if let Some([low, _]) = facts::cleared(sheet) {
@@ -123,7 +123,7 @@ fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     checks
 }
 
-/// What has to be known while it runs.
+/// Facts to know while the program runs.
 pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut facts = Facts { words, blocks: Vec::new() };
     facts.heading("Material", "Material");
@@ -176,7 +176,7 @@ impl Facts {
     }
 }
 
-/// What is too much for the first page.
+/// Tables with more details than the first page holds.
 pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut table = |heading: &str, shares: &'static [f64], head: &[&str], rows: Vec<Vec<String>>| {
@@ -237,7 +237,7 @@ fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
             mm(probe.at[0]),
             mm(probe.at[1]),
             mm(probe.height),
-            // Who measures writes behind it, and later in the file.
+            // Left empty for writing the measured value, first on paper and then in the file.
             "=".to_owned(),
         ]
     };
@@ -264,7 +264,7 @@ fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
     ]
 }
 
-/// Each embedded path with how often it is embedded.
+/// Each embedded path with its number of occurrences.
 fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
     let all = || sheet.scene.paths.iter().flat_map(|path| path.embedded.iter().skip(1));
     let each = distinct(all().map(|it| (&it.name, &it.file)));
@@ -276,7 +276,7 @@ fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
     each.into_iter().map(row).collect()
 }
 
-/// A cutter: what it is, then its speed.
+/// A cutter: its description, then its spindle speed.
 fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
     let number = tool.number.map(|number| format!("T{number} "));
     let name = tool.name.as_ref().map(|name| format!(" ({name})"));
@@ -308,13 +308,13 @@ fn thicknesses(sheet: &Sheet) -> Option<String> {
     listed(&distinct(sheet.scene.paths.iter().filter_map(|path| path.thickness)))
 }
 
-/// What the cutters take away, across and up.
+/// The size of the removed material in X and Y.
 fn size(sheet: &Sheet) -> Option<String> {
     let [low, high] = facts::cleared(sheet)?;
     Some(format!("{} × {} mm", mm(high[0] - low[0]), mm(high[1] - low[1])))
 }
 
-/// Numbers; of many the first and the last.
+/// A list of numbers; only the first and the last of many.
 fn listed(numbers: &[f64]) -> Option<String> {
     match numbers {
         [] => None,

@@ -1,13 +1,13 @@
-//! What moves and clamps come to, in numbers.
+//! Numbers derived from moves and clamps.
 
 use super::Sheet;
 use crate::scene::{KeepOut, Move, MoveKind, Point, Shape};
 use crate::svg::frame::widen;
 
-/// Lowest and highest corner.
+/// Lower left and upper right corner.
 pub(super) type Corners = [Point; 2];
 
-/// What the cutters take away, seen from above; `None` where nothing is cut.
+/// The bounding box of the removed material seen from above; `None` without cuts.
 pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
     let mut corners = None;
     for path in &sheet.scene.paths {
@@ -20,7 +20,7 @@ pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
     corners
 }
 
-/// Everything that the picture shows.
+/// The bounding box of the picture.
 pub(super) fn seen(sheet: &Sheet) -> Corners {
     let mut corners = cleared(sheet);
     widen(&mut corners, [[0.0; 2]; 2]);
@@ -38,7 +38,7 @@ pub(super) fn seen(sheet: &Sheet) -> Corners {
     corners.unwrap_or_default()
 }
 
-/// The corners of a clamp.
+/// The bounding box of a clamp.
 pub(super) fn outline(clamp: &KeepOut) -> Corners {
     let mut corners = None;
     for extent in clamp.outline.iter().map(Shape::extent) {
@@ -47,7 +47,7 @@ pub(super) fn outline(clamp: &KeepOut) -> Corners {
     corners.unwrap_or_default()
 }
 
-/// The feeds in mm/min of moves of some kinds, from slow to fast.
+/// The feeds in mm/min of some kinds of moves, in ascending order.
 pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f64> {
     let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves);
     let mut feeds: Vec<f64> =
@@ -57,14 +57,14 @@ pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f
     feeds
 }
 
-/// At which Z the tool goes rapidly.
+/// Heights of rapid moves.
 #[derive(Debug, PartialEq)]
 pub(super) struct RapidHeights {
-    /// In the plane, from low to high.
+    /// Of moves in the plane, in ascending order.
     pub(super) across: Vec<f64>,
-    /// The lowest end of those that go straight down.
+    /// The lowest end of moves straight down.
     pub(super) down: Option<f64>,
-    /// The lowest end of those that go straight up.
+    /// The lowest end of moves straight up.
     up: Option<f64>,
 }
 
@@ -88,7 +88,7 @@ pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
     RapidHeights { across, down: lowest_end(true), up: lowest_end(false) }
 }
 
-/// The values that paths have, each once, in order of the paths.
+/// The values of all paths without duplicates, in order of the paths.
 pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
     let mut distinct = Vec::new();
     for value in values {

@@ -1,39 +1,39 @@
-//! Blocks of text laid into columns and onto pages.
+//! Lays out blocks of text in columns and on pages.
 
 use super::page::Item;
 use crate::scene::Point;
 
-/// Size of letters, and from one line to the next, in units of the page.
+/// Letter size and line height in units of the page.
 pub(super) const LETTERS: f64 = 10.0;
 pub(super) const LINE: f64 = 13.5;
 
-/// Space above a heading, and below a block.
+/// Space above a heading and below a block.
 const ABOVE_HEADING: f64 = 8.0;
 const BELOW: f64 = 2.5;
 
-/// Where the text of a checklist begins, right of its boxes.
+/// Indentation of a checklist's text, to the right of the boxes.
 const INDENT: f64 = 17.0;
 
-/// Share of a column that the names of facts have.
+/// Fraction of a column for the names of facts.
 const NAMES: f64 = 0.45;
 
-/// The share of a line that is empty between two cells of a row.
+/// Space between two cells of a row, in units of the page.
 const GAP: f64 = 6.0;
 
-/// A piece of text that stands together.
+/// A block of text that is not split.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Block {
-    /// Over what follows.
+    /// A heading of the blocks that follow.
     Heading(String),
-    /// Something to do, with a box to tick.
+    /// A step with a box to tick.
     Check(String),
-    /// A name and what it is.
+    /// A name and a value.
     Fact(String, String),
-    /// A row of a table, in cells of shares of the width. On a new page its head is repeated.
+    /// A row of a table, with cells of given fractions of the width. The head is repeated on each new page.
     Row { cells: Vec<String>, shares: &'static [f64], head: Vec<String> },
 }
 
-/// A part of a page.
+/// An area of a page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub(super) left: f64,
@@ -42,8 +42,8 @@ pub(super) struct Column {
     pub(super) bottom: f64,
 }
 
-/// Lays as many blocks into a column as it holds; those that are left, and where the last one ends. One is always laid, so that there is an
-/// end.
+/// Lays out as many blocks as a column holds. Returns the rest, and the lower edge of the last block. At least one block is laid out, so
+/// that the layout terminates.
 pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>) -> (&'b [Block], f64) {
     let mut y = column.top;
     let mut head: Option<&[String]> = None;
@@ -57,7 +57,7 @@ pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>
             head = Some(wanted);
         }
         below = block.lay(column, below, index == 0, &mut laid);
-        // A heading stands with what it is over.
+        // A heading must not be separated from the block that follows.
         let room = match block {
             Block::Heading(_) => below + 3.0 * LINE,
             _ => below,
@@ -72,7 +72,7 @@ pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>
 }
 
 impl Block {
-    /// Lays a block below a height; where it ends.
+    /// Lays out the block below `top`. Returns its lower edge.
     fn lay(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
         match self {
             Self::Heading(text) => {
@@ -97,7 +97,7 @@ impl Block {
     }
 }
 
-/// Lays a row; where it ends.
+/// Lays out a row. Returns its lower edge.
 fn row(
     cells: &[String],
     shares: &[f64],
@@ -122,7 +122,7 @@ fn row(
     bottom
 }
 
-/// Lays the lines of a text below a height; where they end.
+/// Lays out the lines of a text below `top`. Returns their lower edge.
 fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> f64 {
     let mut y = top;
     for line in wrapped(text, width, LETTERS) {
@@ -132,7 +132,7 @@ fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> 
     y
 }
 
-/// A text broken at blanks, and where it has none within words, so that no line is wider than that.
+/// Wraps a text to a width, at spaces or, in long words, anywhere.
 pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
@@ -155,12 +155,12 @@ pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
     lines
 }
 
-/// How wide a text is at most.
+/// Upper estimate of the width of a text.
 pub(super) fn breadth(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
 
-/// How wide a letter is, in letters' sizes: classes of the font are enough to break lines.
+/// The width of a character relative to the letter size. A few classes are precise enough for wrapping lines.
 fn advance(letter: char) -> f64 {
     match letter {
         ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | 'i' | 'j' | 'l' | 'I' => 0.34,
@@ -172,7 +172,7 @@ fn advance(letter: char) -> f64 {
     }
 }
 
-/// Where a column is on a page.
+/// The edges of a column on a page.
 impl Column {
     pub(super) fn new([left, top]: Point, [right, bottom]: Point) -> Self {
         Self { left, width: right - left, top, bottom }

@@ -1,4 +1,4 @@
-//! Measures of what the cutters take away: its size, and where its edges lie from X0 Y0.
+//! Dimensions of the removed material: its size, and the distance of its edges from X0 Y0.
 
 use super::facts::Corners;
 use super::flow::breadth;
@@ -8,14 +8,14 @@ use crate::svg::frame::PageTransform;
 use crate::svg::legend::mm;
 use crate::svg::palette::INK;
 
-/// Size of the numbers, and how far apart two of them are at least.
+/// Letter size of the numbers, and the minimum distance between two of them.
 const SIZE: f64 = 9.5;
 const APART: f64 = 11.0;
 
-/// From the picture to the lines of the measures.
+/// Distance from the picture to the dimension lines.
 const AWAY: f64 = 22.0;
 
-/// Draws the rectangle with its measures left of, and below, a corner of the page.
+/// Draws the dimensions of a rectangle, to the left of and below a corner of the page.
 pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
     let ([x0, y1], [x1, y0]) = (place.at(low), place.at(high));
     canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.7\""));

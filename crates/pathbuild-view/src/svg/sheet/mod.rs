@@ -1,6 +1,6 @@
-//! The sheet of a program for who stands at the machine: pages of A4, the first with picture and checklist. (book: program/sheet)
+//! The setup sheet of a program: A4 pages, the first with a picture and a checklist. (book: program/sheet)
 //!
-//! [`Sheet`] is the data; it is written in blocks, these are laid on [`Page`]s, and pages are drawn as SVG.
+//! [`Sheet`] is the data; it becomes blocks, which are laid out on [`Page`]s and drawn as SVG.
 
 mod blocks;
 mod facts;
@@ -17,44 +17,44 @@ use pathbuild_diagnostic::Lang;
 use crate::scene::{Point, Scene};
 use crate::svg::canvas::escaped;
 
-/// A page in mm.
+/// The size of a page in mm.
 pub(super) const PAPER: Point = [210.0, 297.0];
 
-/// Units of a page's SVG for a mm of paper: letters of 10 units have 9.4 pt.
+/// Units of a page's SVG per mm of paper: letters of 10 units have 9.4 pt.
 pub(super) const UNITS: f64 = 3.0;
 
-/// Everything that a sheet says. Lengths are mm.
+/// The data of a setup sheet. Lengths are in mm.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// The path's name; of joined paths the name that they were given.
+    /// The path's name, or the name given to joined paths.
     pub title: String,
     /// The drawings of the paths, without directories.
     pub drawings: Vec<String>,
-    /// The names of the programs that the machine runs, in order.
+    /// The names of the programs, in the order in which the machine runs them.
     pub programs: Vec<String>,
     /// The file for measured heights.
     pub values: Option<String>,
-    /// The line of provenance in the programs' headers, and the title behind it.
+    /// The line of provenance in the programs' headers, and the line with the title.
     pub head: [String; 2],
-    /// The hashes of that line.
+    /// The hashes in that line.
     pub hashes: String,
-    /// What there is to see, in the coordinates of the program.
+    /// The scene in coordinates of the program.
     pub scene: Scene,
-    /// The cutters in the order in which they are needed.
+    /// The cutters in order of use.
     pub tools: Vec<SheetTool>,
     /// Whether the program starts the spindle.
     pub starts_spindle: bool,
-    /// Lowest and highest X, Y, Z of the cutter's tip while it cuts.
+    /// Ranges of X, Y and Z of the tool tip while cutting.
     pub cutting_box: [Option<(f64, f64)>; 3],
-    /// How long the program is.
+    /// The length of the program.
     pub length: f64,
-    /// How long it takes; `None` where the rapid feed is not known.
+    /// The duration; `None` if the rapid feed is unknown.
     pub minutes: Option<f64>,
     /// Rapid feed in mm/min.
     pub rapid: Option<f64>,
-    /// Z-probes in the order in which they are measured.
+    /// Z-probes in measuring order.
     pub probes: Vec<SheetProbe>,
-    /// What is drawn on the paths' layers and no part of the programs, in the sheet's language.
+    /// Elements on the paths' layers that are not part of the programs, in the language of the sheet.
     pub left_out: Vec<String>,
 }
 
@@ -63,15 +63,15 @@ pub struct Sheet {
 pub struct SheetTool {
     /// Its diameter O.
     pub diameter: f64,
-    /// Its place in the machine, T.
+    /// Its tool number T in the machine.
     pub number: Option<u32>,
     /// Its name in the configuration.
     pub name: Option<String>,
-    /// Revolutions a minute.
+    /// Spindle speed in revolutions per minute.
     pub speed: Option<f64>,
-    /// Whether it turns clockwise.
+    /// Whether the spindle turns clockwise.
     pub clockwise: Option<bool>,
-    /// The paths that are milled with it.
+    /// The paths milled with it.
     pub paths: Vec<String>,
 }
 
@@ -80,20 +80,20 @@ pub struct SheetTool {
 pub struct SheetProbe {
     /// The parameter that holds its height: 51 for #51.
     pub number: usize,
-    /// What stands before it in the file of values.
+    /// The text before its value in the file for measured heights.
     pub name: String,
-    /// Where it is in the program.
+    /// The position in the program.
     pub at: Point,
-    /// The height that is expected.
+    /// The expected height.
     pub height: f64,
 }
 
-/// The pages, each an SVG file of its own.
+/// The pages, each as an SVG file.
 pub fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {
     page::drawn(sheet, lang)
 }
 
-/// All pages in one SVG file, one below the other.
+/// All pages in one SVG file, stacked vertically.
 pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
     let pages = sheet_pages(sheet, lang);
     let [width, height] = [PAPER[0], PAPER[1] * pages.len() as f64];
@@ -108,7 +108,7 @@ pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
     text + "</svg>\n"
 }
 
-/// All pages in one HTML file, to look at and to print.
+/// All pages in one HTML file, for viewing and printing.
 pub fn sheet_html(sheet: &Sheet, lang: Lang) -> String {
     let code = match lang {
         Lang::En => "en",
@@ -129,13 +129,13 @@ pub fn sheet_html(sheet: &Sheet, lang: Lang) -> String {
     text + "</html>\n"
 }
 
-/// By which a sheet is traced, as in the head of a program: two lines.
+/// The two lines that identify a sheet, as in the header of a program.
 pub(crate) fn metadata(head: &[String; 2]) -> String {
     let [provenance, title] = head.each_ref().map(|line| escaped(line));
     format!("<metadata>\n{provenance}\n{title}\n</metadata>\n")
 }
 
-/// The same for a PDF.
+/// The same lines as XMP metadata of a PDF.
 #[cfg(feature = "pictures")]
 pub(crate) fn xmp(head: &[String; 2]) -> String {
     let [provenance, title] = head.each_ref().map(|line| escaped(line));
@@ -144,7 +144,7 @@ pub(crate) fn xmp(head: &[String; 2]) -> String {
     )
 }
 
-/// Says what is missing.
+/// Reports that PDF is not supported.
 ///
 /// # Errors
 /// Always: PDF is a part of the feature `pictures`.

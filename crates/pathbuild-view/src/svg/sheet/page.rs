@@ -1,4 +1,4 @@
-//! Pages: items at places, drawn as SVG.
+//! Pages with positioned items, drawn as SVG.
 
 use pathbuild_diagnostic::Lang;
 
@@ -11,7 +11,7 @@ use crate::scene::Point;
 use crate::svg::canvas::{Anchor, Canvas, n};
 use crate::svg::palette::{INK, OTHER, TEXT};
 
-/// The page in units, and its margins.
+/// The size of a page in units, and its margins.
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
 pub(super) const LEFT: f64 = 39.0;
 pub(super) const RIGHT: f64 = SIZE[0] - 33.0;
@@ -19,29 +19,29 @@ const TOP: f64 = 36.0;
 const FOOT: f64 = SIZE[1] - 30.0;
 const BOTTOM: f64 = FOOT - 16.0;
 
-/// Where text begins below the title.
+/// The top of the text below the title.
 const BELOW_TITLE: f64 = TOP + 32.0;
 
-/// How high the picture of the first page is at most: checklist and facts have the rest.
+/// Maximum height of the picture on the first page; the rest is for checklist and facts.
 pub(super) const PICTURE: f64 = 440.0;
 
-/// Between the columns of the first page.
+/// Space between the columns of the first page.
 const GUTTER: f64 = 18.0;
 
-/// A table begins on the first page if it has so much room there.
+/// Minimum space for starting a table on the first page.
 const ROOM_FOR_TABLE: f64 = 90.0;
 
-/// Share of the first page's width that the checklist has.
+/// Fraction of the first page's width for the checklist.
 const CHECKLIST: f64 = 0.54;
 
-/// A page: what stands where.
+/// A page with its items.
 #[derive(Debug, Default)]
 pub(super) struct Page {
     pub(super) items: Vec<Item>,
     pub(super) picture: Option<Placed>,
 }
 
-/// Something on a page.
+/// A positioned item on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Item {
     Text {
@@ -54,7 +54,7 @@ pub(super) enum Item {
         from: Point,
         to: Point,
     },
-    /// A box to tick, by its upper left corner.
+    /// A box to tick, given by its upper left corner.
     Tick(Point),
 }
 
@@ -105,14 +105,14 @@ pub(super) fn drawn(sheet: &Sheet, lang: Lang) -> Vec<String> {
         if index == 0 {
             return text;
         }
-        // Pages may come to stand in one document, in which a name is given once. Quotes within texts are escaped.
+        // Pages may be joined in one document, in which names must be unique. Quotes within texts are escaped, so this cannot hit them.
         let number = index + 1;
         text.replace("id=\"", &format!("id=\"p{number}-")).replace("url(#", &format!("url(#p{number}-"))
     });
     drawn.collect()
 }
 
-/// Lays everything onto pages.
+/// Lays out everything on pages.
 pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
     let mut first = Page::default();
     let placed = picture::first(sheet, Column::new([LEFT, BELOW_TITLE], [RIGHT, BELOW_TITLE + PICTURE]));
@@ -171,7 +171,7 @@ impl Page {
     }
 }
 
-/// The name of the program, and what it was drawn in.
+/// The name of the program and its drawings.
 fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
     let (size, width) = (20.0, (RIGHT - LEFT) * 0.62);
     let name = wrapped(&sheet.title, width, size);
@@ -188,7 +188,7 @@ fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
     ]
 }
 
-/// By what a page is known when it lies alone, and a measure that tells whether the printer kept the scale.
+/// Draws the foot: identification in case the pages get separated, and a ruler for checking the scale of the print.
 fn foot(canvas: &mut Canvas, sheet: &Sheet, words: Words, number: usize, count: usize) {
     let page = words.either(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
     let text = format!("{} · {page}", sheet.hashes);

@@ -1,4 +1,4 @@
-//! The picture: true to scale where the paper holds it, else at a round scale that is named.
+//! The picture: true to scale if it fits on the paper, otherwise at a round scale, which is stated.
 
 use pathbuild_diagnostic::Lang;
 
@@ -13,40 +13,40 @@ use crate::svg::palette::{Depths, INK, PROBE, TEXT};
 use crate::svg::room::Room;
 use crate::svg::{Shown, legend, marks, moves, things};
 
-/// Round the drawing, in units: measures stand left and below, their ends' numbers right.
+/// Margins around the drawing in units: dimensions are to the left and below, and their last numbers extend to the right.
 const LEFT: f64 = 56.0;
 const RIGHT: f64 = 46.0;
 const ABOVE: f64 = 18.0;
 const BELOW: f64 = 50.0;
 
-/// Scale, kinds of lines, depths.
+/// Height of the legend: scale, kinds of lines, depths.
 const LEGEND: f64 = 54.0;
 
-/// What takes less than this share of the room is shown larger, with its true size beside it.
+/// Fraction of the available space below which a drawing is enlarged, with a true-size inset.
 const SMALL: f64 = 0.34;
 
-/// The least that is shown, in mm, round what has no extent.
+/// Smallest extent shown in mm, for drawings without an extent.
 const LEAST: f64 = 4.0;
 
-/// A picture on a page.
+/// A picture laid out on a page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
     area: Column,
     corners: Corners,
     scale: Scale,
-    /// Whether the true size stands beside it.
+    /// Whether it has a true-size inset.
     has_inset: bool,
     height: f64,
-    /// Where the lower left corner lies of a picture that is turned, with its right side up.
+    /// The position of the lower left corner if the picture is rotated to landscape.
     turned: Option<Point>,
 }
 
-/// Mm of paper for a mm.
+/// Mm of paper per mm of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Scale(f64);
 
 impl Scale {
-    /// The largest round scale at which this share of a mm has room.
+    /// The largest round scale up to this limit.
     fn within(limit: f64) -> Self {
         const STEPS: [f64; 4] = [1.0, 2.0, 2.5, 5.0];
         let decades = (0..9).map(|decade| libm::pow(10.0, f64::from(decade)));
@@ -62,7 +62,7 @@ impl Scale {
     }
 }
 
-/// The picture of the first page: at true scale if it has room there.
+/// The picture of the first page, at true scale if there is room.
 pub(super) fn first(sheet: &Sheet, area: Column) -> Placed {
     let corners = padded(seen(sheet));
     let limit = limit(corners, area);
@@ -71,7 +71,7 @@ pub(super) fn first(sheet: &Sheet, area: Column) -> Placed {
     Placed::new(area, corners, Scale::within(limit), is_small)
 }
 
-/// The same as large as a whole page holds it, if that is larger: at true scale at most.
+/// The picture on a whole page, if that makes it larger; at most at true scale.
 pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<Placed> {
     let upright = first(sheet, area);
     let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
@@ -90,13 +90,13 @@ fn padded([mut low, mut high]: Corners) -> Corners {
     [low, high]
 }
 
-/// Mm of paper for a mm at which the corners fill the area.
+/// The scale at which the corners fill the area.
 fn limit([low, high]: Corners, area: Column) -> f64 {
     let room = [area.width - LEFT - RIGHT, area.bottom - area.top - ABOVE - BELOW - LEGEND];
     (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
 }
 
-/// The same, with the true size to the right.
+/// The scale with a true-size inset on the right.
 fn limit_beside(corners: Corners, area: Column) -> f64 {
     let inset = inset_width(corners);
     limit(corners, Column { width: area.width - inset, ..area })
@@ -113,12 +113,12 @@ impl Placed {
         Self { area, corners, scale, has_inset, height, turned: None }
     }
 
-    /// Where it ends on its page.
+    /// The lower edge on its page.
     pub(super) fn bottom(&self) -> f64 {
         self.area.top + self.height
     }
 
-    /// Whether nothing would be gained by a larger one.
+    /// Whether a larger picture would have no benefit.
     pub(super) fn is_whole(&self) -> bool {
         self.scale.0 >= 1.0
     }
@@ -148,7 +148,7 @@ impl Placed {
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
         canvas.clip("frame", clip);
         axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
-        // Left and below stand measures, above the axis has its name.
+        // Dimensions occupy the space to the left and below; the name of the axis is above.
         let room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT, bottom + 20.0]]);
         drawing(canvas, &sheet.scene, &frame, &depths, shown, room);
         canvas.close();
@@ -180,7 +180,7 @@ impl Placed {
         canvas.close();
     }
 
-    /// The true size, without anything that would not be read.
+    /// Draws the true-size inset, without details that would be too small to read.
     fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
         let [low, high] = cleared(sheet).unwrap_or(self.corners);
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
@@ -208,7 +208,7 @@ fn drawing(canvas: &mut Canvas, scene: &Scene, frame: &Frame, depths: &Depths, s
     marks::findings(canvas, scene, frame, &mut room);
 }
 
-/// The lines X0 and Y0.
+/// Draws the lines X0 and Y0.
 fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) {
     let style = format!("stroke=\"{PROBE}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
     canvas.open(&format!("id=\"axes\" fill=\"{PROBE}\""));

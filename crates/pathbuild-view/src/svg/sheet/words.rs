@@ -1,8 +1,8 @@
-//! Words of sheets.
+//! Vocabulary of setup sheets.
 
 use pathbuild_diagnostic::Lang;
 
-/// Chooses by language.
+/// Chooses words by language.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Words(pub(super) Lang);
 
@@ -14,7 +14,7 @@ impl Words {
         }
     }
 
-    /// Where zero lies, seen from the lower end of a length along X, or else along Y.
+    /// The position of zero relative to the lower end of a length along X or Y.
     pub(super) fn beside(self, low: f64, is_across: bool) -> String {
         let mm = crate::svg::legend::mm;
         let (sides, edge) = match (is_across, self.0) {
