@@ -10,8 +10,7 @@ use super::options::Options;
 use super::origin::Sourced;
 use super::types::Restriction;
 
-/// What the command line gives beside the configuration, as text where the configuration may give the same: whether it is right is decided in
-/// one place for both.
+/// Values from the command line. Those that the configuration can also set are kept as text, so that they are validated in one place.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// `--feed` in mm/min.
@@ -36,15 +35,15 @@ pub struct Overrides {
     pub out_dir: Option<Utf8PathBuf>,
     /// `--compatible`.
     pub compatible: bool,
-    /// `--config`: this configuration, not the nearest.
+    /// `--config`: the configuration to use instead of the nearest one.
     pub config: Option<Utf8PathBuf>,
-    /// `--untrusted`: the tree is a stranger's.
+    /// `--untrusted`: treats the tree as untrusted.
     pub untrusted: bool,
-    /// Below which directories trees are a person's own; `None`: all are.
+    /// Directories below which trees are trusted; `None` means that all trees are.
     pub trusted: Option<Vec<Utf8PathBuf>>,
 }
 
-/// What the command line says, and what is wrong with it.
+/// Validates the values from the command line.
 pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
     let mut reader = OptionReader::default();
     let mut options = Options::default();
@@ -66,25 +65,25 @@ pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Opti
         .as_ref()
         .map(|directory| Sourced::option("out-dir", Some(join(working_directory, directory))));
     general.compatible = arguments.compatible.then(|| Sourced::option("compatible", true));
-    // The other program has one option for messages and comments; ours leaves programs as they are.
+    // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
     let comments = arguments.lang.filter(|_| arguments.compatible);
     general.comment_lang = comments.map(|lang| Sourced::option("lang", lang));
     (options, reader.diagnostics)
 }
 
-/// A number greater than 0, with decimal point or comma, of an option.
+/// Parses the value of an option that must be a number greater than 0, with decimal point or comma.
 ///
 /// # Errors
-/// A diagnostic that underlines it.
+/// A diagnostic that underlines the value.
 pub fn positive(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
     let number = number_from_text(text).filter(|number| *number > 0.0);
     number.ok_or_else(|| Box::new(invalid(name, text, &messages::POSITIVE)))
 }
 
-/// A number, with decimal point or comma, of an option.
+/// Parses the value of an option that must be a number, with decimal point or comma.
 ///
 /// # Errors
-/// A diagnostic that underlines it.
+/// A diagnostic that underlines the value.
 pub fn number(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
     number_from_text(text).ok_or_else(|| Box::new(invalid(name, text, &messages::NUMBER)))
 }
@@ -94,10 +93,10 @@ fn invalid(name: &str, text: &str, expected: &'static Word) -> Diagnostic {
     fault.with("expected", Value::Word(expected)).with("found", text)
 }
 
-/// A regular expression of an option.
+/// Validates the value of an option that must be a regular expression.
 ///
 /// # Errors
-/// A diagnostic that underlines it.
+/// A diagnostic that underlines the value.
 pub fn regex<'t>(name: &str, text: &'t str) -> Result<&'t str, Box<Diagnostic>> {
     match regex_fault(text) {
         None => Ok(text),

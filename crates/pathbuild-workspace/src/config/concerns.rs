@@ -2,26 +2,27 @@ use std::fmt::Debug;
 
 use super::settings::Settings;
 
-/// Whose kept results depend on a setting.
+/// The cached results that depend on a setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Concerns {
-    /// Those of checks, and so those of programs too.
+    /// Results of `check`, and hence those of `emit`.
     Check,
-    /// Those of programs only.
+    /// Results of `emit` only.
     Emit,
-    /// Nobody's: it decides what is asked for, or what becomes of the answer.
+    /// Affects no cached result, only what is requested or how it is reported.
     Neither,
 }
 
 impl Concerns {
-    /// Whether results that depend on `whose` settings depend on this one.
+    /// Whether the cached results of the command `whose` depend on this setting.
     pub(in crate::config) fn is_part_of(self, whose: Self) -> bool {
         self != Self::Neither && self <= whose
     }
 }
 
 impl Settings {
-    /// Every setting that results depend on, by name; `whose` is [`Concerns::Check`] or [`Concerns::Emit`].
+    /// Passes each setting that a command's cached results depend on to `add`, with its name. `whose` is [`Concerns::Check`] or
+    /// [`Concerns::Emit`].
     pub fn concerning(&self, whose: Concerns, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
         self.general.concerning(whose, add);
         self.emit.concerning(whose, add);

@@ -7,10 +7,10 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use crate::files;
 use crate::inputs::{Input, Inputs};
 
-/// The name of a configuration.
+/// File name of a configuration.
 pub const FILE_NAME: &str = "pathbuild.toml";
 
-/// In which files, and for which arguments, a configuration is looked for.
+/// Searches for configurations.
 pub(super) struct Discovery<'a> {
     pub(super) system: &'a dyn System,
     pub(super) inputs: &'a Inputs,
@@ -18,8 +18,8 @@ pub(super) struct Discovery<'a> {
 }
 
 impl Discovery<'_> {
-    /// The configuration of a run: that above the first argument. A program with none above it has none of its own: then that of the next
-    /// argument holds, at last that of the working directory.
+    /// The configuration of a run: the one above the first argument. If the argument is a program without a configuration above it, the
+    /// next argument decides, and finally the working directory.
     pub(super) fn of_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
             let found = self.above(&self.beginning_of(input));
@@ -30,18 +30,18 @@ impl Discovery<'_> {
         self.of_working_directory()
     }
 
-    /// That of the working directory.
+    /// The configuration that applies in the working directory.
     pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
         self.above(&clean(self.working_directory))
     }
 
-    /// The tree of a run without configuration: that of the first argument.
+    /// The directory of a run without configuration: that of the first argument.
     pub(super) fn beginning(&self) -> Utf8PathBuf {
         let first = self.inputs.iter().next();
         first.map_or_else(|| clean(self.working_directory), |first| self.beginning_of(first))
     }
 
-    /// The trees of all arguments.
+    /// The directories of all arguments.
     pub(super) fn beginnings(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
         self.inputs.iter().map(|input| self.beginning_of(input))
     }
@@ -50,10 +50,10 @@ impl Discovery<'_> {
         clean(&self.working_directory.join(input.beginning(|place| self.is_directory(place))))
     }
 
-    /// The configuration of a directory: in it, or in the nearest directory above.
+    /// The configuration of a directory: the one in it, or else in the nearest directory above.
     pub(super) fn above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, FILE_NAME));
-        // A directory of that name, or a link to nothing, is one that cannot be read.
+        // A directory of this name, or a dangling link, counts as a configuration that cannot be read.
         let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
             FileKind::File | FileKind::Directory => true,
             FileKind::Missing => files::is_named(file),
@@ -61,7 +61,7 @@ impl Discovery<'_> {
         files.find(is_one)
     }
 
-    /// Arguments that lie under another configuration than the one of the run.
+    /// Diagnostics for arguments whose configuration is not the one of the run.
     pub(super) fn strangers(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),
@@ -74,19 +74,19 @@ impl Discovery<'_> {
         self.inputs.iter().filter_map(place).filter_map(stranger).collect()
     }
 
-    /// Also a name without separators may be a directory's.
+    /// Whether the argument is a directory; it may be one even if it contains no separator.
     fn is_directory(&self, place: &Utf8Path) -> bool {
         self.system.kind(&self.working_directory.join(place)) == FileKind::Directory
     }
 }
 
-/// The repository of a directory: the nearest directory above that Git takes for one, else the directory itself.
+/// The root of the Git repository that contains a directory, or the directory itself if there is none.
 pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_repository = |directory: &&Utf8Path| system.kind(&directory.join(".git")) != FileKind::Missing;
     directory.ancestors().find(is_repository).unwrap_or(directory)
 }
 
-/// The repository that a directory of a stranger's tree may not lead out of: a link in a repository leads to no other one.
+/// The repository that files of an untrusted tree must not lead out of. A symbolic link inside a repository does not lead into another one.
 pub(super) fn confining<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_link = |place: &&Utf8Path| {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };

@@ -1,11 +1,11 @@
-//! Where a key belongs that stands in the wrong table. (PB003; book: reference/configuration)
+//! Finds the table that a misplaced key belongs to. (PB003; book: reference/configuration)
 
 use serde_json::{Map, Value as Json};
 
 use super::nearest::nearest;
 use super::schema::schema;
 
-/// Every table of `pathbuild.toml` with its keys, as the schema has them.
+/// All tables of `pathbuild.toml` with their keys, taken from the schema.
 #[derive(Debug)]
 pub(super) struct Homes {
     tables: Vec<Table>,
@@ -13,19 +13,19 @@ pub(super) struct Homes {
 
 #[derive(Debug)]
 struct Table {
-    /// As it is written: `[machine]`, `[tool.NAME]`; `None`: what stands before all tables.
+    /// Header as written in the file, such as `[machine]` or `[tool.NAME]`; `None` for the keys before all tables.
     header: Option<String>,
     keys: Vec<String>,
 }
 
-/// A key where it belongs.
+/// A known key and its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Home<'a> {
-    /// The header of its table; `None`: before all tables.
+    /// Header of its table; `None` for the keys before all tables.
     pub(super) header: Option<&'a str>,
-    /// As it is known there.
+    /// Name of the key.
     pub(super) key: &'a str,
-    /// Whether it was written so.
+    /// Whether the name is spelled exactly like the one that was searched for.
     pub(super) is_exact: bool,
 }
 
@@ -48,7 +48,7 @@ impl Homes {
         Self { tables }
     }
 
-    /// Where a key belongs that its own table does not know: where it is known by this name, else by one that is nearly the same.
+    /// Finds the table of a key that its own table does not know: by this name, or else by a similar one.
     pub(super) fn of(&self, name: &str) -> Option<Home<'_>> {
         let exact = self.keys().find(|home| home.key == name);
         exact.or_else(|| {
@@ -66,7 +66,7 @@ impl Homes {
     }
 }
 
-/// Letters of a name for which another table may have one that is nearly the same: shorter ones resemble too many.
+/// Minimum length of a name for which similar names in other tables are suggested: shorter names resemble too many others.
 const SHORTEST: usize = 5;
 
 impl Table {

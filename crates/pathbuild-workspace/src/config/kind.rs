@@ -4,24 +4,24 @@ use toml::de::DeValue;
 
 use super::reader::TomlReader;
 
-/// A type of values: how one is read from TOML, shown as TOML, and described in the JSON schema.
+/// Type of a value: how to read it from TOML, to format it as TOML, and to describe it in the JSON schema.
 pub(super) struct ValueType<T> {
-    /// Reads a value, or reports why it is none.
+    /// Reads a value, or reports why it is invalid.
     pub(super) read: fn(&Spanned<DeValue<'_>>, &mut TomlReader<'_>) -> Option<T>,
-    /// The value as TOML; `None` when there is none to show.
+    /// Formats the value as TOML; `None` if there is nothing to show.
     pub(super) show: fn(&T) -> Option<String>,
-    /// The type in the schema.
+    /// The type's JSON schema.
     pub(super) schema: fn() -> Json,
 }
 
-/// What is known of a key without its type.
+/// Facts about a key that do not depend on its type.
 pub(super) struct Key {
-    /// The name within its table.
+    /// Name within its table.
     pub(super) name: &'static str,
-    /// What it means, one line or several.
+    /// Description, in one or more lines.
     pub(super) meaning: &'static [&'static str],
-    /// A value as TOML: the default, or an example where there is none.
+    /// A value as TOML: the default, or an example if there is no default.
     pub(super) example: &'static str,
-    /// The type in the schema.
+    /// JSON schema of its value.
     pub(super) schema: fn() -> Json,
 }

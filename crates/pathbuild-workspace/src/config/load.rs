@@ -17,9 +17,9 @@ use super::{arguments, clean};
 use crate::files;
 use crate::inputs::Inputs;
 
-/// What holds for a run over these files: finds and reads the configuration, and puts the command line over it.
+/// Finds and reads the configuration of a run, and applies the command line on top.
 ///
-/// Everything that is wrong comes with it; when anything is, nothing can be done, but the language can be told.
+/// Also returns all diagnostics. If there are errors, the run cannot go on, but the settings at least contain the language of messages.
 pub fn load(
     system: &Arc<dyn System>,
     given: &Overrides,
@@ -42,7 +42,8 @@ pub fn load(
     (Settings { file, not_used, confined, ..options.over(configured).resolve() }, diagnostics)
 }
 
-/// The repositories that a run may not leave, where one of them is a stranger's: that of the configuration, and that of each argument.
+/// The repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are
+/// trusted.
 fn confinement(
     system: &Arc<dyn System>,
     given: &Overrides,
@@ -59,10 +60,10 @@ fn confinement(
     (given.untrusted || !is_trusted).then_some(confined)
 }
 
-/// Bytes of a configuration. What limits everything else is written in it, so this one is fixed.
+/// Upper bound on the size of a configuration in bytes. It is fixed because all other limits are set in the configuration.
 pub(super) const LARGEST: u64 = 4 << 20;
 
-/// What is wrong with the text of a configuration.
+/// Diagnostics of a configuration's text.
 pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
     parse(file, text, None).1
 }
@@ -89,12 +90,12 @@ fn read(
     }
 }
 
-/// A text that is no TOML gives its faults only, since what can still be read of it may lack half of a table.
+/// Parses a configuration. A syntax error yields diagnostics only, since tables may be incomplete.
 fn parse(file: &Utf8Path, text: &str, confined: Option<&Confined>) -> (Options, Vec<Diagnostic>) {
     read_table(file, text, confined, Options::read)
 }
 
-/// Reads the text of a configuration.
+/// Parses the text of a configuration file.
 pub(super) fn read_table<T: Default>(
     file: &Utf8Path,
     text: &str,
@@ -105,7 +106,7 @@ pub(super) fn read_table<T: Default>(
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         let mut faults: Vec<_> = errors.iter().map(|error| syntax_fault(error, &source)).collect();
-        // What follows on the same line only follows from it.
+        // Further errors on the same line are consequences of the first.
         faults.dedup_by_key(|fault| fault.place.line);
         return (T::default(), faults);
     }

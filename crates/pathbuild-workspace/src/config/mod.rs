@@ -6,8 +6,8 @@
 //! command line -> Options --/
 //! ```
 //!
-//! Each key is declared once, in [`sections`]: its type, its default, what it means. From that come the reader, the file that
-//! `init` writes, the JSON schema and `config show`, so none of them can know a key that another does not.
+//! Each key is declared once, in [`sections`]: its type, its default, its description. The reader, the file that `init` writes, the JSON
+//! schema and `config show` are derived from that, so they all know the same keys.
 
 mod arguments;
 mod concerns;

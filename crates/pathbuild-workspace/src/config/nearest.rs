@@ -1,19 +1,20 @@
-/// The known name that is nearest to a misspelt one, if one is near: at most a third of its letters differ.
+/// The known name most similar to a misspelled one, if at most a third of its letters differ.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // All that is known is shorter: two thirds of such a name would be others.
+    // All known names are shorter, so more than a third of the letters would differ.
     if name.len() > LONGEST {
         return None;
     }
     let name: Vec<char> = name.to_lowercase().chars().collect();
     let (most, own) = (name.len().div_ceil(3), letters(&name));
     let near = |candidate: &'a str| {
-        // A letter more or less is one that differs.
+        // Each letter more or less counts as a difference.
         if candidate.chars().count().abs_diff(name.len()) > most {
             return None;
         }
         let other: Vec<char> = candidate.to_lowercase().chars().collect();
         let others = letters(&other);
-        // Each letter that only one of them has is one that differs: nearly all names are told apart by this.
+        // Each letter that occurs in only one of the names counts as a difference. This rules out nearly all names without computing the
+        // distance.
         if (own & !others).count_ones().max((others & !own).count_ones()) as usize > most {
             return None;
         }
@@ -23,15 +24,15 @@ pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
     known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
 }
 
-/// Which letters there are, a bit for each; some share theirs.
+/// A bit set of the letters in a name; some letters share a bit.
 fn letters(name: &[char]) -> u32 {
     name.iter().fold(0, |found, letter| found | 1 << (u32::from(*letter) % 32))
 }
 
-/// Bytes of a name that may be a known one misspelt.
+/// Upper bound on the length in bytes of a name that may be a misspelled one.
 const LONGEST: usize = 200;
 
-/// How many letters must be changed, put in, left out or swapped with their neighbour (optimal string alignment).
+/// Number of letters to change, insert, delete or swap with a neighbour (optimal string alignment distance).
 fn distance(a: &[char], b: &[char]) -> usize {
     let mut before: Vec<usize> = Vec::new();
     let mut above: Vec<usize> = (0..=b.len()).collect();

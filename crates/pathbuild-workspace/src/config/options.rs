@@ -4,7 +4,7 @@ use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::settings::Settings;
 
-/// What one source says: a configuration, or the command line. Keys that it does not give are `None`.
+/// Settings from one source: the configuration or the command line. Keys that the source does not set are `None`.
 #[derive(Clone, Debug, Default)]
 #[expect(missing_docs, reason = "the tables of the configuration, by name")]
 pub struct Options {
@@ -18,7 +18,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Reads a parsed configuration; what is wrong stays with the reader.
+    /// Reads a parsed configuration. Diagnostics stay in the reader.
     pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
         reader.tell_homes();
         reader.table(root, "", |table| {
@@ -36,7 +36,7 @@ impl Options {
         })
     }
 
-    /// These, and where they say nothing the others.
+    /// Merges two sources; these settings take precedence over `below`.
     pub fn over(self, below: Self) -> Self {
         Self {
             general: self.general.over(below.general),
@@ -49,7 +49,7 @@ impl Options {
         }
     }
 
-    /// What holds when nobody says more.
+    /// Fills in the defaults.
     pub fn resolve(self) -> Settings {
         Settings {
             file: None,

@@ -1,17 +1,17 @@
 use std::fmt;
 
-/// Where a value comes from.
+/// Source of a setting's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// Nobody gave one.
+    /// Not set.
     Default,
     /// A line of the configuration, counted from 1.
     File(u32),
-    /// The option of this name, without its hyphens.
+    /// The command-line option of this name, without hyphens.
     CommandLine(&'static str),
 }
 
-/// A value, and where it comes from.
+/// A value with its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sourced<T> {
     /// The value.
@@ -21,12 +21,12 @@ pub struct Sourced<T> {
 }
 
 impl<T> Sourced<T> {
-    /// A value that nobody gave.
+    /// A default value.
     pub fn default(value: T) -> Self {
         Self { value, origin: Origin::Default }
     }
 
-    /// The value of an option.
+    /// The value of a command-line option.
     pub fn option(name: &'static str, value: T) -> Self {
         Self { value, origin: Origin::CommandLine(name) }
     }

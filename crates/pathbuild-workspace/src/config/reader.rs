@@ -15,26 +15,26 @@ use super::nearest::nearest;
 use super::origin::{Origin, Sourced};
 use super::source::Source;
 
-/// Reads values out of a parsed file and keeps what is wrong with them, all of it.
+/// Reads values from a parsed TOML file and collects all diagnostics.
 pub(super) struct TomlReader<'a> {
     source: Source<'a>,
     directory: &'a Utf8Path,
-    /// Where a stranger's configuration may lead.
+    /// Directories that an untrusted configuration may refer to.
     confined: Option<&'a Confined>,
-    /// Where keys belong; `None` in files with other tables.
+    /// Knows which table a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
     homes: Option<OnceCell<Homes>>,
     key: String,
     diagnostics: Vec<Diagnostic>,
-    /// How many regular expressions and globs were read.
+    /// Number of regular expressions and globs read so far.
     counts: [u64; 2],
 }
 
-/// Something of which a file has only so many: each takes far more memory than its text.
+/// A kind of value whose number is limited because each takes far more memory than its text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Counted {
     /// A regular expression.
     Regex,
-    /// A pattern of names.
+    /// A glob pattern for names.
     Glob,
 }
 
@@ -48,7 +48,7 @@ impl Counted {
 }
 
 impl<'a> TomlReader<'a> {
-    /// A reader of a file whose names of files are relative to `directory`.
+    /// A reader for a file whose relative paths start at `directory`.
     pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path, confined: Option<&'a Confined>) -> Self {
         Self {
             source,
@@ -61,7 +61,7 @@ impl<'a> TomlReader<'a> {
         }
     }
 
-    /// From here on, of a key in the wrong table it is said where it belongs in a `pathbuild.toml`.
+    /// From here on, reports which table of a `pathbuild.toml` a misplaced key belongs to.
     pub(super) fn tell_homes(&mut self) {
         self.homes = Some(OnceCell::new());
     }
@@ -70,7 +70,7 @@ impl<'a> TomlReader<'a> {
         self.homes.as_ref()?.get_or_init(Homes::new).of(name)
     }
 
-    /// Reads a table whose keys are all known to `read`; others are reported.
+    /// Reads a table. Keys that `read` does not take are reported.
     pub(super) fn table<T>(
         &mut self,
         table: &DeTable<'_>,
@@ -85,7 +85,7 @@ impl<'a> TomlReader<'a> {
         value
     }
 
-    /// A file or directory that a value names, relative to the configuration's directory.
+    /// A file or directory named by a value, relative to the configuration's directory.
     pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
         let path: Utf8PathBuf = spelt(self.directory.join(name).components().collect());
         match self.confined.filter(|confined| !confined.holds(&path)) {
@@ -98,17 +98,17 @@ impl<'a> TomlReader<'a> {
         }
     }
 
-    /// Whether the configuration is a stranger's.
+    /// Whether the configuration is untrusted.
     pub(super) fn is_strangers(&self) -> bool {
         self.confined.is_some()
     }
 
-    /// The key that is being read, for messages.
+    /// Full name of the key being read, for messages.
     pub(super) fn key(&self) -> &str {
         &self.key
     }
 
-    /// Reads what a key of the table that is being read holds.
+    /// Reads a value inside the table being read.
     pub(super) fn within<T>(&mut self, name: &str, read: impl FnOnce(&mut Self) -> T) -> T {
         let table = std::mem::take(&mut self.key);
         self.key = format!("{table}.{}", short(name));
@@ -117,18 +117,18 @@ impl<'a> TomlReader<'a> {
         value
     }
 
-    /// Reports that the table that is being read lacks a key.
+    /// Reports that the table being read lacks a key.
     pub(super) fn missing(&mut self, name: &'static str, span: Range<usize>) {
         let fault = self.fault(&messages::MISSING_KEY, span).with("missing", name);
         self.report(fault);
     }
 
-    /// A fault at a span, its key filled in.
+    /// A diagnostic at a span, with the current key filled in.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         self.source.fault(message, span).with("key", self.key.as_str())
     }
 
-    /// Counts one more; whether there may be so many. Of those beyond, which may be any number, only the first is told.
+    /// Counts another value of this kind. Returns whether the limit still permits it. Exceeding the limit is reported only once.
     pub(super) fn counts(&mut self, what: Counted, span: Range<usize>) -> bool {
         let (most, word) = what.most();
         let count = &mut self.counts[what as usize];
@@ -141,12 +141,12 @@ impl<'a> TomlReader<'a> {
         beyond == 0
     }
 
-    /// Keeps a fault.
+    /// Adds a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Reports that a value is not what is expected, and gives `None`.
+    /// Reports that a value is not what is expected, and returns `None`.
     pub(super) fn expected<T>(&mut self, expected: Value, value: &Spanned<DeValue<'_>>) -> Option<T> {
         let found = self.source.slice(value.span()).lines().next().unwrap_or_default();
         let fault = self
@@ -157,7 +157,7 @@ impl<'a> TomlReader<'a> {
         None
     }
 
-    /// The text of a value, or a report that it is none.
+    /// The value as a string; reports a value of another type.
     pub(super) fn text<'v>(&mut self, value: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
         match value.get_ref().as_str() {
             Some(text) => Some(text),
@@ -165,13 +165,13 @@ impl<'a> TomlReader<'a> {
         }
     }
 
-    /// Everything that was wrong.
+    /// Returns all diagnostics.
     pub(super) fn finish(self) -> Vec<Diagnostic> {
         self.diagnostics
     }
 }
 
-/// A name as messages say it: one of many kilobytes is said by its beginning.
+/// A name for messages, shortened if it is very long.
 fn short(name: &str) -> Cow<'_, str> {
     const MOST: usize = 100;
     if name.len() <= MOST {
@@ -180,10 +180,10 @@ fn short(name: &str) -> Cow<'_, str> {
     format!("{}…", &name[..name.floor_char_boundary(MOST)]).into()
 }
 
-/// Keys of earlier versions, and those that replace them.
+/// Keys of earlier versions, with their replacements.
 const REPLACED: [(&str, &str); 1] = [("support-bars", "compatible")];
 
-/// A table that is being read.
+/// A table being read.
 pub(super) struct Table<'t, 'r, 'a> {
     content: &'t DeTable<'t>,
     prefix: String,
@@ -192,7 +192,7 @@ pub(super) struct Table<'t, 'r, 'a> {
 }
 
 impl<'a> Table<'_, '_, 'a> {
-    /// The value of a key, where there is one and it is right.
+    /// Reads the value of a key, if it is present and valid.
     pub(super) fn take<T>(&mut self, name: &'static str, kind: &ValueType<T>) -> Option<Sourced<T>> {
         self.known.push(name);
         let value = self.content.get(name)?;
@@ -201,12 +201,12 @@ impl<'a> Table<'_, '_, 'a> {
         (kind.read)(value, self.reader).map(|value| Sourced { value, origin: Origin::File(line) })
     }
 
-    /// Whether the configuration is a stranger's.
+    /// Whether the configuration is untrusted.
     pub(super) fn is_strangers(&self) -> bool {
         self.reader.is_strangers()
     }
 
-    /// Reports a limit that is above its default, shown as TOML.
+    /// Reports a limit of an untrusted configuration that exceeds its default. `default` is formatted as TOML.
     pub(super) fn report_raised(&mut self, name: &'static str, default: &str) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
@@ -214,7 +214,7 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.report(fault);
     }
 
-    /// Reads a table in the table; one that is not there is empty.
+    /// Reads a nested table; a missing one counts as empty.
     pub(super) fn section<T: Default>(
         &mut self,
         name: &'static str,
@@ -229,7 +229,7 @@ impl<'a> Table<'_, '_, 'a> {
         }
     }
 
-    /// Refuses a table that this version does not know what to do with.
+    /// Refuses a table that is reserved for a later version.
     pub(super) fn refuse(&mut self, name: &'static str) {
         self.known.push(name);
         if let Some((key, _)) = self.content.get_key_value(name) {
@@ -253,7 +253,7 @@ impl<'a> Table<'_, '_, 'a> {
         }
     }
 
-    /// A key that the table does not know: another table may, by this name or by one that is nearly the same.
+    /// Diagnostic for an unknown key. Suggests the table that has such a key, or a similar one.
     fn unknown(&self, name: &str, span: Range<usize>) -> Diagnostic {
         let fault = |message| self.reader.fault(message, span.clone());
         let home = self.reader.home(name);
@@ -270,7 +270,7 @@ impl<'a> Table<'_, '_, 'a> {
     }
 }
 
-/// A fault that says where a key belongs: into a table, or before all of them.
+/// A diagnostic that names the place of a key: in a table, or before all tables.
 fn placed(
     fault: impl Fn(&'static Message) -> Diagnostic,
     home: &Home<'_>,

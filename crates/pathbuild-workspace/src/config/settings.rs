@@ -7,15 +7,16 @@ use super::origin::Origin;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::types::{Severities, ZModel};
 
-/// What holds in a run, each value with where it comes from.
+/// The settings of a run, each with its source.
 #[derive(Clone, Debug)]
 #[expect(missing_docs, reason = "the tables of the configuration, by name")]
 pub struct Settings {
-    /// The configuration that was read; `None`: options and defaults hold, and nothing is cached.
+    /// The configuration that was read. If `None`, only options and defaults apply, and nothing is cached.
     pub file: Option<Utf8PathBuf>,
-    /// That of the working directory, where the arguments lie outside of its tree, and in no other's.
+    /// The working directory's configuration if it does not apply, because the arguments lie outside its tree and below no other
+    /// configuration.
     pub not_used: Option<Utf8PathBuf>,
-    /// The repository that nothing leads out of, where it is a stranger's.
+    /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
     pub confined: Option<Confined>,
     pub general: general::Settings,
     pub emit: emit::Settings,
@@ -27,12 +28,12 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The directory that names in the configuration are relative to, where there is a configuration.
+    /// Directory that paths in the configuration are relative to, if there is a configuration.
     pub fn directory(&self) -> Option<&Utf8Path> {
         self.file.as_deref().and_then(Utf8Path::parent)
     }
 
-    /// Severities that differ from the catalogue's.
+    /// Severities that differ from the defaults of the codes.
     pub fn severities(&self) -> Severities {
         Severities {
             everywhere: self.tables.severity.value.clone(),
@@ -40,7 +41,7 @@ impl Settings {
         }
     }
 
-    /// The language of comments in programs.
+    /// Language of comments in programs.
     pub fn comment_lang(&self) -> Lang {
         match self.general.comment_lang.origin {
             Origin::Default => self.general.lang.value,
@@ -48,7 +49,7 @@ impl Settings {
         }
     }
 
-    /// The longest piece in mm that is corrected as one; 0: moves are never split. (book: language/probes)
+    /// Upper bound in mm on pieces of moves for height correction; 0 disables splitting. (book: language/probes)
     pub fn z_split(&self) -> f64 {
         let default = if self.general.z_model.value == ZModel::Idw4 { 0.0 } else { 20.0 };
         self.general.z_split.value.unwrap_or(default)

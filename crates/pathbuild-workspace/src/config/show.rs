@@ -5,20 +5,20 @@ use pathbuild_diagnostic::shown;
 use super::origin::Origin;
 use super::settings::Settings;
 
-/// A key's value as TOML, and where it comes from.
+/// A key with its value as TOML, and its source.
 pub(super) struct Shown {
     pub(super) name: &'static str,
     pub(super) value: Option<String>,
     pub(super) origin: Origin,
 }
 
-/// What holds, as TOML that says the same; with origins as comments where they are asked for.
+/// Formats the settings as TOML, on request with their sources as comments.
 pub fn show(settings: &Settings, with_origin: bool) -> String {
     let mut text = match &settings.file {
         Some(file) => format!("# {}\n", shown::line(file.as_str())),
         None => "# no pathbuild.toml\n".to_owned(),
     };
-    // Tables that hold tables are shown inline, so they must stand before the first header.
+    // The general keys include inline tables, so they must precede the first table header.
     write(&mut text, settings.general.shown(), with_origin);
     write(&mut text, settings.tables.shown(), with_origin);
     for (name, entries) in sections(settings) {
@@ -28,7 +28,7 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
     text
 }
 
-/// The sections that are no tables of names.
+/// The tables with fixed keys.
 fn sections(settings: &Settings) -> [(&'static str, Vec<Shown>); 5] {
     [
         ("emit", settings.emit.shown()),
@@ -39,20 +39,20 @@ fn sections(settings: &Settings) -> [(&'static str, Vec<Shown>); 5] {
     ]
 }
 
-/// A key with what holds.
+/// A key with its value.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The section; empty for keys before the first.
+    /// Its table; empty for keys before the first table.
     pub section: &'static str,
-    /// The key.
+    /// Name of the key.
     pub name: &'static str,
-    /// The value as TOML; `None`: not set.
+    /// Its value as TOML; `None` if not set.
     pub value: Option<String>,
-    /// Where it comes from; empty where it is not set.
+    /// Source of the value; empty if not set.
     pub origin: String,
 }
 
-/// What holds, key by key.
+/// Lists all settings.
 pub fn settings(settings: &Settings) -> Vec<Setting> {
     let general = [("", settings.general.shown()), ("", settings.tables.shown())];
     let all = general.into_iter().chain(sections(settings));

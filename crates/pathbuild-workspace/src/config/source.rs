@@ -3,21 +3,21 @@ use std::ops::Range;
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
-/// A text file, and how a byte of it becomes a line and column. What is asked once for each fault takes no time that grows with the file.
+/// A text file that maps byte offsets to lines and columns. The time to look up an offset does not grow with the file.
 #[derive(Clone, Debug)]
 pub(super) struct Source<'a> {
     file: &'a Utf8Path,
     text: &'a str,
-    /// Where each line begins.
+    /// Offset of the beginning of each line.
     lines: Vec<usize>,
-    /// How many characters begin before each block of bytes.
+    /// Number of characters before each block.
     characters: Vec<usize>,
 }
 
-/// Bytes of which characters are counted at once.
+/// Size in bytes of the blocks for which characters are counted.
 const BLOCK: usize = 1 << 10;
 
-/// Bytes of a line that are shown on each side of a fault.
+/// Number of bytes of a line that are shown on each side of a fault.
 const AROUND: usize = 200;
 
 impl<'a> Source<'a> {
@@ -33,7 +33,7 @@ impl<'a> Source<'a> {
         Self { file, text, lines, characters: counts.collect() }
     }
 
-    /// A diagnostic that underlines a byte range; of a range over several lines, its part in the first.
+    /// A diagnostic that underlines a byte range, or the part of it in its first line.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         let start = self.text.floor_char_boundary(span.start);
         let number = self.line_index(start);
@@ -49,12 +49,12 @@ impl<'a> Source<'a> {
             ))
     }
 
-    /// The line, from 1, in which a byte is.
+    /// Number of the line that contains a byte, counted from 1.
     pub(super) fn line_number(&self, byte: usize) -> u32 {
         u32::try_from(self.line_index(byte) + 1).unwrap_or(u32::MAX)
     }
 
-    /// A byte range of the text, as it stands there.
+    /// The text in a byte range.
     pub(super) fn slice(&self, span: Range<usize>) -> &'a str {
         self.text.get(span).unwrap_or_default()
     }
@@ -63,19 +63,19 @@ impl<'a> Source<'a> {
         self.lines.partition_point(|line| *line <= byte).saturating_sub(1)
     }
 
-    /// How many characters begin before a byte.
+    /// Number of characters that begin before a byte.
     fn character(&self, byte: usize) -> usize {
         let block = (byte / BLOCK).min(self.characters.len().saturating_sub(1));
         let rest = &self.text.as_bytes()[block * BLOCK..byte];
         self.characters.get(block).copied().unwrap_or_default() + beginnings(rest)
     }
 
-    /// From where a line is shown that has a fault at `start`.
+    /// First byte that is shown of a line with a fault at `start`.
     fn shown_from(&self, begin: usize, start: usize) -> usize {
         begin.max(self.text.floor_char_boundary(start.saturating_sub(AROUND)))
     }
 
-    /// To where, if the fault ends at `end`.
+    /// End of the part that is shown if the fault ends at `end`.
     fn shown_to(&self, start: usize, end: usize) -> usize {
         let most =
             self.text.ceil_char_boundary((end.clamp(start, start + AROUND)) + AROUND).min(self.text.len());
@@ -83,7 +83,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// How many characters begin in these bytes.
+/// Number of characters that begin in these bytes.
 fn beginnings(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
 }

@@ -3,7 +3,7 @@ use std::fmt::Write;
 use super::kind::Key;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 
-/// A configuration with every key, its meaning and its default (or an example), all commented out but `library`.
+/// The text of a configuration with every key, its description, and its default or an example. All keys but `library` are commented out.
 pub fn template() -> String {
     let mut text = HEAD.to_owned();
     for key in general::KEYS {

@@ -1,11 +1,11 @@
-//! Values that are more than a number or a text.
+//! Values more complex than a number or a string.
 
 use camino::{Utf8Path, Utf8PathBuf};
 use globset::{GlobBuilder, GlobSet};
 use pathbuild_diagnostic::{Code, Lang, Severity};
 use pathbuild_path::LineType;
 
-/// Declares a choice: what can be written, and what it means.
+/// Declares a choice: an enum with the texts that stand for its variants.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $text:literal,)* }) => {
         $(#[$doc])*
@@ -18,9 +18,9 @@ macro_rules! choice {
     };
 }
 
-/// A value out of a few.
+/// A value from a fixed list.
 pub(crate) trait Choice: Copy + PartialEq + 'static {
-    /// Each with its name.
+    /// All values with their texts.
     const ALL: &[(&str, Self)];
 }
 
@@ -33,11 +33,11 @@ impl Choice for Lang {
 }
 
 choice! {
-    /// Which unit the numbers of a drawing have.
+    /// Unit of the numbers in a drawing.
     Units {
-        /// Millimetres, which the header must not contradict.
+        /// Millimetres; a header with another unit is an error.
         Header = "header",
-        /// The header's, converted.
+        /// The unit in the header; numbers are converted.
         Drawing = "drawing",
         /// Millimetres, whatever the header says.
         Millimetres = "mm",
@@ -45,11 +45,11 @@ choice! {
 }
 
 choice! {
-    /// Which characters are written.
+    /// Character set of written files.
     Charset {
-        /// ASCII; others are transliterated.
+        /// ASCII; other characters are transliterated.
         Ascii = "ascii",
-        /// All.
+        /// UTF-8.
         Utf8 = "utf-8",
     }
 }
@@ -57,43 +57,43 @@ choice! {
 choice! {
     /// How heights are interpolated between probes. (book: language/probes)
     ZModel {
-        /// Inverse distance to the nearest four.
+        /// Inverse distance weighting of the nearest four probes.
         Idw4 = "idw4",
-        /// The plane of least squares.
+        /// Least-squares plane.
         Plane = "plane",
-        /// A triangulation.
+        /// Triangulation.
         Tin = "tin",
     }
 }
 
 choice! {
-    /// What the sheet for who stands at the machine is written as. (book: program/sheet)
+    /// File format of the setup sheet. (book: program/sheet)
     SheetFormat {
-        /// It is not.
+        /// No setup sheet.
         No = "none",
         /// Pages to print.
         Pdf = "pdf",
-        /// The same in a browser.
+        /// The same content for a browser.
         Html = "html",
-        /// The same as one picture.
+        /// The same content as a single picture.
         Svg = "svg",
     }
 }
 
 choice! {
-    /// What becomes of a diagnostic.
+    /// How a diagnostic is reported.
     Level {
-        /// It stops what it is in.
+        /// As an error.
         Error = "error",
-        /// It is shown.
+        /// As a warning.
         Warning = "warning",
-        /// It is not.
+        /// Not at all.
         Ignore = "ignore",
     }
 }
 
 choice! {
-    /// Which way a spindle turns.
+    /// Direction of rotation of the spindle.
     Direction {
         /// Clockwise.
         Clockwise = "cw",
@@ -103,7 +103,7 @@ choice! {
 }
 
 choice! {
-    /// What cools.
+    /// Coolant.
     Coolant {
         /// Nothing.
         Off = "off",
@@ -115,7 +115,7 @@ choice! {
 }
 
 impl Level {
-    /// The severity, unless it is not shown.
+    /// The severity; `None` if the diagnostic is ignored.
     pub fn severity(self) -> Option<Severity> {
         match self {
             Self::Error => Some(Severity::Error),
@@ -125,45 +125,46 @@ impl Level {
     }
 }
 
-/// A name of a line type in drawings, and which one it stands for.
+/// An alias of a line type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LineTypeAlias {
-    /// The name in drawings.
+    /// Name in drawings.
     pub name: Box<str>,
-    /// What it means.
+    /// The line type that it stands for.
     pub means: LineType,
 }
 
-/// A rule of embedding: paths that `parent` matches embed only those that `child` matches.
+/// A rule for embedding: paths matched by `parent` may embed only paths matched by `child`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Restriction {
-    /// A regular expression, searched in the embedding path's name.
+    /// Regular expression searched in the embedding path's name.
     pub parent: Box<str>,
-    /// One that is searched in the embedded path's name.
+    /// Regular expression searched in the embedded path's name.
     pub child: Box<str>,
 }
 
-/// A pattern of names: of paths, or of files relative to the configuration's directory. Case does not count.
+/// A glob for names of paths, or for files relative to the configuration's directory. Ignores case.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     text: Box<str>,
     set: GlobSet,
 }
 
-/// Bytes of a glob: braces in each other need a stack of their depth.
+/// Upper bound on the length of a glob in bytes: nested braces need a deep stack.
 const LONGEST: usize = 1000;
 
 impl Pattern {
-    /// Reads a glob, in which `*` does not match `/`.
+    /// Compiles a glob, in which `*` does not match `/`.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A description of the error.
     pub fn new(text: &str) -> Result<Self, String> {
         if text.len() > LONGEST {
             return Err(format!("it is longer than {LONGEST} bytes"));
         }
         let glob = GlobBuilder::new(text).literal_separator(true).case_insensitive(true).build();
-        // A set says what a matcher by itself panics of: that the expression is too large, or its braces too deep.
+        // Build a set because a single matcher would panic where a set returns an error: if the expression is too large or its braces are
+        // nested too deep.
         let set = glob.and_then(|glob| GlobSet::builder().add(glob).build());
         set.map(|set| Self { text: text.into(), set }).map_err(|error| error.kind().to_string())
     }
@@ -173,72 +174,72 @@ impl Pattern {
         self.set.is_match(name)
     }
 
-    /// The pattern as it was written.
+    /// The glob as it was written.
     pub fn text(&self) -> &str {
         &self.text
     }
 }
 
-/// Severities that differ from the catalogue's.
+/// Severities that differ from the defaults of the codes.
 #[derive(Clone, Debug, Default)]
 pub struct Severities {
-    /// For every drawing.
+    /// Levels for all drawings.
     pub everywhere: Vec<(Code, Level)>,
-    /// For some drawings; where several name a code, the last counts.
+    /// Levels for some drawings; if several entries apply to a code, the last one counts.
     pub in_files: Vec<SeveritiesIn>,
 }
 
-/// Severities for some drawings.
+/// Levels for some drawings.
 #[derive(Clone, Debug, Default)]
 pub struct SeveritiesIn {
-    /// Which drawings, relative to the configuration's directory.
+    /// The drawings, relative to the configuration's directory.
     pub files: Vec<Pattern>,
-    /// What differs there.
+    /// Levels of codes.
     pub levels: Vec<(Code, Level)>,
 }
 
 impl Severities {
-    /// What becomes of a diagnostic with this code in this file (relative to the configuration's directory); `None`: as the
-    /// catalogue says.
+    /// The configured level of a code in a file (relative to the configuration's directory); `None` if the default applies.
     pub fn level(&self, code: Code, file: Option<&Utf8Path>) -> Option<Level> {
-        let of =
-            |levels: &[(Code, Level)]| levels.iter().find(|(it, _)| *it == code).map(|(_, level)| *level);
+        let level_in = |levels: &[(Code, Level)]| {
+            levels.iter().find(|(known, _)| *known == code).map(|(_, level)| *level)
+        };
         let file = file.map(|file| file.as_str().replace('\\', "/"));
         let is_in = |part: &&SeveritiesIn| {
-            file.as_ref().is_some_and(|file| part.files.iter().any(|it| it.matches(file)))
+            file.as_ref().is_some_and(|file| part.files.iter().any(|pattern| pattern.matches(file)))
         };
-        let in_file = self.in_files.iter().rev().filter(is_in).find_map(|part| of(&part.levels));
-        in_file.or_else(|| of(&self.everywhere))
+        let in_file = self.in_files.iter().rev().filter(is_in).find_map(|part| level_in(&part.levels));
+        in_file.or_else(|| level_in(&self.everywhere))
     }
 }
 
 /// A tool, as post-processors know it. (book: program/posts)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
-    /// The name of its table.
+    /// Name of its table.
     pub name: Box<str>,
-    /// Its diameter in mm: the O of paths that it is for.
+    /// Diameter in mm; the tool suits paths with this O.
     pub diameter: f64,
-    /// A regular expression searched in the names of paths that it is for; `None`: all of that diameter.
+    /// Regular expression searched in the names of the paths that the tool is for; `None` means all paths with its diameter.
     pub paths: Option<Box<str>>,
-    /// Its place in the machine.
+    /// Number of its place in the machine.
     pub number: Option<u32>,
-    /// Revolutions a minute.
+    /// Spindle speed in 1/min.
     pub spindle: Option<f64>,
-    /// Which way it turns; `None`: clockwise, or whoever stands at the machine sees to it where there is no speed either.
+    /// Direction of rotation; `None` means clockwise, or the operator's choice if there is no speed either.
     pub direction: Option<Direction>,
-    /// What cools it; `None`: whoever stands at the machine sees to it.
+    /// Coolant; `None` leaves the choice to the operator.
     pub coolant: Option<Coolant>,
 }
 
-/// The post-processor, and what its owner says about its programs. (book: program/posts)
+/// The configured post-processor. (book: program/posts)
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PostChoice {
-    /// A built-in post-processor or a file.
+    /// Name of a built-in post-processor, or a file.
     pub name: Box<str>,
-    /// What cannot be read back is written all the same: its owner answers for it.
+    /// Whether to write programs that cannot be read back. The user takes responsibility for them.
     pub unchecked: bool,
-    /// The number of the program, for controls that call programs by numbers; `None`: the path's.
+    /// Program number for controls that call programs by number; `None` takes it from the path.
     pub program_number: Option<u32>,
 }
 
@@ -249,40 +250,40 @@ impl From<&str> for PostChoice {
 }
 
 choice! {
-    /// Who sees to the spindle.
+    /// Who controls the spindle.
     SpindleControl {
-        /// The program, by the tools of the configuration.
+        /// The program, using the tools of the configuration.
         Tool = "tool",
-        /// Whoever stands at the machine.
+        /// The operator.
         Manual = "manual",
     }
 }
 
 choice! {
-    /// What a machine counts dwells in, where its control can be set either way.
+    /// Unit of dwell times, for controls on which it can be configured.
     DwellTime {
-        /// As the manuals have it.
+        /// As in the manuals.
         Seconds = "seconds",
-        /// Mach3 by its Config > Logic dialogue.
+        /// As configurable on Mach3 (Config > Logic).
         Milliseconds = "milliseconds",
     }
 }
 
-/// A text for post-processors, by name.
+/// A text that post-processors insert by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Macro {
-    /// What it is called in definitions.
+    /// Name in post definitions.
     pub name: Box<str>,
-    /// What stands for it.
+    /// The inserted text.
     pub value: Box<str>,
 }
 
-/// How far an axis goes, in mm of the emitted program's coordinates.
+/// Travel of an axis in mm, in coordinates of the emitted program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// The lower end.
+    /// Lower end.
     pub from: f64,
-    /// The upper end.
+    /// Upper end.
     pub to: f64,
 }
 

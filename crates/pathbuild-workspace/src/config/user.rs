@@ -1,4 +1,4 @@
-//! A person's own configuration, `config.toml`: what no repository may decide. (book: reference/configuration)
+//! The user's own configuration, `config.toml`: settings that no repository may decide. (book: reference/configuration)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
@@ -12,19 +12,19 @@ use super::reader::TomlReader;
 use super::types::Directories;
 use crate::files;
 
-/// What a person says for all trees.
+/// Settings of the user for all trees.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct User {
-    /// `lang`: the language of messages. Programs are written in that of their tree.
+    /// `lang`: language of messages. Programs are written in the language that their tree configures.
     pub lang: Option<Lang>,
-    /// `[cache] dir`: where results are kept, each tree's in a directory of its own.
+    /// `[cache] dir`: where results are cached, in a subdirectory for each tree.
     pub cache_dir: Option<Utf8PathBuf>,
-    /// `[trust] roots`: trees that lie elsewhere are taken as with `--untrusted`.
+    /// `[trust] roots`: trees elsewhere are treated as with `--untrusted`.
     pub trusted: Option<Directories>,
 }
 
 impl User {
-    /// Reads the file, if there is one, with everything that is wrong in it.
+    /// Reads the file if it exists, and returns all its diagnostics.
     pub fn load(system: &dyn System, file: &Utf8Path) -> (Self, Vec<Diagnostic>) {
         if !files::is_named(file) {
             return (Self::default(), Vec::new());
@@ -41,8 +41,8 @@ impl User {
     fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
         reader.table(root, "", |table| Self {
             lang: table.take("lang", &choice()).map(|lang| lang.value),
-            cache_dir: table.section("cache", |cache| cache.take("dir", &ABSOLUTE)).map(|it| it.value),
-            trusted: table.section("trust", |trust| trust.take("roots", &ABSOLUTES)).map(|it| it.value),
+            cache_dir: table.section("cache", |cache| cache.take("dir", &ABSOLUTE)).map(|value| value.value),
+            trusted: table.section("trust", |trust| trust.take("roots", &ABSOLUTES)).map(|value| value.value),
         })
     }
 }

@@ -1,4 +1,4 @@
-//! The types that values of keys can have.
+//! Types of values.
 
 pub(super) mod number;
 pub(super) mod pattern;

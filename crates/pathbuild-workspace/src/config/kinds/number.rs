@@ -12,7 +12,7 @@ use crate::config::kind::ValueType;
 use crate::config::reader::TomlReader;
 use crate::config::types::Extent;
 
-/// A number greater than 0, where there is one.
+/// An optional number greater than 0.
 pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number > 0.0) {
         Some(number) => Some(Some(number)),
@@ -42,7 +42,7 @@ pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
     schema: || json!({ "type": "number", "minimum": 0 }),
 };
 
-/// How long pieces of moves may be, where somebody says it: 0 for any length. Shorter ones than a machine can tell apart would only
+/// Optional upper bound on the length of pieces of moves in mm; 0 means any length. Pieces that a machine cannot distinguish would only
 /// fill the disk.
 pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE) {
@@ -53,10 +53,10 @@ pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
 };
 
-/// In mm.
+/// Lower bound on that length in mm.
 const SHORTEST_PIECE: f64 = 0.1;
 
-/// A whole number from 1 up.
+/// A positive whole number.
 pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
     read: |value, reader| match whole_number(value).filter(|count| *count > 0) {
         Some(count) => Some(count),
@@ -66,7 +66,7 @@ pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
     schema: || json!({ "type": "integer", "minimum": 1 }),
 };
 
-/// A number of bytes: a whole number, or a text such as "256 MiB".
+/// A size in bytes: a whole number, or a text such as "256 MiB".
 pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
     read: |value, reader| match size(value).filter(|size| *size > 0) {
         Some(size) => Some(size),
@@ -76,7 +76,7 @@ pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
     schema: || json!({ "oneOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "pattern": SIZE_PATTERN }] }),
 };
 
-/// A text such as "50 ms".
+/// A duration, written as a text such as "50 ms".
 pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
     read: |value, reader| match value.get_ref().as_str().and_then(duration) {
         Some(duration) => Some(duration),
@@ -86,7 +86,7 @@ pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
     schema: || json!({ "type": "string", "pattern": "^[0-9]+ ?(ms|s|min)$" }),
 };
 
-/// Two numbers, the smaller first.
+/// Two numbers, the smaller one first.
 pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
     read: |value, reader| match extent(value) {
         Some(extent) => Some(Some(extent)),
@@ -96,7 +96,7 @@ pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
 };
 
-/// One number greater than 0 for each of X, Y and Z.
+/// A positive number for each of X, Y and Z.
 pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
     read: |value, reader| match axes(value) {
         Some(axes) => Some(Some(axes)),
@@ -106,7 +106,7 @@ pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
 };
 
-/// True or false.
+/// A boolean.
 pub(in crate::config) const SWITCH: ValueType<bool> =
     ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
 
@@ -114,7 +114,7 @@ fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<b
     value.get_ref().as_bool().or_else(|| reader.expected(Value::Word(&messages::SWITCH), value))
 }
 
-/// A number as parameters of drawings are written, too: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
+/// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
 pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     let is_number = digits.contains(|c: char| c.is_ascii_digit())
@@ -188,7 +188,7 @@ fn duration(text: &str) -> Option<Duration> {
     }
 }
 
-/// `256 MiB` is 256 and `MiB`.
+/// Splits `256 MiB` into 256 and `MiB`.
 fn digits_and_unit(text: &str) -> Option<(u64, &str)> {
     let (digits, unit) = text.split_at(text.find(|c: char| !c.is_ascii_digit())?);
     Some((digits.parse().ok()?, unit.strip_prefix(' ').unwrap_or(unit)))

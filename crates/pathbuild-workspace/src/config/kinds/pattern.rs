@@ -1,4 +1,4 @@
-//! Regular expressions, globs, and rules made of them.
+//! Regular expressions, globs, and embedding rules.
 
 use std::ops::Range;
 
@@ -21,14 +21,14 @@ pub(in crate::config) const REGEX: ValueType<Box<str>> = ValueType {
     schema: || json!({ "type": "string", "format": "regex" }),
 };
 
-/// A regular expression, where there is one.
+/// An optional regular expression.
 pub(in crate::config) const OPTIONAL_REGEX: ValueType<Option<Box<str>>> = ValueType {
     read: |value, reader| (REGEX.read)(value, reader).map(Some),
     show: |text| text.as_deref().map(literal),
     schema: REGEX.schema,
 };
 
-/// A list of PARENT:CHILD.
+/// A list of rules of the form PARENT:CHILD.
 pub(in crate::config) const RESTRICTIONS: ValueType<Vec<Restriction>> = ValueType {
     read: |value, reader| {
         let rules =
@@ -54,20 +54,20 @@ pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
 };
 
-/// What is wrong with a regular expression, in a few words.
+/// A short description of the error in a regular expression, if there is one.
 pub(in crate::config) fn regex_fault(text: &str) -> Option<String> {
     let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?.to_string();
     let last = error.lines().last().unwrap_or_default();
     Some(last.strip_prefix("error: ").unwrap_or(last).to_owned())
 }
 
-/// PARENT and CHILD, which the first colon separates.
+/// Splits a rule into PARENT and CHILD at the first colon.
 pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
     let (parent, child) = text.split_once(':')?;
     Some(Restriction { parent: parent.into(), child: child.into() })
 }
 
-/// A pattern of names needs far less; a larger one only wastes memory.
+/// Upper bound on the size of a compiled regular expression in bytes. Patterns for names need far less.
 const REGEX_SIZE: usize = 1 << 19;
 
 fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
@@ -105,13 +105,13 @@ fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Optio
     }
 }
 
-/// All of them, or `None` when one is missing; none is skipped, because each may have something to report.
+/// Collects all items, or returns `None` if one is missing. Evaluates every item first, since each may report errors.
 fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
     let items: Vec<Option<T>> = items.collect();
     items.into_iter().collect()
 }
 
-/// Patterns are easier to read without escapes.
+/// Quotes a pattern without escapes if possible, for readability.
 fn literal(text: &str) -> String {
     if is_literal(text) { format!("'{text}'") } else { quoted(text) }
 }

@@ -1,4 +1,4 @@
-//! Tables whose keys are names that the configuration itself chooses.
+//! Tables with user-defined keys.
 
 use std::sync::LazyLock;
 
@@ -18,7 +18,7 @@ use crate::config::reader::{Table, TomlReader};
 use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
 use crate::posting::is_file_name;
 
-/// Names of line types, each with what it stands for.
+/// Aliases of line types.
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -28,7 +28,7 @@ pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueTyp
     schema: || json!({ "type": "object", "additionalProperties": choice_schema::<LineType>() }),
 };
 
-/// Codes with what becomes of them.
+/// Levels of codes.
 pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
@@ -38,7 +38,7 @@ pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType 
     schema: || json!({ "type": "object", "propertyNames": code_schema(), "additionalProperties": choice_schema::<Level>() }),
 };
 
-/// The same, each with the drawings that it holds for.
+/// Levels of codes in some drawings.
 pub(in crate::config) const SEVERITY_IN: ValueType<Vec<SeveritiesIn>> = ValueType {
     read: |value, reader| {
         let tables =
@@ -72,7 +72,7 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<SeveritiesIn>> = ValueTyp
     },
 };
 
-/// The name of a post-processor, or of a file with one.
+/// The name of a built-in post-processor, or of a file that defines one.
 const POST_NAME: ValueType<Box<str>> = ValueType {
     read: |value, reader| {
         let name = (TEXT.read)(value, reader)?;
@@ -84,7 +84,7 @@ const POST_NAME: ValueType<Box<str>> = ValueType {
     ..TEXT
 };
 
-/// Whether somebody answers for what cannot be read back.
+/// Whether the user takes responsibility for programs that cannot be read back. Not allowed in untrusted trees.
 const UNCHECKED: ValueType<bool> = ValueType {
     read: |value, reader| {
         let is_unchecked = (SWITCH.read)(value, reader)?;
@@ -126,7 +126,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     },
 };
 
-/// A post-processor: its name, or a table with more about it.
+/// A post-processor: its name, or a table with further settings.
 pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
     read: |value, reader| {
         let Some(table) = value.get_ref().as_table() else {
@@ -134,9 +134,10 @@ pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
         };
         let prefix = format!("{}.", reader.key());
         Some(reader.table(table, &prefix, |table| PostChoice {
-            name: table.take("name", &POST_NAME).map_or_else(|| "native".into(), |it| it.value),
-            unchecked: table.take("unchecked", &UNCHECKED).is_some_and(|it| it.value),
-            program_number: table.take("program-number", &COUNT).and_then(|it| u32::try_from(it.value).ok()),
+            name: table.take("name", &POST_NAME).map_or_else(|| "native".into(), |value| value.value),
+            unchecked: table.take("unchecked", &UNCHECKED).is_some_and(|value| value.value),
+            program_number:
+                table.take("program-number", &COUNT).and_then(|value| u32::try_from(value.value).ok()),
         }))
     },
     show: |post| match post {
@@ -160,19 +161,21 @@ pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
     },
 };
 
-/// Macros of posts with their texts.
+/// Macros for post-processors.
 pub(in crate::config) const MACROS: ValueType<Vec<Macro>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| post_macro(entry, reader)).collect())
     },
-    show: |macros| inline(macros.iter().map(|it| (&*it.name, Some(quoted(&it.value))))),
+    show: |macros| {
+        inline(macros.iter().map(|post_macro| (&*post_macro.name, Some(quoted(&post_macro.value)))))
+    },
     schema: || json!({ "type": "object", "additionalProperties": { "type": "string" } }),
 };
 
 type Entry<'v, 't> = (&'v Spanned<DeString<'t>>, &'v Spanned<DeValue<'t>>);
 
-/// The entries of a table, or a report that it is none.
+/// The entries of a table; reports a value of another type.
 fn entries<'v, 't>(
     value: &'v Spanned<DeValue<'t>>,
     reader: &mut TomlReader<'_>,
@@ -214,7 +217,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     Some((code, level))
 }
 
-/// The code whose number or name is nearest, if one is near; of several that are as near, the first.
+/// The code whose number or name is most similar; the first if several are equally similar.
 pub fn nearest_code(name: &str) -> Option<String> {
     static CODES: LazyLock<Vec<(String, &str)>> =
         LazyLock::new(|| Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect());
@@ -248,14 +251,14 @@ fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Too
     reader.table(table, &prefix, |table| read_tool(name.get_ref(), table))
 }
 
-/// Without a diameter a tool is for nothing.
+/// Reads a tool. Without a diameter it suits no path, so it is dropped.
 fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
-    let diameter = table.take("diameter", &POSITIVE).and_then(|it| it.value);
-    let paths = table.take("paths", &REGEX).map(|it| it.value);
-    let number = table.take("number", &COUNT).and_then(|it| u32::try_from(it.value).ok());
-    let spindle = table.take("spindle", &POSITIVE).and_then(|it| it.value);
-    let direction = table.take("direction", &choice::<Direction>()).map(|it| it.value);
-    let coolant = table.take("coolant", &choice::<Coolant>()).map(|it| it.value);
+    let diameter = table.take("diameter", &POSITIVE).and_then(|value| value.value);
+    let paths = table.take("paths", &REGEX).map(|value| value.value);
+    let number = table.take("number", &COUNT).and_then(|value| u32::try_from(value.value).ok());
+    let spindle = table.take("spindle", &POSITIVE).and_then(|value| value.value);
+    let direction = table.take("direction", &choice::<Direction>()).map(|value| value.value);
+    let coolant = table.take("coolant", &choice::<Coolant>()).map(|value| value.value);
     Some(Tool { name: name.into(), diameter: diameter?, paths, number, spindle, direction, coolant })
 }
 
@@ -277,7 +280,7 @@ fn inline_levels(levels: &[(Code, Level)]) -> Option<String> {
     inline(names.iter().map(|(code, level)| (code.as_str(), level.clone())))
 }
 
-/// An inline table of what has a value; `None` when nothing has.
+/// Formats the entries that have values as an inline table; `None` if none has.
 fn inline<'a>(entries: impl IntoIterator<Item = (&'a str, Option<String>)>) -> Option<String> {
     let entries = entries.into_iter().filter_map(|(name, value)| Some(format!("{} = {}", key(name), value?)));
     let entries: Vec<_> = entries.collect();

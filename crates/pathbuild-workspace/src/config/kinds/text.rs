@@ -1,4 +1,4 @@
-//! Texts, names of files, and choices.
+//! Strings, file names and choices.
 
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ use crate::config::nearest::nearest;
 use crate::config::reader::TomlReader;
 use crate::config::types::{Choice, Directories};
 
-/// A text that is not empty.
+/// A non-empty string.
 pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
     read: |value, reader| match reader.text(value)? {
         "" => reader.expected(Value::Word(&messages::NOT_EMPTY), value),
@@ -24,7 +24,7 @@ pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
     schema: || json!({ "type": "string", "minLength": 1 }),
 };
 
-/// A directory, where there is one. The empty text is none.
+/// An optional directory; the empty string means none.
 pub(in crate::config) const DIRECTORY: ValueType<Option<Utf8PathBuf>> = ValueType {
     read: |value, reader| match reader.text(value)? {
         "" => Some(None),
@@ -34,7 +34,7 @@ pub(in crate::config) const DIRECTORY: ValueType<Option<Utf8PathBuf>> = ValueTyp
     schema: || json!({ "type": "string" }),
 };
 
-/// Directories.
+/// A list of directories.
 pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
@@ -44,7 +44,7 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
     schema: || json!({ "type": "array", "items": { "type": "string" } }),
 };
 
-/// A directory that does not depend on where the configuration lies.
+/// An absolute directory.
 pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
@@ -54,7 +54,7 @@ pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     schema: || json!({ "type": "string" }),
 };
 
-/// Several of these.
+/// A list of absolute directories.
 pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
     read: |value, reader| {
         let names = texts(value, reader)?;
@@ -67,7 +67,7 @@ pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
     ..DIRECTORIES
 };
 
-/// One of the names of a choice.
+/// One of the texts of a choice.
 pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
     ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
@@ -95,12 +95,12 @@ pub(in crate::config) fn choice_schema<T: Choice>() -> Json {
     json!({ "enum": T::ALL.iter().map(|(name, _)| *name).collect::<Vec<_>>() })
 }
 
-/// The name of a choice.
+/// The text of a choice.
 pub(in crate::config) fn name_of<T: Choice>(choice: T) -> Option<&'static str> {
-    T::ALL.iter().find(|(_, it)| *it == choice).map(|(name, _)| *name)
+    T::ALL.iter().find(|(_, value)| *value == choice).map(|(name, _)| *name)
 }
 
-/// The texts of a list with the values that they come from, or a report that it is no list of texts.
+/// The strings in a list, with their values; reports a value of another type.
 pub(in crate::config) fn texts<'v, 't>(
     value: &'v Spanned<DeValue<'t>>,
     reader: &mut TomlReader<'_>,
@@ -115,13 +115,13 @@ pub(in crate::config) fn texts<'v, 't>(
     }
 }
 
-/// Whether a text can stand in single quotes: nothing is escaped there.
+/// Whether a string can be written in single quotes, where nothing is escaped.
 pub(in crate::config) fn is_literal(text: &str) -> bool {
     !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts)
 }
 
-/// A text as TOML: in single quotes where that spares escapes, as in patterns. JSON's escapes are TOML's, too, but for those of characters
-/// beyond U+FFFF.
+/// Formats a string as TOML, in single quotes if that avoids escapes. Otherwise uses JSON escapes, which are valid in TOML, except those of
+/// characters beyond U+FFFF.
 pub(in crate::config) fn quoted(text: &str) -> String {
     if text.contains(['\\', '"']) && is_literal(text) {
         return format!("'{text}'");
@@ -137,7 +137,7 @@ pub(in crate::config) fn quoted(text: &str) -> String {
     shown::json(&quoted).into_owned()
 }
 
-/// Texts as a TOML list.
+/// Formats strings as a TOML list.
 pub(in crate::config) fn list<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
     format!("[{}]", texts.into_iter().map(quoted).collect::<Vec<_>>().join(", "))
 }

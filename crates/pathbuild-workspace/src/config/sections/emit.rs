@@ -1,4 +1,4 @@
-//! `[emit]`: what is written when nothing is named.
+//! `[emit]`: what `emit` writes without arguments.
 
 use std::fmt::Debug;
 

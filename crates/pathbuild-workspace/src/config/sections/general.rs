@@ -1,6 +1,6 @@
 //! Keys outside any table.
 
-#![expect(clippy::doc_markdown, reason = "the texts are shown to people who write a pathbuild.toml")]
+#![expect(clippy::doc_markdown, reason = "users see these texts in their pathbuild.toml")]
 
 use std::fmt::Debug;
 
@@ -18,9 +18,9 @@ use crate::config::reader::Table;
 use crate::config::show::Shown;
 use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
 
-/// What a path name is, unless the configuration says otherwise. (book: language/layers-and-names)
+/// Default regular expression for path names. (book: language/layers-and-names)
 pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
-/// What path names in a file name are, unless the configuration says otherwise.
+/// Default regular expression for the path names covered by a file name.
 pub const FILE_PATTERN: &str = "([0-9]{4})(?:[.]([0-9]+))?";
 
 section! {

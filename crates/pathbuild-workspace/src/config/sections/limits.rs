@@ -1,4 +1,4 @@
-//! `[limits]`: how large anything may be. PB005 names the key when one is met.
+//! `[limits]`: upper bounds on sizes and times. PB005 names the key if one is exceeded.
 
 use std::fmt::Debug;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use crate::config::origin::Sourced;
 use crate::config::reader::Table;
 use crate::config::show::Shown;
 
-/// [`section!`] of values of which a stranger may only lower the defaults.
+/// Like [`section!`], for values that an untrusted configuration may lower but not raise.
 macro_rules! limits {
     ($(
         $(#[doc = $meaning:literal])+
@@ -21,10 +21,10 @@ macro_rules! limits {
         }
 
         impl Options {
-            /// Reads them; those of a stranger are not above their defaults.
+            /// Reads the limits. Reports those of an untrusted configuration that exceed their defaults.
             pub(in crate::config) fn read_lowered(table: &mut Table<'_, '_, '_>) -> Self {
                 let options = Self::read(table);
-                $(if table.is_strangers() && options.$field.as_ref().is_some_and(|it| it.value > $default) {
+                $(if table.is_strangers() && options.$field.as_ref().is_some_and(|limit| limit.value > $default) {
                     table.report_raised($name, $example);
                 })*
                 options
@@ -61,7 +61,7 @@ limits! {
 }
 
 impl Settings {
-    /// The most bytes of a program that is written.
+    /// Upper bound on the size of an output file in bytes.
     pub fn output_size(&self) -> usize {
         usize::try_from(self.output_size.value).unwrap_or(usize::MAX)
     }

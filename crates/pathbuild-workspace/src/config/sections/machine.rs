@@ -1,4 +1,4 @@
-//! `[machine]`: what the machine can do, for `emit`, `verify` and for times. (book: program/reading)
+//! `[machine]`: capabilities of the machine, for `emit`, `verify` and time estimates. (book: program/reading)
 
 use std::fmt::Debug;
 

@@ -1,7 +1,7 @@
-//! The keys, table by table: each with its type, its default and its meaning.
+//! The keys of all tables, each with its type, default and description.
 
-/// Declares a table of the configuration. For each key: its field with its meaning, its name in the file, its [`ValueType`], the value when
-/// nobody gives one, a value as TOML for the file that `init` writes, and whose results depend on it ([`Concerns`]).
+/// Declares a table of the configuration. Each key has: a description and a field, its name in the file, its [`ValueType`], its default, a
+/// TOML value for the file that `init` writes, and the cached results that depend on it ([`Concerns`]).
 ///
 /// [`ValueType`]: super::kind::Kind
 macro_rules! section {
@@ -9,13 +9,13 @@ macro_rules! section {
         $(#[doc = $meaning:literal])+
         $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident;
     )*) => {
-        /// What the configuration, or the command line, gives.
+        /// The values that a source sets.
         #[derive(Clone, Debug, Default)]
         pub struct Options {
             $($(#[doc = $meaning])+ pub $field: Option<Sourced<$type>>,)*
         }
 
-        /// What holds.
+        /// The values after applying defaults.
         #[derive(Clone, Debug)]
         pub struct Settings {
             $($(#[doc = $meaning])+ pub $field: Sourced<$type>,)*
@@ -36,14 +36,14 @@ macro_rules! section {
         }
 
         impl Settings {
-            /// Each key with its value as TOML, where there is one.
+            /// The keys with their values as TOML.
             pub(in crate::config) fn shown(&self) -> Vec<Shown> {
                 vec![$(Shown { name: $name, value: ($kind.show)(&self.$field.value), origin: self.$field.origin },)*]
             }
         }
 
         impl Settings {
-            /// Each key with its value, where results depend on it.
+            /// Passes the values that cached results of the command `whose` depend on to `add`.
             pub(in crate::config) fn concerning(&self, whose: Concerns, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
                 $(if Concerns::$concerns.is_part_of(whose) {
                     add($name, &self.$field.value);
@@ -51,7 +51,7 @@ macro_rules! section {
             }
         }
 
-        /// What is known of each key.
+        /// Descriptions of the keys.
         pub(in crate::config) const KEYS: &[Key] = &[
             $(Key { name: $name, meaning: &[$($meaning),+], example: $example, schema: $kind.schema },)*
         ];

@@ -1,4 +1,4 @@
-//! Tables whose keys are names that the configuration chooses.
+//! Tables with user-defined keys.
 
 use std::fmt::Debug;
 

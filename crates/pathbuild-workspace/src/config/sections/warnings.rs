@@ -1,4 +1,4 @@
-//! `[warnings]`: from where on something that is allowed is doubtful.
+//! `[warnings]`: thresholds beyond which something allowed is doubtful.
 
 use std::fmt::Debug;
 

@@ -1,4 +1,4 @@
-//! `[watch]`: how changes are noticed.
+//! `[watch]`: how changes are detected.
 
 use std::fmt::Debug;
 use std::time::Duration;
