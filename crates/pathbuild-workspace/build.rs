@@ -1,4 +1,4 @@
-//! Tells the program which build it is: results of another are not used.
+//! Computes the build identifier: cached results of other builds are ignored.
 
 #![expect(clippy::disallowed_methods, reason = "this is how cargo talks to a build script")]
 
@@ -10,9 +10,9 @@ fn main() {
     println!("cargo:rustc-env=PATHBUILD_BUILD={:032x}", build_id());
 }
 
-/// A hash of everything that the program is built from: our own sources, the versions of others', the compiler, the target and the profile.
-/// In the workspace a version would not do: it stays the same from one change to the next. A published crate does not have the sources
-/// of the others, but their versions are exactly its own (Cargo.toml), and what was published under a version stays as it is.
+/// Hashes everything that the program is built from: our own sources, the versions of dependencies, the compiler, the target and the
+/// profile. In the workspace, version numbers do not suffice because they stay the same between changes. A published crate does not contain
+/// the sources of the others, but its Cargo.toml pins their exact versions, and published versions never change.
 fn build_id() -> u128 {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let has_sources = workspace.join("crates/pathbuild-workspace/build.rs").is_file();
@@ -40,7 +40,7 @@ fn build_id() -> u128 {
     hash
 }
 
-/// The files of the workspace that results depend on, in order.
+/// The files of the workspace that results depend on, sorted.
 fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
     let mut files = vec![workspace.join("Cargo.lock"), workspace.join("Cargo.toml")];
     for name in CRATES {
@@ -49,7 +49,7 @@ fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
         sources(&directory.join("src"), &mut files);
         println!("cargo:rerun-if-changed={}", directory.join("src").display());
     }
-    // Sheets are set in it.
+    // Setup sheets are set in these fonts.
     let fonts = workspace.join("crates/pathbuild-view/fonts");
     sources(&fonts, &mut files);
     println!("cargo:rerun-if-changed={}", fonts.display());
@@ -86,7 +86,7 @@ fn sources(directory: &Path, files: &mut Vec<PathBuf>) {
 const FNV_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
-/// FNV-1a of some bytes and their length: who would want two builds to meet could as well change the cache.
+/// FNV-1a over some bytes and their length. Collisions need not be prevented: an attacker could as well edit the cache.
 fn with(hash: u128, bytes: &[u8]) -> u128 {
     let length = bytes.len().to_le_bytes();
     bytes.iter().chain(&length).fold(hash, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(FNV_PRIME))

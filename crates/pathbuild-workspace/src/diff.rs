@@ -1,4 +1,4 @@
-//! What a change of drawings does to programs: the paths of two trees, held against each other. (docs: "Comparing")
+//! `diff`: compares the programs of all paths in two trees. (docs: "Comparing")
 
 use std::collections::HashMap;
 
@@ -11,37 +11,37 @@ use pathbuild_view::{Group, Picture, ScenePath, Totals, changes_svg, compare, gr
 use crate::inputs::Inputs;
 use crate::session::{Session, ShownText, by_name};
 
-/// One of the two sides: drawings below a directory.
+/// One side of the comparison: drawings below a directory.
 #[derive(Debug)]
 pub struct Tree<'s, 'w> {
-    /// Where their configuration holds.
+    /// Session with the configuration of this side.
     pub session: &'s mut Session<'w>,
-    /// Which drawings.
+    /// The drawings to compare.
     pub inputs: &'s Inputs,
-    /// Files of both sides that are spelt alike below their roots are each other's.
+    /// Root directory. Files with the same path below both roots correspond to each other.
     pub root: &'s Utf8Path,
 }
 
 /// How pictures of changes are drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Pictures {
-    /// The language of their legends.
+    /// Language of their legends.
     pub lang: Lang,
 }
 
-/// What came of a comparison.
+/// The outcome of a comparison.
 #[derive(Debug, Default)]
 pub struct Comparison {
-    /// Paths that are not the same on both sides, in order of name.
+    /// Paths that differ between the sides, sorted by name.
     pub paths: Vec<PathDiff>,
-    /// How many paths the new side has.
+    /// Number of paths on the new side.
     pub looked_at: usize,
-    /// What could not be looked at, on the old and on the new side.
+    /// Diagnostics of what could not be compared, on the old and on the new side.
     pub problems: [Vec<Diagnostic>; 2],
 }
 
 impl Comparison {
-    /// Whether errors of a path are among the problems of a side: they are told with the comparison.
+    /// Whether the problems of a side include errors of a path.
     pub fn tells_of(&self, path: &PathDiff) -> bool {
         let is_of = |problem: &Diagnostic| {
             let name = problem.path.as_deref().map(PathName::new);
@@ -51,59 +51,59 @@ impl Comparison {
     }
 }
 
-/// A path that is not the same on both sides.
+/// A path that differs between the sides.
 #[derive(Debug)]
 pub struct PathDiff {
     /// Its name, as the newer drawing spells it.
     pub name: String,
-    /// The drawing that defines it on the old side, below its root, and on the new side.
+    /// The drawing that defines it on the old and on the new side, relative to the root.
     pub files: [Option<Utf8PathBuf>; 2],
-    /// What became of it.
+    /// How it differs.
     pub outcome: Outcome,
 }
 
-/// What became of a path.
+/// How a path differs between the sides.
 #[derive(Debug)]
 pub enum Outcome {
-    /// It is new.
+    /// Only the new side has it.
     Added,
-    /// It is gone.
+    /// Only the old side has it.
     Removed,
-    /// It has errors on the new side, where it had none.
+    /// It has errors on the new side only.
     Broken,
-    /// It had errors on the old side, and has none now.
+    /// It has errors on the old side only.
     Mended,
-    /// It has errors on both sides: nothing is known of its moves.
+    /// It has errors on both sides, so its moves are unknown.
     StillBroken,
-    /// Its moves are the same, but another drawing defines it.
+    /// It has the same moves, but is defined in another drawing.
     OtherDrawing,
-    /// Its moves changed.
+    /// It has other moves.
     Changed(Box<ProgramDiff>),
 }
 
-/// What changed between two programs.
+/// Differences between two programs.
 #[derive(Debug, Default)]
 pub struct ProgramDiff {
-    /// Its changes by kind.
+    /// Changes, grouped by kind.
     pub groups: Vec<Group>,
-    /// Lengths and times before and after, where they are known.
+    /// Lengths and times before and after, if known.
     pub totals: [Option<Totals>; 2],
-    /// Pictures as SVG, where they were asked for.
+    /// Pictures as SVG, if requested.
     pub pictures: Option<PictureSet>,
 }
 
-/// The pictures of a change; all have one scale.
+/// Pictures of a change, at the same scale.
 #[derive(Debug)]
 pub struct PictureSet {
-    /// Old and new in one.
+    /// Old and new moves in one picture.
     pub changes: String,
-    /// Old alone.
+    /// Old moves only.
     pub old: String,
-    /// New alone.
+    /// New moves only.
     pub new: String,
 }
 
-/// Compares what two programs do.
+/// Compares the moves of two programs.
 pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Pictures>) -> ProgramDiff {
     let changes = compare(&old.moves, &new.moves);
     let picture =
@@ -142,19 +142,19 @@ fn settled(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pict
     Comparison { paths, looked_at, problems }
 }
 
-/// A path of a side.
+/// A path on one side.
 #[derive(Clone, Debug)]
 struct Known {
     file: SourceFile,
-    /// Below the root.
+    /// Path of the drawing, relative to the root.
     place: Utf8PathBuf,
     name: PathName,
-    /// A hash of its program's moves; `None` where it has errors, or its program could not be made.
+    /// Hash of its program's moves; `None` if it has errors, or if its program could not be built.
     moves: Option<Box<str>>,
 }
 
 impl Tree<'_, '_> {
-    /// Its paths, and what is wrong with the drawings themselves.
+    /// The paths of this side, and diagnostics of the drawings by themselves.
     fn paths(&mut self) -> (Vec<Known>, Vec<Diagnostic>) {
         let wanted = self.session.wanted(self.inputs);
         let files = wanted.whole(self.session);
@@ -187,13 +187,13 @@ fn known(
     known.collect()
 }
 
-/// A path on the sides where it is.
+/// A path on one or both sides.
 struct Pair {
     old: Option<Known>,
     new: Option<Known>,
 }
 
-/// Which paths are each other's: those of the same name in the same drawing, then those whose name each side has but once more.
+/// Pairs the paths of both sides: those with the same name in the same drawing, then those whose name remains exactly once on each side.
 fn pairs(old: Vec<Known>, new: Vec<Known>) -> Vec<Pair> {
     let mut by_file: HashMap<(Utf8PathBuf, PathName), Known> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
@@ -252,7 +252,8 @@ impl Pair {
     }
 }
 
-/// What became of a path whose moves are not the same. A side that a limit kept from being seen has no moves to compare, and says why.
+/// Compares a path whose moves differ. If a limit prevents a side from being built, there are no moves to compare, and the diagnostics say
+/// why.
 fn changed(
     sides: [Result<ScenePath, Vec<Diagnostic>>; 2],
     pictures: Option<Pictures>,
@@ -273,11 +274,11 @@ fn changed(
 /// A path with its program.
 ///
 /// # Errors
-/// What kept the program from being made: then there is but the drawing, which has no moves.
+/// The errors that prevent its program from being built.
 fn seen(session: &Session<'_>, known: &Known) -> Result<ScenePath, Vec<Diagnostic>> {
     let seen = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
     let path = seen.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
-    // What is wrong with the drawing as a whole is told already.
+    // Errors of the drawing as a whole are reported already.
     let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();
     path.ok_or_else(|| seen.diagnostics.into_iter().filter(is_of_path).collect())
 }

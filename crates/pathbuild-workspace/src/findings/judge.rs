@@ -3,8 +3,8 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::config::{Settings, clean};
 
-/// Gives diagnostics the severities that the configuration says, and drops those that it ignores. Names of files are relative to
-/// the working directory, those of the configuration to itself.
+/// Applies the configured severities, and drops diagnostics that are ignored. File names are relative to the working directory, those in
+/// the configuration to its own directory.
 pub fn judge(
     diagnostics: Vec<Diagnostic>,
     settings: &Settings,

@@ -1,4 +1,4 @@
-//! What a run found, made ready to be shown: severities applied, each finding once, in an order that does not depend on threads.
+//! The diagnostics of a run, ready for display: with configured severities, without duplicates, in an order independent of threads.
 //! (book: reference/diagnostics)
 
 mod judge;
@@ -10,21 +10,22 @@ use crate::workspace::Workspace;
 
 pub use judge::judge;
 
-/// Everything that a run found, and what it looked at.
+/// The diagnostics of a run, and what was checked.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// Sorted, without repetition.
+    /// Sorted, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
-    /// The drawings that were checked, in order of name; empty for commands that check none.
+    /// The checked drawings, sorted by name; empty for commands that do not check drawings.
     pub checked: Vec<CheckedFile>,
 }
 
 impl Findings {
-    /// Sorts diagnostics and drops those that say the same of the same place: many bindings or projects may have met a fault, and
-    /// the one that is kept has the shortest way, of those the first in order, whichever was met first.
+    /// Sorts diagnostics and drops duplicates. Several bindings or projects may lead to the same fault; the shortest trace is kept, and the
+    /// first in order among equally short ones.
     pub fn new(mut diagnostics: Vec<Diagnostic>) -> Self {
         if diagnostics.iter().any(|diagnostic| !diagnostic.trace.is_empty()) {
-            diagnostics.sort_by_cached_key(|it| (it.trace.len(), format!("{:?}", it.trace)));
+            diagnostics
+                .sort_by_cached_key(|diagnostic| (diagnostic.trace.len(), format!("{:?}", diagnostic.trace)));
         }
         diagnostics
             .sort_by(|a, b| a.sort_key().cmp(&b.sort_key()).then_with(|| a.message.key.cmp(b.message.key)));
@@ -32,26 +33,26 @@ impl Findings {
         Self { diagnostics, checked: Vec::new() }
     }
 
-    /// The number of errors.
+    /// Number of errors.
     pub fn errors(&self) -> usize {
         self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
     }
 
-    /// The number of warnings.
+    /// Number of warnings.
     pub fn warnings(&self) -> usize {
         self.diagnostics.len() - self.errors()
     }
 }
 
 impl Workspace {
-    /// Findings with the severities of the configuration, in order, each once.
+    /// Applies the configured severities, sorts, and drops duplicates.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
         Findings::new(judge(diagnostics, &self.settings, &self.working_directory))
     }
 }
 
-/// Whether two findings are one: everything is equal but the way that led there. What is too deep below one project may be so below
-/// others, each by its own way.
+/// Whether two findings are the same except for their traces. Paths nested too deep may be reached from several projects, each with
+/// different arguments.
 fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
     let arguments_agree = a.arguments == b.arguments || a.code() == Code::NestingTooDeep;
     arguments_agree

@@ -1,4 +1,4 @@
-//! Paths and totals in JSON. Lengths are mm.
+//! JSON form of paths and totals. Lengths are in mm.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use super::row::{Row, State};
 use super::stats::{Stats, Total};
 use crate::findings::Findings;
 
-/// A path, as one object. `file` is what its drawing is called.
+/// A path as a JSON object. `file` is the displayed name of its drawing.
 pub fn path_json(file: &str, row: &Row) -> Value {
     let path = &row.path;
     let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
@@ -33,13 +33,13 @@ pub fn path_json(file: &str, row: &Row) -> Value {
     })
 }
 
-/// A drawing that is wrong as a whole, as one object beside those of its paths; `None` where nothing of that is an error.
+/// A drawing with errors of its own, as a JSON object beside those of its paths; `None` if there are only warnings.
 pub fn drawing_json(found: &Findings) -> Option<Value> {
     let (errors, warnings) = (found.errors(), found.warnings());
     (errors > 0).then(|| json!({ "path": null, "state": "errors", "errors": errors, "warnings": warnings }))
 }
 
-/// What paths add up to, as one object.
+/// Totals as a JSON object.
 pub fn stats_json(stats: &Stats) -> Value {
     let states =
         stats.states.iter().map(|(state, count): (&State, _)| (state.key().to_owned(), json!(count)));

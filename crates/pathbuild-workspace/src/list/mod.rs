@@ -1,4 +1,4 @@
-//! The paths of a library, with what a workshop asks of each. (`list` and `stats`)
+//! `list` and `stats`: the paths of a library with the figures that a workshop needs.
 
 mod json;
 mod row;
@@ -24,53 +24,53 @@ pub use json::{drawing_json, path_json, stats_json};
 pub use row::{Row, State};
 pub use stats::{Stats, Total};
 
-/// What is to be listed.
+/// A request to list paths.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// Drawings, directories, and patterns of path names; without drawings or directories, all paths there are.
+    /// Drawings, directories, and patterns for path names; without drawings or directories, all known paths.
     pub inputs: &'a Inputs,
-    /// The post that programs are written through; `None`: natively.
+    /// The post-processor that programs are written through; `None` means native programs.
     pub poster: Option<&'a PostProcessor>,
 }
 
-/// What there is.
+/// The listed paths.
 #[derive(Clone, Debug, Default)]
 pub struct Listed {
-    /// In order of drawing, then as the drawing has them.
+    /// Sorted by drawing, then in file order.
     pub paths: Vec<ListedPath>,
-    /// How many drawings were looked at.
+    /// Number of drawings that were searched.
     pub drawings: usize,
-    /// What is wrong with directories and drawings themselves.
+    /// Diagnostics of directories and of drawings by themselves.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// A path. Lengths in mm.
+/// A listed path. Lengths are in mm.
 #[derive(Clone, Debug)]
 pub struct ListedPath {
-    /// As its layer spells it.
+    /// Its name as the layer spells it.
     pub name: PathName,
     /// The drawing that defines it.
     pub drawing: Utf8PathBuf,
-    /// What is wrong with it, and with what it embeds.
+    /// Diagnostics of the path and of what it embeds.
     pub diagnostics: Vec<Diagnostic>,
-    /// M.
+    /// Value of M.
     pub material: Option<Box<str>>,
-    /// T and O; `None` where the drawing does not say them rightly.
+    /// Values of T and O; `None` if missing or invalid.
     pub thickness: Option<f64>,
     #[expect(missing_docs, reason = "see above")]
     pub tool: Option<f64>,
-    /// The box of the cutter's tip while it cuts.
+    /// Bounding box of the tool tip while cutting.
     pub cutting_box: Extent,
-    /// How long the program is; `None` where there is none.
+    /// Length of the program; `None` if there is none.
     pub length: Option<f64>,
-    /// How long it takes; `None` where there is no program, or nobody gives `rapid`.
+    /// Machining time; `None` if there is no program, or if `rapid` is not set.
     pub minutes: Option<f64>,
-    /// What lies on disk.
+    /// State of the program on disk.
     pub program: ProgramState,
 }
 
 impl ListedPath {
-    /// One of which nothing is known but what keeps it from being looked at.
+    /// A path of which only the error is known that kept it from being processed.
     pub fn unknown(name: PathName, drawing: Utf8PathBuf, problem: Diagnostic) -> Self {
         Self {
             diagnostics: vec![problem.in_file(&drawing).in_path(name.as_str())],
@@ -87,30 +87,30 @@ impl ListedPath {
     }
 }
 
-/// What lies on disk of a path's program.
+/// State of a path's program on disk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ProgramState {
-    /// Nothing, or the path has no program of its own.
+    /// There is none, or the path has no program of its own.
     #[default]
     None,
-    /// What would be written now.
+    /// It is up to date.
     Current,
-    /// Something else.
+    /// It differs from what would be written.
     Stale,
-    /// Something. No program can be made now to hold against it: that is an error of the path.
+    /// It exists, but no program can be generated to compare it with; the path has an error.
     Unknown,
 }
 
 impl Session<'_> {
-    /// The names of all paths of the library, or below the working directory where there is none, each once, in order.
+    /// Names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
     pub fn names_of_library(&self) -> Vec<PathName> {
         let mut names: Vec<PathName> = self.paths_of_library().into_iter().map(|(name, _)| name).collect();
         names.dedup();
         names
     }
 
-    /// The same with the drawings that define them. Of a drawing that the last `check` of the library knows it is not read again; drawings of
-    /// a large library that it does not know are left out.
+    /// The same with the drawings that define them. Drawings known from the last `check` are not read again; of the others, only a limited
+    /// number is read.
     pub(crate) fn paths_of_library(&self) -> Vec<(PathName, SourceFile)> {
         let (files, _) = self.everything();
         let result_store = kept_results(self.workspace());
@@ -137,14 +137,14 @@ impl Session<'_> {
     }
 }
 
-/// So many drawings are read at most for the names of their paths: half a second.
+/// Upper bound on the number of drawings that are read just for the names of their paths; takes half a second.
 const MOST_UNKNOWN: usize = 2000;
 
 impl Request<'_> {
-    /// Lists, in a session of its own.
+    /// Lists the paths.
     ///
     /// # Errors
-    /// What is wrong with a pattern.
+    /// Why a pattern is invalid.
     pub fn run(&self, session: &mut Session<'_>) -> Result<Listed, String> {
         let asked = Asked::new(session, self.inputs)?;
         Ok(session.settled(|session| self.list(session, &asked)))
@@ -174,7 +174,7 @@ impl Request<'_> {
     }
 }
 
-/// What there is to list of a path.
+/// Lists a single path.
 pub fn of_path(
     session: &mut Session<'_>,
     file: SourceFile,
@@ -185,7 +185,7 @@ pub fn of_path(
     session.settled(|session| list_paths(session, &path, poster).0)
 }
 
-/// What there is to list of every path of some drawings.
+/// Lists all paths of some drawings.
 pub fn of_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
@@ -209,7 +209,7 @@ fn list_paths(
     (listed, unmade)
 }
 
-/// Holds the programs on disk against the paths; gives back what kept programs from being made, which no check finds.
+/// Compares the programs on disk with the paths. Returns errors that kept programs from being generated, which no check reports.
 fn compare(
     session: &mut Session<'_>,
     poster: Option<&PostProcessor>,
@@ -243,7 +243,7 @@ fn not_a_pattern(session: &Session<'_>, name: &str, reason: &str) -> String {
     format!("{what}: {reason}")
 }
 
-/// What arguments come to.
+/// The resolved arguments.
 struct Asked {
     places: Inputs,
     patterns: Vec<Pattern>,
@@ -265,7 +265,7 @@ impl Asked {
         Ok(Self { places, patterns })
     }
 
-    /// The drawings of directories; without any, of the library, or below the working directory where there is none.
+    /// The drawings in the given directories; without any, those of the library, or below the working directory if there is no library.
     fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
         if self.places.inputs.is_empty() {
             let (files, found) = session.everything();
@@ -277,7 +277,7 @@ impl Asked {
         wanted.whole(session)
     }
 
-    /// The patterns that no path matches.
+    /// The patterns that match no path.
     fn unmet<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
         let is_unmet = |pattern: &&Pattern| !paths.iter().any(|path| pattern.matches(path.name.as_str()));
         self.patterns.iter().filter(is_unmet).map(Pattern::text)
@@ -288,7 +288,7 @@ impl Asked {
     }
 }
 
-/// What is known of some paths, without what lies on disk.
+/// Lists paths without the state of their programs on disk.
 fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedPath> {
     let checked = session.each(paths, |asking, (file, name)| asking.check_as_known(*file, name));
     let rapid = session.workspace().settings.general.rapid.value;
@@ -316,10 +316,10 @@ fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedP
     checked.into_iter().zip(figures).zip(paths).map(listed).collect()
 }
 
-/// A path that was checked, and its figures, or why they are not known.
+/// A checked path with its figures, or the error that kept them from being computed.
 type Known = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
 
-/// What a path says of itself, and what its program adds up to.
+/// Figures from a path's parameters and from its program.
 #[derive(Default)]
 struct Figures {
     material: Option<Box<str>>,
@@ -334,19 +334,19 @@ impl Figures {
     fn of(db: &Database, checked: &CheckedTarget, rapid: Option<f64>) -> Self {
         let root = closure(db, checked.target).root;
         let signature = root.and_then(|root| summary(db, root).signature.as_ref());
-        let said = Self {
+        let figures = Self {
             material: signature.and_then(|path| path.material.as_deref()).map(Into::into),
             thickness: signature.map(|path: &PathSignature| path.thickness),
             tool: signature.map(|path| path.tool),
             ..Self::default()
         };
-        let Some(program) = program(db, checked.target) else { return said };
+        let Some(program) = program(db, checked.target) else { return figures };
         let sum = statistics(program, rapid.unwrap_or_default()).sum();
         Self {
             cutting_box: cutting_box(program),
             length: Some(sum.length),
             minutes: rapid.map(|_| sum.minutes()).filter(|minutes| minutes.is_finite()),
-            ..said
+            ..figures
         }
     }
 }

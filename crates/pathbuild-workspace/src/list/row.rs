@@ -3,34 +3,34 @@ use pathbuild_diagnostic::Diagnostic;
 use super::{ListedPath, ProgramState};
 use crate::workspace::Workspace;
 
-/// A path, judged by the configuration's severities.
+/// A path, with its findings counted by the configured severities.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// What is known of it.
     pub path: ListedPath,
-    /// How many errors it has.
+    /// Number of errors.
     pub errors: usize,
-    /// How many warnings.
+    /// Number of warnings.
     pub warnings: usize,
 }
 
-/// What a path is, in one word: for itself, and beside the program on disk.
+/// State of a path and of its program on disk, in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum State {
-    /// It has errors.
+    /// The path has errors.
     Errors,
-    /// The program on disk is another one.
+    /// The program on disk is out of date.
     Stale,
-    /// The program on disk is the one that would be written.
+    /// The program on disk is up to date.
     Current,
-    /// It has no errors, and no program lies on disk.
+    /// The path has no errors, and there is no program on disk.
     Ok,
 }
 
 impl State {
     pub(super) const ALL: [Self; 4] = [Self::Errors, Self::Stale, Self::Current, Self::Ok];
 
-    /// As in JSON.
+    /// Name in JSON.
     pub(super) fn key(self) -> &'static str {
         match self {
             Self::Errors => "errors",
@@ -42,7 +42,7 @@ impl State {
 }
 
 impl Row {
-    /// A path under the configuration of a workspace.
+    /// Counts the findings of a path under a workspace's configuration.
     pub fn new(workspace: &Workspace, path: ListedPath) -> Self {
         let found = workspace.findings(path.diagnostics.clone());
         let errors = found.diagnostics.iter().filter(|found: &&Diagnostic| found.is_error()).count();
@@ -59,7 +59,7 @@ impl Row {
         }
     }
 
-    /// Width and height of what the cutter's tip reaches while it cuts, in mm.
+    /// Width and height of the area that the tool tip reaches while cutting, in mm.
     pub fn size(&self) -> Option<[f64; 2]> {
         let [x, y, _] = self.path.cutting_box;
         let width = |(low, high): (f64, f64)| high - low;

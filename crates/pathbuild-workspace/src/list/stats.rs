@@ -2,31 +2,31 @@ use std::collections::BTreeMap;
 
 use super::row::{Row, State};
 
-/// What paths add up to.
+/// Totals of paths.
 #[derive(Clone, Debug)]
 pub struct Stats {
-    /// How many drawings there are.
+    /// Number of drawings.
     pub drawings: usize,
-    /// All paths together.
+    /// Totals of all paths.
     pub all: Total,
-    /// How many paths have warnings.
+    /// Number of paths with warnings.
     pub warnings: usize,
-    /// How many paths are in each state.
+    /// Number of paths in each state.
     pub states: BTreeMap<State, usize>,
-    /// By M; `None`: paths that say none.
+    /// Totals by M; `None` for paths without M.
     pub materials: BTreeMap<Option<Box<str>>, Total>,
-    /// By O in micrometres, which can be put in order.
+    /// Totals by O in micrometres, an integer so that it can be a key.
     pub cutters: BTreeMap<Option<u64>, Total>,
 }
 
-/// Paths together. Those with errors have no length.
+/// Totals of some paths. Paths with errors have no length.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Total {
-    /// How many.
+    /// Number of paths.
     pub paths: usize,
-    /// mm.
+    /// Length in mm.
     pub length: f64,
-    /// As far as they are known.
+    /// Time in minutes, as far as it is known.
     pub minutes: f64,
 }
 
@@ -38,7 +38,7 @@ impl Total {
     }
 }
 
-/// A diameter in whole micrometres; one that is no length there is none of.
+/// A diameter in whole micrometres; 0 for a negative one.
 fn micrometres(tool: f64) -> u64 {
     #[expect(
         clippy::cast_possible_truncation,
@@ -50,7 +50,7 @@ fn micrometres(tool: f64) -> u64 {
 }
 
 impl Stats {
-    /// Of these paths, out of so many drawings.
+    /// Totals of these paths, which were found in `drawings` drawings.
     pub fn of<'a>(rows: impl IntoIterator<Item = &'a Row>, drawings: usize) -> Self {
         let mut stats = Self {
             drawings,

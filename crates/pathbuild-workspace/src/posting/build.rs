@@ -1,4 +1,4 @@
-//! The command that a post wants to be run on what it wrote. (book: program/posts: as a list of arguments, no shell)
+//! Runs the command that a post-processor requests for its output. (book: program/posts: as a list of arguments, no shell)
 
 use std::process::{Command, Stdio};
 
@@ -6,10 +6,10 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 
-/// Runs it in the directory of the file, and waits for it. What it prints goes to stderr, since stdout is for results.
+/// Runs the command in the directory of the file and waits for it. Its output goes to stderr, since stdout is for results.
 ///
 /// # Errors
-/// It cannot be started, or ends with another status than 0.
+/// If it cannot be started, or exits with a status other than 0.
 pub fn run_post_build(command: &[String], file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
     let Some((program, arguments)) = command.split_first() else { return Ok(()) };
     let mut run = Command::new(program);

@@ -1,4 +1,4 @@
-//! The files that a definition inserts: those below its directory. (book: program/posts)
+//! Files inserted by a post definition; they must be below its directory. (book: program/posts)
 
 use std::cell::RefCell;
 
@@ -9,23 +9,23 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{IS_DIRECTORY, LEADS_OUT_OF_POST, NO_FILE};
 use pathbuild_post::PostFiles;
 
-/// A directory with all that is below it.
+/// Access to a directory and everything below it.
 #[derive(Debug)]
 pub(super) struct Below<'a> {
     pub(super) directory: &'a Utf8Path,
     pub(super) system: &'a dyn System,
 }
 
-/// A file that was to be inserted.
+/// A file that a definition inserts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Inserted {
-    /// Relative to the definition's directory.
+    /// Path relative to the definition's directory.
     pub name: Utf8PathBuf,
-    /// The hash of what was read; `None` where it could not be.
+    /// Hash of the content; `None` if it could not be read.
     pub hash: Option<[u8; 32]>,
 }
 
-/// The same files, and which of them were read.
+/// Like [`Below`], and records the files that were read.
 #[derive(Debug)]
 pub(super) struct Noted<'a> {
     pub(super) below: Below<'a>,
@@ -41,7 +41,7 @@ impl PostFiles for Noted<'_> {
     }
 }
 
-/// Larger texts are no part of a program.
+/// Upper bound on the size of an inserted file in bytes.
 const LARGEST: u64 = 1 << 24;
 
 impl PostFiles for Below<'_> {

@@ -1,4 +1,4 @@
-//! The post-processor of a run: which one, and what the configuration tells it. (book: program/posts)
+//! The post-processor of a run, with its settings. (book: program/posts)
 
 mod build;
 mod files;
@@ -28,22 +28,22 @@ pub use tools::{furnish, tool_table};
 pub use files::Inserted;
 use files::{Below, Noted};
 
-/// A definition, and everything that its text depends on beside the program.
+/// A post definition with everything that its output depends on besides the program.
 #[derive(Debug)]
 pub struct PostProcessor {
     post: Post,
-    /// Where the definition's own files are; `None` of a built-in post.
+    /// Directory of the definition's files; `None` for a built-in post.
     directory: Option<Utf8PathBuf>,
-    /// The definition's text, and the hashes of files that it inserts.
+    /// Text of the definition, followed by the hashes of the files that it inserts.
     definition: Vec<u8>,
-    /// Where the definition is, unless it is built in.
+    /// File of the definition; `None` for a built-in post.
     file: Option<Utf8PathBuf>,
-    /// The files that it inserts, relative to its directory.
+    /// Files that it inserts, relative to its directory.
     insertions: Vec<Utf8PathBuf>,
     tools: ToolTable,
     macros: Vec<PostMacro>,
     cycles: bool,
-    /// mm/min for cuts of which a program says none.
+    /// Feed in mm/min for cuts without a feed of their own.
     feed: Option<f64>,
     charset: Charset,
     most_bytes: usize,
@@ -51,11 +51,11 @@ pub struct PostProcessor {
     manner: Manner,
     machine: Option<Machine>,
     system: Arc<dyn System>,
-    /// The definition is a stranger's.
+    /// Whether commands are refused because the definition is untrusted.
     runs_no_command: bool,
 }
 
-/// What the configuration says about how programs are written.
+/// Configured details of how programs are written.
 #[derive(Clone, Copy, Debug)]
 struct Manner {
     unchecked: bool,
@@ -65,28 +65,28 @@ struct Manner {
     milliseconds: bool,
 }
 
-/// What the command line says about a post's output.
+/// Command-line options of a post-processor.
 #[derive(Clone, Debug, Default)]
 pub struct PostArguments {
-    /// The date that the post may write.
+    /// Date that the post-processor may write.
     pub date: Option<Box<str>>,
-    /// In which dialect the output is, where the post does not say it.
+    /// Dialect of the output, if the definition does not name it.
     pub dialect: Option<Box<str>>,
-    /// The post's own command is run.
+    /// Whether to run the command that the post-processor requests.
     pub run_post_build: bool,
 }
 
-/// So many files of a definition are looked at before a program is written.
+/// Upper bound on the inserted files of a definition that are read in advance.
 const MOST_INSERTIONS: usize = 1000;
 
-/// The post that writes what book: program/gcode says.
+/// The name that stands for native programs. (book: program/gcode)
 const NATIVE: &str = "native";
 
 impl PostProcessor {
-    /// The post that `--post` or else the configuration names; `None`: programs are written natively.
+    /// The post-processor named by `--post`, or else by the configuration; `None` means native programs.
     ///
     /// # Errors
-    /// There is no such post, or it is broken.
+    /// If there is no such post, or its definition has errors.
     pub fn of_run(
         context: &Workspace,
         named: Option<&str>,
@@ -122,15 +122,16 @@ impl PostProcessor {
             (pathbuild_post::load(name)?, text.as_bytes().to_vec(), None)
         };
         let macros = context.settings.tables.macros.value.iter();
-        let macros: Vec<_> =
-            macros.map(|it| PostMacro { name: it.name.clone(), value: it.value.clone() }).collect();
+        let macros: Vec<_> = macros
+            .map(|configured| PostMacro { name: configured.name.clone(), value: configured.value.clone() })
+            .collect();
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
         let system = &*context.system;
         let insertions: Vec<Utf8PathBuf> = post.insertions(&macros).into_iter().collect();
         let inserted = |directory| {
             let files = Below { directory, system };
             let hash = |file: &Utf8PathBuf| blake3::hash(&files.read(file).unwrap_or_default());
-            // What cannot be read is told when a program is written; so is that it is too much.
+            // Files that are unreadable or too many are reported when a program is written.
             insertions.iter().take(MOST_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
         };
         let inserted = directory.as_deref().map(inserted).unwrap_or_default();
@@ -163,12 +164,12 @@ impl PostProcessor {
         })
     }
 
-    /// The definition's file, unless the post is built in.
+    /// File of the definition; `None` if the post is built in.
     pub fn file(&self) -> Option<&Utf8Path> {
         self.file.as_deref()
     }
 
-    /// The files that it is read from: the definition's own, and those that it inserts whatever the program.
+    /// The files that the post-processor is read from: its definition, and the files that it inserts into every program.
     pub fn sources(&self) -> Vec<Utf8PathBuf> {
         let Some(file) = &self.file else { return Vec::new() };
         let directory = file.parent().unwrap_or(Utf8Path::new(""));
@@ -176,17 +177,17 @@ impl PostProcessor {
         std::iter::once(file.clone()).chain(inserted).collect()
     }
 
-    /// The extension of the files that it writes, without point.
+    /// Extension of its output files, without the dot.
     pub fn extension(&self) -> &str {
         self.post.extension()
     }
 
-    /// The dialect in which its output is read back, if that is known.
+    /// Dialect for reading its output back, if known.
     pub fn reader(&self) -> Option<Dialect> {
         self.post.reader(self.wishes.dialect.as_deref())
     }
 
-    /// Whether the command that the post names is run.
+    /// Whether the command that it requests is run.
     pub fn runs_post_build(&self) -> bool {
         self.wishes.run_post_build
     }
@@ -196,12 +197,12 @@ impl PostProcessor {
         !self.manner.manual_spindle
     }
 
-    /// The tools of the configuration.
+    /// The configured tools.
     pub fn tools(&self) -> &ToolTable {
         &self.tools
     }
 
-    /// The configured feed in mm/min, for cuts of which a program says none.
+    /// The configured feed in mm/min for cuts without a feed of their own.
     pub fn feed(&self) -> Option<f64> {
         self.feed
     }
@@ -211,10 +212,11 @@ impl PostProcessor {
         self.cycles
     }
 
-    /// Writes a program that will be in this file. Files that it inserts, or could not, are added to `inserted`, also where it fails.
+    /// Writes a program to be stored in the file `output`. Adds the files that it inserted or failed to insert to `inserted`, even if
+    /// writing fails.
     ///
     /// # Errors
-    /// What the post cannot say, or says wrongly.
+    /// What the post-processor cannot express, or writes incorrectly.
     pub fn write(
         &self,
         job: &Job,
@@ -224,7 +226,7 @@ impl PostProcessor {
         self.write_with(job, output, self.manner.unchecked, inserted)
     }
 
-    /// The words that it writes, read in a dialect: those of programs that show everything a post may have words for.
+    /// The words that it writes in a dialect, collected from sample programs that use every feature.
     pub fn words(&self, dialect: Dialect) -> PostWords {
         let written = samples().into_iter().filter_map(|job| {
             let output = self.write_with(&job, None, true, &mut Vec::new());
@@ -276,7 +278,7 @@ impl PostProcessor {
         }
     }
 
-    /// Everything that a program's text depends on beside drawings and general options, for its provenance.
+    /// Everything that a program's text depends on besides drawings and general options, for its provenance.
     pub fn identity(&self) -> Vec<u8> {
         let Self { definition, tools, macros, wishes, cycles, manner, .. } = self;
         let mut identity = definition.clone();
@@ -287,8 +289,8 @@ impl PostProcessor {
     }
 }
 
-/// The words that programs of a dialect may have: those of the post that wrote them, where it is named, else of the configuration's post, if
-/// it writes this dialect, else of the post that comes with pathbuild.
+/// The words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else of the configured one, if
+/// it writes this dialect; else of the built-in post for the dialect.
 pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: Dialect) -> PostWords {
     if let Some(poster) = wrote {
         return poster.words(dialect);
@@ -299,12 +301,12 @@ pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: 
     poster.map_or_else(|| PostWords::native(dialect), |poster| poster.words(dialect))
 }
 
-/// Whether a post's name is a file's: it has an extension or a directory.
+/// Whether the name of a post is a file name: it has an extension or a directory.
 pub(crate) fn is_file_name(name: &str) -> bool {
     name.contains(std::path::is_separator) || Utf8Path::new(name).extension().is_some()
 }
 
-/// A name as a person in the working directory would write it.
+/// A file name relative to the working directory, if it is inside.
 fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
     file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
 }

@@ -1,4 +1,4 @@
-//! The tools of the configuration, as posts take them.
+//! Translates the configured tools for post-processors.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
@@ -9,7 +9,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::config::types;
 use crate::workspace::Workspace;
 
-/// The tools of `[tool.NAME]`. Their patterns compile: they were read without faults.
+/// The tools of `[tool.NAME]`. Their patterns compile, because the configuration has no errors.
 pub fn tool_table(context: &Workspace) -> ToolTable {
     ToolTable { entries: context.settings.tables.tools.value.iter().map(entry).collect() }
 }
@@ -34,10 +34,10 @@ fn entry(tool: &types::Tool) -> ToolEntry {
     }
 }
 
-/// Gives the operations of a program that was read what the table says of their tools' numbers, where the program itself says nothing.
-/// Numbers that are not in it are told. While it probes the spindle stands; a program that cuts nothing needs none.
+/// Completes the operations of a program that was read with the table's data about their tools, unless the program itself has them. Warns
+/// about unknown tool numbers. The spindle stands still while probing, and in a program that cuts nothing.
 pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
-    let (mut unknown, mut told) = (Vec::new(), FxHashSet::default());
+    let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut known: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
     for entry in &table.entries {
         if let Some(index) = entry.index {
@@ -51,7 +51,7 @@ pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
         }
         let index = operation.tool.index;
         let Some(entry) = known.get(&index) else {
-            if told.insert(index) {
+            if reported.insert(index) {
                 unknown.push(index);
             }
             continue;

@@ -1,4 +1,4 @@
-//! What changed on disk, in batches: events are gathered until nothing has come for a while, and files that a CAD is still writing are waited for.
+//! Collects changes on disk in batches: events are debounced, and files that a CAD program is still writing are waited for.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -19,90 +19,90 @@ use crate::session::Session;
 pub(super) struct Watcher {
     signals: Receiver<Signal>,
     bell: Bell,
-    /// Kept, since nothing is watched once it is dropped.
+    /// Kept alive, because dropping it ends the watch.
     _source: Box<dyn notify::Watcher>,
     debounce: Duration,
-    /// The configuration, and what belongs to it, as events name them.
+    /// The configuration and the files of the post-processor, as named in events.
     configuration: BTreeSet<Utf8PathBuf>,
     places: Places,
     system: Arc<dyn System>,
-    /// What came while a batch was worked on.
+    /// Changes that arrived while a batch was processed.
     news: Changes,
-    /// When that has come to rest, if nothing more comes.
+    /// When these changes are due, if no more arrive.
     due: Instant,
-    /// Whether somebody rang and was not heard yet.
+    /// Whether a wake-up was requested and not yet handled.
     is_rung: bool,
-    /// Whether it is to end.
+    /// Whether watching is to end.
     is_over: bool,
-    /// Files without their end, and when they are taken as they are.
+    /// Drawings that are incomplete, each with the time after which it is read as it is.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
 
-/// What comes from other threads.
+/// Messages from other threads.
 enum Signal {
     Changed(notify::Result<Event>),
     Rung,
     Over,
 }
 
-/// Wakes the thread that watches. Any thread may have one.
+/// Wakes the watching thread. May be cloned and used by any thread.
 #[derive(Clone, Debug)]
 pub struct Bell(Sender<Signal>);
 
 impl Bell {
-    /// Makes [`Listener::rung`](super::Listener::rung) be called as soon as the session has time. Without effect once watching has ended.
+    /// Requests a call of [`Listener::rung`](super::Listener::rung) as soon as the session is idle. Has no effect once watching has ended.
     pub fn ring(&self) {
         _ = self.0.send(Signal::Rung);
     }
 
-    /// Ends watching as soon as the work in hand is done.
+    /// Ends watching as soon as the current work is done.
     pub fn end(&self) {
         _ = self.0.send(Signal::Over);
     }
 }
 
-/// What came of waiting.
+/// The outcome of waiting.
 pub(super) enum Batch {
-    /// Something changed.
+    /// Files have changed.
     Changes(Changes),
-    /// Everything has to begin anew.
+    /// Everything must be restarted.
     Anew(Anew),
-    /// Somebody rang.
+    /// A wake-up was requested through the `Bell`.
     Rung,
-    /// Nothing more will come.
+    /// Watching is to end.
     Over,
 }
 
-/// Because of what everything has to begin anew.
+/// Why everything must be restarted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Anew {
-    /// A directory that is watched, or leads to one, came, went or is another one.
+    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced.
     Directories,
-    /// The configuration, or what belongs to it.
+    /// The configuration or a file of the post-processor changed.
     Configuration,
 }
 
-/// What changed: names that were written, made, renamed or removed, normalised.
+/// Changed paths: normalized names of files and directories that were written, created, renamed or removed.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
     pub(super) paths: BTreeSet<Utf8PathBuf>,
-    /// Whether more may have changed than is said.
+    /// Whether events were lost, so that more may have changed.
     pub(super) is_incomplete: bool,
-    /// Whether everything has to begin anew.
+    /// Why everything must be restarted, if it must.
     anew: Option<Anew>,
 }
 
-/// How often is looked on network drives.
+/// Interval at which network drives are polled.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// How long a drawing without its end is waited for after its last change: it may be that its program never writes one.
+/// How long to wait for an incomplete drawing after its last change. Some programs never write the end marker.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// How often unfinished drawings are looked at.
+/// Interval at which incomplete drawings are checked.
 const GLANCE: Duration = Duration::from_millis(50);
 
 impl Watcher {
-    /// Begins to watch. `post`: the files that a post is read from.
+    /// Starts watching. `post` lists the files that the post-processor is read from.
     pub(super) fn new(
         session: &Session<'_>,
         request: &Request<'_>,
@@ -138,12 +138,12 @@ impl Watcher {
         })
     }
 
-    /// What wakes it.
+    /// A handle that wakes this watcher.
     pub(super) fn bell(&self) -> Bell {
         self.bell.clone()
     }
 
-    /// Waits for changes. What is due goes before who rings: a page may ring without end.
+    /// Waits for changes. Due changes take precedence over wake-ups, which a page may request without end.
     pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
         loop {
             self.look(library.session());
@@ -167,7 +167,7 @@ impl Watcher {
         }
     }
 
-    /// How long it is until something is due, if nothing more comes.
+    /// Time until something is due, if no more events arrive.
     fn patience(&self, library: &Library<'_>) -> Duration {
         if self.news.is_empty() && self.unfinished.is_empty() && !library.is_behind() {
             return Duration::MAX;
@@ -175,7 +175,7 @@ impl Watcher {
         self.due.saturating_duration_since(Instant::now())
     }
 
-    /// What has come to rest, but for drawings that are being written, which are looked at again soon.
+    /// Takes the changes that are due, except for incomplete drawings, which are checked again soon.
     fn take_due(&mut self, library: &Library<'_>) -> Option<Batch> {
         let mut changes = std::mem::take(&mut self.news);
         if let Some(anew) = changes.anew {
@@ -186,7 +186,7 @@ impl Watcher {
         (!changes.is_empty() || library.is_behind()).then_some(Batch::Changes(changes))
     }
 
-    /// Whether drawings changed since the last batch was given out, or it is to end.
+    /// Whether drawings have changed since the last batch, or watching is to end.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
         self.look(session);
         let news = &self.news;
@@ -194,18 +194,18 @@ impl Watcher {
         self.is_over || news.is_incomplete || news.anew.is_some() || has_drawings
     }
 
-    /// Whether it is to end.
+    /// Whether watching is to end.
     pub(super) fn is_over(&mut self, session: &Session<'_>) -> bool {
         self.look(session);
         self.is_over
     }
 
-    /// Whether somebody rang since this was asked last.
+    /// Whether a wake-up was requested since the last call.
     pub(super) fn has_been_rung(&mut self) -> bool {
         std::mem::take(&mut self.is_rung)
     }
 
-    /// Takes in what has come without waiting for more.
+    /// Processes pending signals without waiting.
     fn look(&mut self, session: &Session<'_>) {
         while let Ok(signal) = self.signals.try_recv() {
             self.add(signal, session);
@@ -224,7 +224,7 @@ impl Watcher {
             Signal::Rung => self.is_rung = true,
             Signal::Over => self.is_over = true,
             Signal::Changed(Ok(event)) if !event.need_rescan() => self.add_event(event, session),
-            // Some were lost.
+            // Events were lost.
             Signal::Changed(_) => {
                 self.news.is_incomplete = true;
                 self.rest();
@@ -232,18 +232,18 @@ impl Watcher {
         }
     }
 
-    /// From now on nothing may come for a while before what came is due.
+    /// Restarts the debounce interval.
     fn rest(&mut self) {
         self.due = Instant::now() + self.debounce;
     }
 
     fn add_event(&mut self, event: Event, session: &Session<'_>) {
-        // Whoever reads tells nothing.
-        let tells = match event.kind {
+        // Ignore read accesses: they do not change the file.
+        let is_change = match event.kind {
             EventKind::Access(kind) => kind == AccessKind::Close(AccessMode::Write),
             _ => true,
         };
-        for path in event.paths.into_iter().filter(|_| tells) {
+        for path in event.paths.into_iter().filter(|_| is_change) {
             if let Ok(path) = Utf8PathBuf::from_path_buf(path) {
                 self.add_path(event.kind, &as_told(session, &path));
             }
@@ -266,7 +266,7 @@ impl Watcher {
         }
     }
 
-    /// Keeps back drawings that are being written, and gives out those that were waited for.
+    /// Holds back incomplete drawings, and releases those that are complete or have been waited for long enough.
     fn hold_back(&mut self, changes: &mut Changes) {
         let now = Instant::now();
         for path in std::mem::take(&mut changes.paths) {
@@ -290,7 +290,7 @@ impl Changes {
     }
 }
 
-/// Whether a name can change a result: that of a drawing, of what says which drawings count, or of what may be a directory of them.
+/// Whether a change of this path can affect results: drawings, configurations, ignore files, and possible directories of drawings.
 fn matters(path: &Utf8Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     match path.extension() {
@@ -301,10 +301,10 @@ fn matters(path: &Utf8Path) -> bool {
     }
 }
 
-/// Where the end of a drawing says so.
+/// Number of bytes at the end of a drawing that contain its end marker.
 const TAIL: usize = 256;
 
-/// Whether a drawing is there and does not end as drawings do.
+/// Whether a drawing exists but lacks the end marker.
 fn is_unfinished(system: &dyn System, path: &Utf8Path) -> bool {
     let is_drawing = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
     is_drawing && system.tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))

@@ -1,4 +1,4 @@
-//! The drawings that are watched, with what is known of each.
+//! The watched drawings with their results.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -14,55 +14,55 @@ use crate::Inputs;
 use crate::check::check_drawings;
 use crate::session::{Coverage, DrawingResult, Pair, Session, is_passing, q_project_pairs};
 
-/// The drawings.
+/// The watched drawings with their results.
 pub(super) struct Library<'a> {
     session: Session<'a>,
     inputs: &'a Inputs,
     coverage: Coverage,
     drawings: BTreeMap<Utf8PathBuf, DrawingResult>,
-    /// What is wrong with arguments and directories.
+    /// Diagnostics of arguments and directories.
     problems: Vec<Diagnostic>,
     q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
-    /// The drawings that have a Q-project, each with it; `None` until somebody asks.
+    /// Each drawing that has a Q-project, paired with it; computed on demand.
     pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
     reverse: Reverse,
     names: NameSnapshots,
-    /// What is still to be asked, in order of name.
+    /// Drawings that are still to be checked, sorted by path.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
-    /// The files because of which.
+    /// The changed files that caused this backlog.
     late: BTreeSet<Utf8PathBuf>,
 }
 
-/// What came of a batch of changes.
+/// The outcome of a batch of changes.
 #[derive(Default)]
 pub(super) struct Batch {
-    /// The files that changed.
+    /// Files that changed.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
-    /// The drawings that were asked again.
+    /// Drawings that were checked.
     pub(super) asked: Vec<SourceFile>,
-    /// How many are still to be asked, because there is news.
+    /// Number of drawings still to be checked, because more changes arrived.
     pub(super) open: usize,
-    /// The drawings that are no longer there.
+    /// Drawings that no longer exist.
     pub(super) removed: BTreeSet<Utf8PathBuf>,
-    /// Drawings that are asked again though they did not change, and directories that can be listed again.
+    /// Unchanged drawings that are checked again, and directories that can be listed again.
     pub(super) tried_again: BTreeSet<Utf8PathBuf>,
-    /// What was found in them before.
+    /// Previous diagnostics of these drawings.
     pub(super) before: Vec<Diagnostic>,
-    /// What is found in them now.
+    /// Current diagnostics of these drawings.
     pub(super) now: Vec<Diagnostic>,
-    /// What is wrong with arguments and directories, where that is something else than before.
+    /// Diagnostics of arguments and directories, if they have changed.
     pub(super) problems: Option<Vec<Diagnostic>>,
 }
 
 impl Batch {
-    /// Whether there is anything to tell, whatever is still to be asked.
+    /// Whether there is anything to report besides the drawings still to be checked.
     pub(super) fn has_news(&self) -> bool {
         !self.removed.is_empty() || self.problems.is_some()
     }
 }
 
 impl<'a> Library<'a> {
-    /// Nothing is known yet.
+    /// Starts without any drawing.
     pub(super) fn new(session: Session<'a>, inputs: &'a Inputs) -> Self {
         Self {
             coverage: Coverage::new(session.workspace()),
@@ -89,24 +89,24 @@ impl<'a> Library<'a> {
         &mut self.session
     }
 
-    /// How many drawings and paths there are.
+    /// Numbers of drawings and paths.
     pub(super) fn counts(&self) -> (usize, usize) {
         (self.drawings.len(), self.drawings.values().map(|result| result.names.len()).sum())
     }
 
-    /// Finds and reads the drawings, all of which are to be asked; what is wrong with arguments and directories.
+    /// Finds and reads the drawings, and marks all of them to be checked. Returns diagnostics of arguments and directories.
     pub(super) fn find(&mut self) -> Batch {
-        let wanted = self.session.wanted(self.inputs);
-        let mut drawings = wanted.whole(&self.session);
-        drawings.extend(wanted.paths.iter().map(|path| path.file));
+        let selection = self.session.wanted(self.inputs);
+        let mut drawings = selection.whole(&self.session);
+        drawings.extend(selection.paths.iter().map(|path| path.file));
         self.session.read_ahead(&drawings);
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
-        self.problems.clone_from(&wanted.problems);
-        Batch { now: wanted.problems, ..Batch::default() }
+        self.problems.clone_from(&selection.problems);
+        Batch { now: selection.problems, ..Batch::default() }
     }
 
-    /// Takes over changes; what they concern is to be asked, portion by portion.
+    /// Applies changes to the database and marks the affected drawings to be checked.
     pub(super) fn take_over(&mut self, changes: &Changes) -> Batch {
         let mut update = Batch::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
@@ -134,8 +134,8 @@ impl<'a> Library<'a> {
         update
     }
 
-    /// Drawings in which something was found that may pass by itself are to be asked again, but for those that just were, and directories that
-    /// could not be listed are listed again. `further`: drawings of which a program was given up.
+    /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again.
+    /// `further` names drawings whose programs could not be written.
     pub(super) fn try_again(&mut self, further: &BTreeSet<Utf8PathBuf>, asked: &[SourceFile]) -> Batch {
         let (mut update, mut concerned) = (Batch::default(), HashSet::new());
         if self.problems.iter().any(is_passing) {
@@ -151,7 +151,7 @@ impl<'a> Library<'a> {
         concerned.extend(files.iter().flat_map(|path| self.reverse.of_file(db.file(path))).chain(unsure));
         concerned.retain(|drawing| !asked.contains(drawing));
         if !concerned.is_empty() {
-            // What is said of a directory is that it could not be listed.
+            // A diagnostic about a directory says that it could not be listed.
             for path in &files {
                 self.session.touch_file(path);
                 let directory = as_listed(path);
@@ -170,17 +170,17 @@ impl<'a> Library<'a> {
         update
     }
 
-    /// Whether something is still to be asked.
+    /// Whether drawings are still to be checked.
     pub(super) fn is_behind(&self) -> bool {
         !self.open.is_empty()
     }
 
-    /// The drawings that are still to be asked.
+    /// The drawings still to be checked.
     pub(super) fn open(&self) -> impl Iterator<Item = SourceFile> {
         self.open.values().copied()
     }
 
-    /// Asks the next of the drawings that are to be asked, so many at most; which they were.
+    /// Checks up to `most` of the drawings to be checked, and returns them.
     pub(super) fn ask_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
             std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(most).collect();
@@ -188,7 +188,7 @@ impl<'a> Library<'a> {
         portion
     }
 
-    /// Leaves what is still to be asked for the next batch of changes.
+    /// Leaves the remaining drawings to the next batch.
     pub(super) fn leave(&mut self, update: &mut Batch) {
         update.open = self.open.len();
         if self.is_behind() {
@@ -196,7 +196,7 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// The files that changes are about: those that were named, and those in directories that were.
+    /// The files affected by the changes: changed files, and the files in changed directories.
     fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
         let db = self.session.db();
         let mut files: BTreeSet<Utf8PathBuf> = BTreeSet::new();
@@ -218,8 +218,8 @@ impl<'a> Library<'a> {
         files
     }
 
-    /// Tells the database of the directories in which files came or went, and collects the drawings that looked there for what they may hold;
-    /// whether any came or went.
+    /// Updates the names of directories in which files were added or removed, and collects the drawings whose lookups that may affect.
+    /// Returns whether any names changed.
     fn take_over_names(
         &mut self,
         changes: &Changes,
@@ -236,7 +236,7 @@ impl<'a> Library<'a> {
                 directories.insert(directory.to_owned());
             }
         }
-        // Of the names in a directory that came or went as a whole, or of which changes were lost, none is told.
+        // If a directory appeared or disappeared as a whole, or events were lost, the individual names are unknown.
         let is_doubtful = |directory: &Utf8PathBuf| {
             changes.is_incomplete || changes.paths.iter().any(|path| directory.starts_with(path))
         };
@@ -247,7 +247,7 @@ impl<'a> Library<'a> {
         have_changed
     }
 
-    /// Lists a directory again and collects the drawings that looked there for what came or went; whether anything did.
+    /// Lists a directory again and collects the drawings whose lookups are affected. Returns whether any names changed.
     fn renew_names(&mut self, directory: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
         let changed = self.names.renew(&mut self.session, directory);
         let names = changed.iter().map(|name| &**name);
@@ -255,26 +255,30 @@ impl<'a> Library<'a> {
         !changed.is_empty()
     }
 
-    /// Finds the drawings anew: those that came are concerned, those that went are forgotten.
+    /// Searches for drawings again: new ones are to be checked, missing ones are dropped.
     fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
-        let wanted = self.session.wanted(self.inputs);
+        let selection = self.session.wanted(self.inputs);
         let db = self.session.db();
-        let named = wanted.named.iter().copied().chain(wanted.paths.iter().map(|path| path.file));
+        let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
         let named = named.map(|file| file.path(db));
-        let there: BTreeSet<&Utf8PathBuf> = wanted.drawings.iter().chain(named).collect();
-        for drawing in &there {
+        let existing: BTreeSet<&Utf8PathBuf> = selection.drawings.iter().chain(named).collect();
+        for drawing in &existing {
             if !self.drawings.contains_key(*drawing) {
                 concerned.insert(db.file(drawing));
                 update.changed.insert((*drawing).clone());
             }
         }
-        // What lies in a directory that cannot be listed is not known: it may be there still.
-        let unlisted: Vec<&Utf8PathBuf> =
-            wanted.problems.iter().filter(|it| is_passing(it)).filter_map(|it| it.file.as_ref()).collect();
+        // Drawings in an unreadable directory may still exist.
+        let unlisted: Vec<&Utf8PathBuf> = selection
+            .problems
+            .iter()
+            .filter(|problem| is_passing(problem))
+            .filter_map(|problem| problem.file.as_ref())
+            .collect();
         let is_unsure =
             |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(as_listed(place)));
         let is_gone =
-            |drawing: &Utf8PathBuf, _: &mut DrawingResult| !there.contains(drawing) && !is_unsure(drawing);
+            |drawing: &Utf8PathBuf, _: &mut DrawingResult| !existing.contains(drawing) && !is_unsure(drawing);
         let gone: Vec<(Utf8PathBuf, DrawingResult)> = self.drawings.extract_if(.., is_gone).collect();
         for (drawing, result) in gone {
             self.reverse.remove(db.file(&drawing));
@@ -283,14 +287,14 @@ impl<'a> Library<'a> {
             update.changed.insert(drawing.clone());
             update.removed.insert(drawing);
         }
-        if self.problems != wanted.problems {
-            update.now.extend_from_slice(&wanted.problems);
-            update.problems = Some(wanted.problems.clone());
-            update.before.extend(std::mem::replace(&mut self.problems, wanted.problems));
+        if self.problems != selection.problems {
+            update.now.extend_from_slice(&selection.problems);
+            update.problems = Some(selection.problems.clone());
+            update.before.extend(std::mem::replace(&mut self.problems, selection.problems));
         }
     }
 
-    /// Checks drawings, and remembers what they were made from.
+    /// Checks drawings and records their inputs.
     fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Batch) {
         let results = self.session.settled(|session| check_drawings(session, &asked, false));
         for (file, (result, traces)) in asked.iter().zip(results) {
@@ -309,7 +313,7 @@ impl<'a> Library<'a> {
         update.asked.extend(asked);
     }
 
-    /// Holds those Q-projects against their drawings of which either was asked again.
+    /// Compares the Q-projects and drawings of which either was checked.
     fn ask_q_projects(&mut self, asked: &[SourceFile], update: &mut Batch) {
         if self.pairs.is_none() {
             self.find_pairs(update);
@@ -327,7 +331,7 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// Finds which drawings have a Q-project: among ten thousand that takes as long as an edit.
+    /// Finds the drawings that have a Q-project. Among ten thousand drawings this takes as long as an edit.
     fn find_pairs(&mut self, update: &mut Batch) {
         let pairs = q_project_pairs(self.drawings.keys()).into_iter();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.map(|pair| pair.map(Utf8PathBuf::clone)).collect();
@@ -337,17 +341,17 @@ impl<'a> Library<'a> {
     }
 }
 
-/// A directory of which something is said: the working directory is shown as `.`.
+/// Directory of a diagnostic: the working directory is displayed as `.`.
 fn as_listed(directory: &Utf8Path) -> &Utf8Path {
     if directory == "." { Utf8Path::new("") } else { directory }
 }
 
-/// The directories in which paths were looked for.
+/// The directories in which lookups were made.
 fn searched(traces: &[Trace]) -> impl Iterator<Item = &Utf8PathBuf> {
-    traces.iter().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories)
+    traces.iter().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories)
 }
 
-/// The directory of a file; the working directory has no name.
+/// Directory of a file; the working directory is the empty path.
 fn parent(path: &Utf8Path) -> &Utf8Path {
     path.parent().unwrap_or(Utf8Path::new(""))
 }

@@ -1,8 +1,8 @@
-//! Watching: keeps checking, and writing programs, as drawings change. (book: reference/commands, `watch`)
+//! `watch`: checks drawings and writes programs whenever drawings change. (book: reference/commands, `watch`)
 //!
-//! One loop: wait for changes, let them come to rest, take them over into the database as one revision, and ask again only those drawings that
-//! the reverse index names. What is told carries the number of that revision. Those drawings are asked portion by portion: when more changes come
-//! meanwhile, what is still open waits for them and is asked together with what they concern.
+//! A single loop waits for changes, debounces them, applies them to the database as one revision, and checks only the drawings that the
+//! reverse index names. Reports carry the number of the revision. Drawings are checked in portions: if more changes arrive in the meantime,
+//! the remaining drawings are checked together with those that the new changes affect.
 
 mod changes;
 mod library;
@@ -29,99 +29,98 @@ use changes::{Anew, Batch, Watcher};
 use library::Library;
 use writing::Writer;
 
-/// What is to be watched.
+/// A request to watch drawings.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// Drawings, paths and directories; without any, the library.
+    /// The drawings, paths and directories; if empty, the library.
     pub inputs: &'a Inputs,
-    /// Whether the programs of `[emit] targets` are written.
+    /// Whether to write the programs of `[emit] targets`.
     pub emits: bool,
-    /// Whether the listener lists paths, for which it needs the post.
+    /// Whether the listener lists paths, for which it needs the post-processor.
     pub lists: bool,
-    /// Whether it is looked for changes from time to time, because the system tells none.
+    /// Whether to poll for changes, on systems that send no events.
     pub polls: bool,
 }
 
-/// Hears what watching finds. The session is lent to who shows more than findings.
+/// Receives events from the watcher. Callbacks get the session so that they can query more than the findings.
 pub trait Listener {
-    /// By what it can be woken from other threads.
+    /// Hands over the handle that wakes the watcher from other threads.
     fn bell(&self, _: Bell) {}
-    /// Drawings were found and read, and are to be checked; what is wrong with arguments and directories.
+    /// Drawings were found and read, and will be checked. The diagnostics are those of arguments and directories.
     fn found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
-    /// Drawings were checked, and their programs written where that is wanted, through that post.
+    /// Drawings were checked, and on request their programs were written through this post-processor.
     fn checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
-    /// Somebody rang.
+    /// A wake-up was requested through the [`Bell`].
     fn rung(&self, _: &mut Session<'_>) {}
-    /// Everything was checked for the first time.
+    /// All drawings were checked for the first time.
     fn begun(&self, _: &Beginning) {}
-    /// A batch of changes was worked on.
+    /// A batch of changes was processed.
     fn updated(&self, _: &Update) {}
     /// Programs were written.
     fn written(&self, _: &[Delivered]) {}
-    /// Programs cannot be written because nobody gives options that they need.
+    /// Programs cannot be written because options are missing; the text says which.
     fn refused(&self, _: &str) {}
 }
 
-/// How things stand at the beginning.
+/// The result of the first check.
 #[derive(Debug)]
 pub struct Beginning {
-    /// How many drawings there are.
+    /// Number of drawings.
     pub drawings: usize,
-    /// How many paths are in them.
+    /// Number of their paths.
     pub paths: usize,
-    /// Everything that was found.
+    /// All diagnostics.
     pub diagnostics: Vec<Diagnostic>,
-    /// How long it took.
+    /// Duration of the check.
     pub time: Duration,
 }
 
-/// What came of a batch of changes.
+/// The result of a batch of changes.
 #[derive(Clone, Debug)]
 pub struct Update {
-    /// The number of the batch, from 1.
+    /// Number of the batch, counted from 1.
     pub revision: u64,
-    /// The files that changed.
+    /// Files that changed.
     pub changed: BTreeSet<Utf8PathBuf>,
-    /// Those of them that are no longer there.
+    /// Those of them that no longer exist.
     pub removed: BTreeSet<Utf8PathBuf>,
-    /// What is wrong with arguments and directories, where that is something else than before; it is a part of `now` too.
+    /// Diagnostics of arguments and directories, if they have changed; they are part of `now` as well.
     pub problems: Option<Vec<Diagnostic>>,
-    /// Drawings that did not change, and were asked again because what was found in them may pass by itself; directories that can be listed
-    /// again.
+    /// Unchanged drawings that were checked again because of transient diagnostics, and directories that can be listed again.
     pub tried_again: BTreeSet<Utf8PathBuf>,
-    /// How many drawings were checked.
+    /// Number of drawings that were checked.
     pub checked: usize,
-    /// How many are still to be checked, because more changes came.
+    /// Number of drawings still to be checked, because more changes arrived.
     pub open: usize,
-    /// What was found in these drawings before.
+    /// Previous diagnostics of these drawings.
     pub before: Vec<Diagnostic>,
-    /// What is found in them now.
+    /// Current diagnostics of these drawings.
     pub now: Vec<Diagnostic>,
-    /// How long it took.
+    /// Duration of the batch.
     pub time: Duration,
 }
 
 /// Why watching ended.
 #[derive(Debug)]
 pub enum Ended {
-    /// No more changes will come, or somebody ended it.
+    /// No more changes will arrive, or the end was requested.
     Over,
-    /// The configuration, or a file of the post that it names, changed: everything has to begin anew.
+    /// The configuration, or a file of the configured post-processor, changed: everything must be restarted.
     ConfigurationChanged,
-    /// A directory that is watched, or leads to one, came, went or is another one: the system watches the one before, or none.
+    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced: the system still watches the old one.
     DirectoriesChanged,
-    /// Nothing is named, and the configuration has no library.
+    /// There are no arguments, and the configuration names no library.
     NothingNamed,
-    /// Programs are to be written, and the configuration names no targets.
+    /// Programs are to be written, but the configuration names no targets.
     NoTargets,
-    /// What is wrong with the post.
+    /// The post-processor has errors.
     BadPost(Vec<Diagnostic>),
-    /// The system does not tell changes.
+    /// The system does not report changes; the text says why.
     CannotWatch(String),
 }
 
 impl Request<'_> {
-    /// Watches until nothing more can come.
+    /// Watches until it is told to end, or until everything must be restarted.
     pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> Ended {
         let session = Session::traced(workspace);
         if self.inputs.inputs.is_empty() && !session.has_library() {
@@ -134,7 +133,7 @@ impl Request<'_> {
         if self.emits && workspace.settings.emit.targets.value.is_empty() {
             return Ended::NoTargets;
         }
-        // Before anything is read, so that no change is missed.
+        // Start before anything is read, so that no change is missed.
         match Watcher::new(&session, self, &writer.sources()) {
             Ok(watcher) => {
                 let library = Library::new(session, self.inputs);
@@ -145,7 +144,7 @@ impl Request<'_> {
     }
 }
 
-/// A library while it is watched.
+/// State of a watched library.
 struct Watching<'a> {
     listener: &'a dyn Listener,
     library: Library<'a>,
@@ -154,10 +153,10 @@ struct Watching<'a> {
     revision: u64,
 }
 
-/// So many drawings are asked at the beginning before somebody who rang is heard.
+/// Number of drawings checked between wake-ups at the beginning.
 const FIRST_PORTION: usize = 512;
 
-/// So many drawings are asked before it is looked whether there is news.
+/// Number of drawings checked between polls for new changes.
 const PORTION: usize = 64;
 
 impl Watching<'_> {
@@ -202,7 +201,7 @@ impl Watching<'_> {
         }
         self.revision += 1;
         let asked = self.work_on(found);
-        // It may take as long as it is allowed to: whoever changed something does not wait for it.
+        // This may take as long as the time limit allows, so it must not delay the results of the change itself.
         if !self.library.is_behind() && !self.watcher.has_news(self.library.session()) {
             let again = self.library.try_again(&self.writer.passing(), &asked);
             if self.library.is_behind() || again.has_news() {
@@ -211,7 +210,7 @@ impl Watching<'_> {
         }
     }
 
-    /// Asks what is open, writes its programs, and tells what came of it; which drawings were asked.
+    /// Checks the remaining drawings, writes their programs, and reports the outcome. Returns the checked drawings.
     fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
         let begun = Instant::now();
         found.before.extend(self.writer.release(self.library.session(), self.library.open(), &found.removed));
@@ -222,7 +221,7 @@ impl Watching<'_> {
             found.before.extend(writing.before);
             written.extend(writing.now);
             self.tell(&portion);
-            // What is still open may be something else by now.
+            // The remaining drawings may have changed in the meantime.
             if self.watcher.has_news(self.library.session()) {
                 break;
             }
@@ -246,7 +245,7 @@ impl Watching<'_> {
         asked
     }
 
-    /// Tells what was checked, and hears who rang meanwhile.
+    /// Reports checked drawings, and handles a pending wake-up.
     fn tell(&mut self, checked: &[SourceFile]) {
         let session = self.library.session_mut();
         self.listener.checked(session, checked, self.writer.poster());

@@ -1,5 +1,5 @@
-//! The directories that are watched, and those that lead to them. The system watches what is under a name, not the name: that a directory came,
-//! went or is another one is told by the directory above it alone.
+//! The watched directories, and the directories on the way to them. The system watches a directory itself, not its name: only events in the
+//! parent directory tell that it appeared, disappeared or was replaced.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -15,20 +15,20 @@ use crate::Input;
 use crate::config::clean;
 use crate::session::Session;
 
-/// Directories, as events name them.
+/// Directories, as named in events.
 pub(super) struct Places {
-    /// Those in which changes count, with all below or without.
+    /// Watched directories, with or without everything below them.
     wanted: BTreeMap<Utf8PathBuf, RecursiveMode>,
-    /// The same, each with how the session names it, which may begin with `..`.
+    /// The watched directories, each with its name in the session, which may begin with `..`.
     own_names: BTreeSet<[Utf8PathBuf; 2]>,
-    /// Those of which it counts that they come, go or are others: these, and those that lead to them.
+    /// Directories whose replacement matters: the watched ones, and those on the way to them.
     names: BTreeSet<Utf8PathBuf>,
-    /// Those that the system does not let anybody watch, since they cannot be listed.
+    /// Directories that the system refuses to watch because they cannot be listed.
     refused: BTreeSet<Utf8PathBuf>,
 }
 
 impl Places {
-    /// Those of what is watched. `post`: the files that a post is read from.
+    /// Collects the directories of a request. `post` lists the files that the post-processor is read from.
     pub(super) fn new(session: &Session<'_>, request: &Request<'_>, post: &[Utf8PathBuf]) -> Self {
         let (mut wanted, mut own_names) = (BTreeMap::new(), BTreeSet::new());
         for (directory, mode) in directories(session, request, post) {
@@ -40,17 +40,17 @@ impl Places {
             own_names.insert([told, session.normal(&directory)]);
         }
         let names = wanted.keys().flat_map(|directory| directory.ancestors());
-        // The working directory and the root are there as long as the program.
+        // The working directory and the root exist as long as the program runs.
         let names = names.filter(|name| name.parent().is_some()).map(Utf8Path::to_owned).collect();
         Self { wanted, own_names, names, refused: BTreeSet::new() }
     }
 
-    /// Begins to watch them.
+    /// Starts watching the directories.
     ///
     /// # Errors
-    /// Why the system does not, but for directories that cannot be listed.
+    /// Why the system refuses. Directories that cannot be listed are no error.
     pub(super) fn watch(&mut self, source: &mut dyn Watcher, system: &dyn System) -> notify::Result<()> {
-        // First, so that no directory comes unseen. Not all that lead somewhere may be listed.
+        // Watch the parents first, so that no new directory is missed. Some of them may not be listable.
         for way in self.names.iter().filter_map(|name| name.parent()).filter(|way| !is_root(way)) {
             _ = source.watch(spelt(way).as_std_path(), RecursiveMode::NonRecursive);
         }
@@ -63,12 +63,12 @@ impl Places {
         Ok(())
     }
 
-    /// Whether a change under a name counts: those that lead somewhere have other names too.
+    /// Whether a change of this path matters; directories on the way contain unrelated names as well.
     pub(super) fn regard(&self, path: &Utf8Path) -> bool {
         self.names.contains(path) || path.ancestors().skip(1).any(|directory| self.holds(directory, path))
     }
 
-    /// Whether a name is in a directory that is watched, or below it where all below is.
+    /// Whether the path is in a watched directory, or below one that is watched recursively.
     fn holds(&self, directory: &Utf8Path, path: &Utf8Path) -> bool {
         match self.wanted.get(directory) {
             Some(RecursiveMode::Recursive) => path != directory && path.starts_with(directory),
@@ -77,7 +77,7 @@ impl Places {
         }
     }
 
-    /// What the session calls what an event names. A drawing may have two names: as an argument, and where paths are looked for.
+    /// Names that the session uses for the path of an event. A drawing may have two names: as an argument, and in a search directory.
     pub(super) fn own_names(&self, path: &Utf8Path) -> Vec<Utf8PathBuf> {
         let pairs = self.own_names.iter().filter(|[told, _]| self.holds(told, path));
         let own = pairs.filter_map(|[told, own]| Some(join(own, path.strip_prefix(told).ok()?)));
@@ -85,8 +85,8 @@ impl Places {
         if own.is_empty() { vec![path.to_owned()] } else { own.into_iter().collect() }
     }
 
-    /// Whether after that event something else is to be watched than before it. Files that come and go are nothing of that kind, nor is what
-    /// changes in a directory: programs may be written into it.
+    /// Whether the set of directories to watch differs after this event. Ordinary files do not matter, nor do changes inside a directory:
+    /// programs may be written into it.
     pub(super) fn are_changed(&self, kind: EventKind, path: &Utf8Path, system: &dyn System) -> bool {
         if comes_or_goes(kind) {
             return self.names.contains(path);
@@ -94,13 +94,13 @@ impl Places {
         self.refused.contains(path) && system.list(path).is_ok()
     }
 
-    /// Whether all below a directory above is watched.
+    /// Whether a directory above is watched recursively.
     fn is_below(&self, path: &Utf8Path) -> bool {
         let is_whole = |above: &Utf8Path| self.wanted.get(above) == Some(&RecursiveMode::Recursive);
         path.ancestors().skip(1).any(is_whole)
     }
 
-    /// Watches a directory. Where one below cannot be listed, the others are watched one by one: it is told that it cannot be.
+    /// Watches a directory. If a subdirectory cannot be listed, watches the others one by one; the check reports the unreadable one.
     fn watch_one(
         &mut self,
         source: &mut dyn Watcher,
@@ -117,10 +117,10 @@ impl Places {
             self.refused.insert(directory.to_owned());
             return Ok(());
         };
-        // The directory itself is watched by now, since the system was asked for it before what lies below.
+        // The directory itself is watched already, since the system added it before its subdirectories.
         for name in listing.directories.iter().filter(|_| mode == RecursiveMode::Recursive) {
             let below = join(directory, name);
-            // A link may lead back.
+            // A symbolic link may lead back.
             if seen.insert(system.canonical(&below)) {
                 self.watch_one(source, system, &below, mode, seen)?;
             }
@@ -129,7 +129,7 @@ impl Places {
     }
 }
 
-/// The working directory has no name of its own.
+/// Spelling for system calls: the working directory is `.`.
 fn spelt(directory: &Utf8Path) -> &Utf8Path {
     if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
 }
@@ -142,7 +142,7 @@ fn comes_or_goes(kind: EventKind) -> bool {
     matches!(kind, EventKind::Create(_) | EventKind::Remove(_) | EventKind::Modify(ModifyKind::Name(_)))
 }
 
-/// Whether a directory cannot be listed, or is gone by now.
+/// Whether the error says that a directory cannot be listed or no longer exists.
 fn is_refusal(error: &notify::Error) -> bool {
     match &error.kind {
         ErrorKind::Io(reason) => {
@@ -153,8 +153,8 @@ fn is_refusal(error: &notify::Error) -> bool {
     }
 }
 
-/// The directories to watch: those that hold drawings, those that are searched, that of the configuration, and those of the post. Also those
-/// that are missing: they may come.
+/// The directories to watch: those of drawings, the search directories, and those of the configuration and the post-processor. Missing
+/// directories are included because they may appear later.
 fn directories(
     session: &Session<'_>,
     request: &Request<'_>,
@@ -176,7 +176,7 @@ fn directories(
             alone.extend(place.parent());
         }
     }
-    // There may be paths of those names.
+    // A name may be that of a path in the working directory.
     if request.inputs.iter().any(|input| matches!(input, Input::Name(_))) {
         alone.push(Utf8Path::new(""));
     }
@@ -185,7 +185,7 @@ fn directories(
     whole.chain(alone.into_iter().map(with(RecursiveMode::NonRecursive))).collect()
 }
 
-/// A path as events name it.
+/// The path as events name it.
 pub(super) fn as_told(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf {
     session.normal(&clean(&session.workspace().working_directory.join(path)))
 }

@@ -1,4 +1,4 @@
-//! Which drawings a change concerns: by the files that their results were made from, and by the names that were looked for in directories.
+//! Finds the drawings affected by a change: by the files that their results depend on, and by the names that they look up in directories.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -8,19 +8,19 @@ use pathbuild_path::PathName;
 
 use crate::session::Coverage;
 
-/// The reverse of all traces.
+/// The reverse index of all traces.
 #[derive(Default)]
 pub(super) struct Reverse {
     by_file: HashMap<SourceFile, HashSet<SourceFile>>,
     by_lookup: HashMap<Utf8PathBuf, BTreeMap<PathName, HashSet<SourceFile>>>,
-    /// What each drawing depends on, for taking it out again.
+    /// The traces of each drawing, needed to remove it.
     traces: HashMap<SourceFile, Vec<Trace>>,
 }
 
 impl Reverse {
-    /// Says what a drawing's results were made from, instead of what was said before.
+    /// Records the inputs of a drawing's results, replacing earlier ones.
     pub(super) fn set(&mut self, drawing: SourceFile, traces: Vec<Trace>) {
-        // Most edits change what is drawn, not what is embedded.
+        // Most edits change geometry but not what is embedded.
         if self.traces.get(&drawing) == Some(&traces) {
             return;
         }
@@ -37,7 +37,7 @@ impl Reverse {
         self.traces.insert(drawing, traces);
     }
 
-    /// Forgets a drawing.
+    /// Removes a drawing.
     pub(super) fn remove(&mut self, drawing: SourceFile) {
         for trace in self.traces.remove(&drawing).unwrap_or_default() {
             for file in &trace.files {
@@ -55,25 +55,25 @@ impl Reverse {
         }
     }
 
-    /// The drawings that depend on what is in a file.
+    /// The drawings that depend on the contents of a file.
     pub(super) fn of_file(&self, file: SourceFile) -> impl Iterator<Item = SourceFile> {
         self.by_file.get(&file).into_iter().flatten().copied()
     }
 
-    /// The drawings that depend on whether there are files of those names in a directory.
+    /// The drawings whose lookups in a directory may be answered by files of these names.
     pub(super) fn of_names<'n>(
         &self,
         directory: &Utf8Path,
         names: impl IntoIterator<Item = &'n str>,
         coverage: &Coverage,
     ) -> Vec<SourceFile> {
-        let held = coverage.of_files(names);
-        let sought = self.by_lookup.get(directory).into_iter().flatten();
-        let concerned = sought.filter(|(path, _)| held.may_hold(path.as_str()));
+        let covered = coverage.of_files(names);
+        let lookups = self.by_lookup.get(directory).into_iter().flatten();
+        let concerned = lookups.filter(|(path, _)| covered.may_hold(path.as_str()));
         concerned.flat_map(|(_, drawings)| drawings).copied().collect()
     }
 
-    /// Every file that anything depends on.
+    /// All files that any drawing depends on.
     pub(super) fn files(&self) -> impl Iterator<Item = SourceFile> {
         self.by_file.keys().copied()
     }
@@ -83,5 +83,5 @@ fn lookups(trace: &Trace) -> impl Iterator<Item = (&Utf8PathBuf, &PathName)> {
     trace
         .lookups
         .iter()
-        .flat_map(|sought| sought.directories.iter().map(|directory| (directory, &sought.name)))
+        .flat_map(|lookup| lookup.directories.iter().map(|directory| (directory, &lookup.name)))
 }

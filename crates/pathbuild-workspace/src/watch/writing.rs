@@ -1,4 +1,4 @@
-//! `watch --emit`: writes the programs of what was asked again.
+//! `watch --emit`: writes the programs of drawings that were checked.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -12,31 +12,31 @@ use crate::posting::{PostArguments, PostProcessor};
 use crate::session::{Session, is_passing};
 use crate::workspace::Workspace;
 
-/// Writes programs, if it is to.
+/// Writes programs, if `--emit` is given.
 pub(super) struct Writer<'a> {
     workspace: &'a Workspace,
     listener: &'a dyn Listener,
     is_on: bool,
     poster: Option<PostProcessor>,
     owners: Owners,
-    /// What was found when the programs of drawings were made and written, for those of which something was.
+    /// Diagnostics of writing the programs of each drawing, if there are any.
     found: BTreeMap<Utf8PathBuf, Vec<Diagnostic>>,
 }
 
-/// What came of writing the programs of some drawings.
+/// The outcome of writing the programs of some drawings.
 #[derive(Default)]
 pub(super) struct Writing {
-    /// What was found when they were written before.
+    /// Diagnostics of the previous time.
     pub(super) before: Vec<Diagnostic>,
-    /// What is found now.
+    /// Current diagnostics.
     pub(super) now: Vec<Diagnostic>,
 }
 
 impl<'a> Writer<'a> {
-    /// A writer, which writes if that is wanted.
+    /// Creates a writer, which is idle unless the request emits.
     ///
     /// # Errors
-    /// What is wrong with the post that the configuration names.
+    /// Errors of the configured post-processor.
     pub(super) fn new(
         workspace: &'a Workspace,
         listener: &'a dyn Listener,
@@ -49,12 +49,12 @@ impl<'a> Writer<'a> {
         Ok(Self { workspace, listener, is_on: request.emits, poster, owners, found })
     }
 
-    /// The post that programs are written through; `None`: natively, or nobody asks.
+    /// The post-processor to write programs through; `None` for native programs, or if it is not needed.
     pub(super) fn poster(&self) -> Option<&PostProcessor> {
         self.poster.as_ref()
     }
 
-    /// The drawings with paths that are written.
+    /// The drawings with paths that are targets.
     pub(super) fn written(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
         let mut configured = Configured::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {
@@ -63,20 +63,21 @@ impl<'a> Writer<'a> {
         if self.is_on { files.iter().filter(|file| is_written(file)).copied().collect() } else { Vec::new() }
     }
 
-    /// The files that the post is read from.
+    /// The files that the post-processor is read from.
     pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
         self.poster.as_ref().map(PostProcessor::sources).unwrap_or_default()
     }
 
-    /// The drawings in whose programs something was found that may pass by itself, or that could not be written: nobody tells when they can be.
+    /// Drawings whose programs have transient diagnostics or could not be written. No event tells when that changes, so they are tried
+    /// again.
     pub(super) fn passing(&self) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_passing(found) || found.code() == Code::CannotWrite;
         let passing = self.found.iter().filter(|(_, found)| found.iter().any(may_pass));
         passing.map(|(drawing, _)| drawing.clone()).collect()
     }
 
-    /// What the paths of drawings that are asked again, or gone, were written to is free again; what was found in the programs of those that are
-    /// gone.
+    /// Releases the output files of drawings that will be checked again or were removed. Returns the diagnostics of removed drawings'
+    /// programs.
     pub(super) fn release(
         &mut self,
         session: &Session<'_>,
@@ -91,7 +92,7 @@ impl<'a> Writer<'a> {
         gone
     }
 
-    /// Writes the targets among all paths; what is wrong with them as programs, and targets that mean none.
+    /// Writes all targets. Returns diagnostics of the programs, and of targets that match no path.
     pub(super) fn begin(&mut self, session: &mut Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
         let mut configured = Configured::new(&self.workspace.settings);
         let mut problems = self.write_some(session, all, &mut configured).now;
@@ -99,7 +100,7 @@ impl<'a> Writer<'a> {
         problems
     }
 
-    /// Writes the targets among the paths of drawings that were asked again.
+    /// Writes the targets among the paths of drawings that were checked.
     pub(super) fn write(&mut self, session: &mut Session<'_>, asked: &[SourceFile]) -> Writing {
         self.write_some(session, asked, &mut Configured::new(&self.workspace.settings))
     }
@@ -140,7 +141,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The drawing that a problem is of. What is wrong with a file that is to be written names that file.
+    /// The drawing that a diagnostic belongs to. Diagnostics about an output file name that file instead.
     fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
         let name = problem.arguments.iter().find_map(|argument| match argument {
             ("name", Value::Text(name)) => Some(&**name),
