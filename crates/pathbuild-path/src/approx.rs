@@ -1,11 +1,11 @@
 //! The approximate comparisons of book: language/markers.
 //!
-//! Coordinates come from CAD exports, so equality is approximate. It is not transitive: take minima in one scan with these, and
-//! never sort by them.
+//! Coordinates come from CAD exports, so equality is approximate. It is not transitive: use these functions to find minima in a single
+//! scan, but never to sort.
 
 use crate::Xy;
 
-/// Whether two numbers are the same up to rounding.
+/// Whether two numbers are equal up to rounding.
 pub fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-6 * (a.abs().max(b.abs()) + 0.001)
 }
@@ -15,17 +15,17 @@ pub fn at_least(a: f64, b: f64) -> bool {
     a >= b || near(a, b)
 }
 
-/// Whether `a > b`, approximately: not when they are near.
+/// Whether `a > b`, approximately: false if they are near each other.
 pub fn above(a: f64, b: f64) -> bool {
     a > b && !near(a, b)
 }
 
-/// Whether two points coincide (about 0.0000316 mm): for ends of segments, markers and the walk.
+/// Whether two points coincide (within about 0.0000316 mm), for ends of segments, markers and the walk.
 pub fn coincide(a: Xy, b: Xy) -> bool {
     near((b - a).norm_squared(), 0.0)
 }
 
-/// Whether a distance in mm is nothing (about 1e-9 mm): for moves that would not move.
+/// Whether a distance in mm is negligible (about 1e-9 mm), to skip moves that would not move.
 pub fn is_nothing(distance: f64) -> bool {
     near(distance, 0.0)
 }

@@ -1,4 +1,4 @@
-//! What is done along a path, in order, with consecutive cuts grouped into milling chains. (book: language/chains-and-passes)
+//! The operations along a path, in order, with consecutive cuts grouped into milling chains. (book: language/chains-and-passes)
 
 use std::ops::Range;
 
@@ -12,17 +12,17 @@ use crate::letter::Letter;
 use crate::path::{CutParameters, Path, SegmentKind};
 use crate::walk::{Passage, Walked, curve};
 
-/// One thing that is done. Segments are indices into [`Path::segments`], where it is drawn.
+/// An operation. Its segment is an index into [`Path::segments`].
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum Item {
     Chain(Chain),
-    /// The hole as an index into [`Path::holes`].
+    /// A drilled hole, by its index into [`Path::holes`].
     Hole {
         segment: usize,
         hole: u32,
     },
-    /// The circle as an index into [`Path::helices`].
+    /// A helical circle, by its index into [`Path::helices`].
     Helix {
         segment: usize,
         helix: u32,
@@ -31,14 +31,14 @@ pub enum Item {
     Subpath(PlacedSubpath),
 }
 
-/// Milling, marking and support segments that follow each other, milled pass by pass together.
+/// Consecutive milling, marking and support segments, which are milled together pass by pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     /// I in mm.
     pub infeed: f64,
-    /// W in mm: sweepless milling from this depth on.
+    /// W in mm: the depth from which on milling is sweepless.
     pub first_depth: Option<f64>,
-    /// At least one, see [`Walked::members`](crate::Walked::members).
+    /// Never empty; see [`Walked::members`](crate::Walked::members).
     pub(crate) members: Range<usize>,
 }
 
@@ -47,52 +47,52 @@ pub struct Chain {
 pub struct ChainSegment {
     segment: u32,
     cut: u32,
-    /// Whether it is the way back over a dead end.
+    /// Whether it leads back out of a dead end.
     pub is_return: bool,
     is_turned: bool,
     moved: Option<Box<Curve>>,
 }
 
-/// A rapid move at sweep height. A drawn arc is swept straight.
+/// A rapid move at sweep height. Drawn arcs are swept in a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sweep {
-    /// Index into [`Path::segments`]: along which it goes.
+    /// The drawn segment, as an index into [`Path::segments`].
     pub segment: usize,
-    /// From where the tool is.
+    /// The start.
     pub start: Xy,
-    /// To where it comes.
+    /// The end.
     pub end: Xy,
-    /// Its own S in mm; else the path's.
+    /// Its own S in mm; `None` for the path's.
     pub height: Option<f64>,
 }
 
-/// A subpath segment in the direction in which it is traversed.
+/// A subpath segment in walking direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSubpath {
-    /// Index into [`Path::segments`], where its parameters are.
+    /// The segment with its parameters, as an index into [`Path::segments`].
     pub segment: usize,
-    /// Where the embedded path's start comes to lie.
+    /// The position of the embedded path's start.
     pub start: Xy,
-    /// Where the tool goes on from.
+    /// The point from which the walk continues.
     pub end: Xy,
 }
 
-/// What was gone along so far. Chains without I, and letters without effect inside chains, are reported.
+/// Groups the traversed segments into items. Reports chains without I, and letters without effect inside chains.
 pub(crate) struct Grouped<'a> {
     path: &'a Path,
     walked: Walked,
-    /// How many members belong to chains that are items. The others are of the chain that is not yet one.
+    /// Number of members that belong to finished chains; the remaining ones form the current chain.
     chained: usize,
 }
 
 impl<'a> Grouped<'a> {
-    /// Nothing so far.
+    /// Starts without segments.
     pub(crate) fn new(path: &'a Path) -> Self {
         let members = Vec::with_capacity(path.cuts.len());
         Self { path, walked: Walked { members, ..Walked::default() }, chained: 0 }
     }
 
-    /// Takes the next segment that is gone along.
+    /// Adds the next traversed segment.
     #[inline]
     pub(crate) fn add(&mut self, segment: usize, passage: Passage, is_return: bool) {
         if let SegmentKind::Cut(cut) = self.path.segments[segment].kind {
@@ -104,13 +104,13 @@ impl<'a> Grouped<'a> {
         self.walked.items.extend(self.single(segment, &passage, is_return));
     }
 
-    /// All that was gone along, and what is wrong with it.
+    /// The items of the whole walk, and the diagnostics.
     pub(crate) fn finish(mut self) -> Walked {
         self.finish_chain();
         self.walked
     }
 
-    /// What is done along a segment that is in no chain. Going back over it is a sweep.
+    /// The item for a segment outside of chains. Going back over such a segment is a sweep.
     fn single(&self, segment: usize, passage: &Passage, is_return: bool) -> Option<Item> {
         let Passage { start, end, .. } = *passage;
         Some(match &self.path.segments[segment].kind {
@@ -123,13 +123,13 @@ impl<'a> Grouped<'a> {
         })
     }
 
-    /// Ends the chain, if there is one.
+    /// Finishes the current chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
         let Self { path, walked: Walked { items, members, diagnostics, .. }, chained } = self;
         let [first, ..] = &members[*chained..] else { return };
         let has_letters = |member: &ChainSegment| member.cut(path).chain_letters.is_some();
         for (before, member) in members[*chained..].iter().zip(&members[*chained + 1..]) {
-            // A line that leads into an arc is the same segment as the arc.
+            // An arc and the line that leads into it belong to the same segment.
             if !member.is_return && before.segment != member.segment && has_letters(member) {
                 diagnostics.extend(member.letters_without_effect(path));
             }
@@ -149,7 +149,7 @@ impl<'a> Grouped<'a> {
     }
 }
 
-/// Whether a doubt about W is not yet among the diagnostics. The path's W is that of each of its chains.
+/// Whether a doubt about W has not been reported yet. The path's W applies to each of its chains.
 fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
     let is_same = |known: &Diagnostic| {
         (known.message, &known.arguments, &known.text) == (doubt.message, &doubt.arguments, &doubt.text)
@@ -158,9 +158,9 @@ fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
 }
 
 impl Chain {
-    /// PB211 where W is outside of the material that the chain removes.
+    /// PB211 if W is outside of the material that the chain removes.
     fn doubtful_first_depth(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
-        // Others are reported as out of range.
+        // Other values are reported as out of range.
         let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;
         let first = members.first()?;
         let bottom = members.iter().map(|member| member.cut(path).bottom).fold(f64::INFINITY, f64::min);
@@ -188,7 +188,7 @@ impl Chain {
 }
 
 impl Item {
-    /// The segment along which it goes, where it is one: index into [`Path::segments`].
+    /// Its segment if it follows just one, as an index into [`Path::segments`].
     pub fn segment(&self) -> Option<usize> {
         match self {
             Self::Chain(_) => None,
@@ -200,22 +200,22 @@ impl Item {
 }
 
 impl ChainSegment {
-    /// Where it is drawn.
+    /// The location of its element.
     pub fn origin(&self, path: &Path) -> Origin {
         path.origin(&path.segments[self.segment as usize])
     }
 
-    /// What it is: index into [`Drawn::elements`](crate::Drawn::elements).
+    /// Its element, as an index into [`Drawn::elements`](crate::Drawn::elements).
     pub fn element(&self, path: &Path) -> u32 {
         path.segments[self.segment as usize].element
     }
 
-    /// How it is milled.
+    /// The parameters for milling it.
     pub fn cut<'p>(&self, path: &'p Path) -> &'p CutParameters {
         &path.cuts[self.cut as usize]
     }
 
-    /// What it is, from where the tool comes from. The path is the one that was walked along.
+    /// Its curve in walking direction. The path must be the one that was walked.
     pub fn curve(&self, path: &Path) -> Curve {
         let segment = &path.segments[self.segment as usize];
         curve(path, segment, self.is_turned, self.moved.as_deref()).expect("what is in a chain is a curve")

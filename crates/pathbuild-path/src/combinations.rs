@@ -1,4 +1,4 @@
-//! The combinations of values that a path's variables can have. (book: language/variables, `check --all-bindings`)
+//! The possible combinations of values for a path's variables. (book: language/variables, `check --all-bindings`)
 
 use std::collections::HashSet;
 
@@ -7,25 +7,26 @@ use smol_str::SmolStr;
 use crate::definition::Definition;
 use crate::variables::Bindings;
 
-/// Combinations of values, and how many there are in all.
+/// Some combinations of values, and the total number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Combinations {
-    /// At most as many as were asked for, the example values first. Each value of each variable is in one of them, if that is possible
-    /// with so few.
+    /// The combinations, up to the limit, beginning with the example values. Every value of every variable occurs in one of them if the
+    /// limit permits.
     pub chosen: Vec<Bindings>,
-    /// How many there are.
+    /// The total number of combinations.
     pub all: u64,
 }
 
 impl Combinations {
-    /// Combines all values of lists and both ends of ranges.
+    /// Combines all values of lists with both ends of ranges.
     pub fn new(definitions: &[Definition], limit: usize) -> Self {
         let values: Vec<(char, Vec<SmolStr>)> =
             definitions.iter().map(|definition| (definition.name, corners(definition))).collect();
         let counts = || values.iter().map(|(_, values)| values.len());
         let all = counts().fold(1_u64, |all, count| all.saturating_mul(count as u64));
         let longest = counts().max().unwrap_or(1);
-        // Value k of each variable, the k-th variable beginning with its k-th as the example values do; then all, counting.
+        // Diagonal combinations first: number k takes value k + i of the i-th variable, as the example values do. Then all others in
+        // counting order.
         let diagonal = (0..longest).map(|k| at(&values, |index, count| (k + index) % count));
         let counted = (0..all).map(|number| {
             let mut rest = number;
@@ -41,7 +42,7 @@ impl Combinations {
     }
 }
 
-/// The values of a definition, each once.
+/// The values of a definition, without duplicates.
 fn corners(definition: &Definition) -> Vec<SmolStr> {
     let mut values: Vec<SmolStr> = Vec::new();
     for value in definition.corner_values() {
@@ -52,7 +53,7 @@ fn corners(definition: &Definition) -> Vec<SmolStr> {
     values
 }
 
-/// The combination that takes of each variable the value that `choose` says, asked with the variable's number and its count of values.
+/// The combination in which `choose` selects the value of each variable, given the variable's index and number of values.
 fn at(values: &[(char, Vec<SmolStr>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
     let value = |(index, (name, values)): (usize, &(char, Vec<SmolStr>))| {
         (*name, values[choose(index, values.len())].clone())

@@ -1,4 +1,4 @@
-//! Formal variables: what values they may have, and which are used for checking. (book: language/variables)
+//! Definitions of variables: their permitted values, and the values for checking. (book: language/variables)
 
 use std::fmt;
 
@@ -9,21 +9,21 @@ use smol_str::{SmolStr, ToSmolStr};
 use crate::approx::at_least;
 use crate::number::parse_number;
 
-/// A variable that a path defines at its start.
+/// A variable defined at the start of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Definition {
     /// Its name, one character.
     pub name: char,
-    /// What it may be.
+    /// Its permitted values.
     pub values: Allowed,
     written: SmolStr,
 }
 
-/// The values that a definition allows.
+/// The values that a definition permits.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the ends as written and as numbers")]
 pub enum Allowed {
-    /// `-0.5~1,2`: numbers, both ends included.
+    /// `-0.5~1,2`: numbers in a range that includes both ends.
     Range { from: f64, to: f64, from_text: SmolStr, to_text: SmolStr },
     /// `P1,P2,P3`: exactly these texts.
     List(Vec<SmolStr>),
@@ -32,7 +32,7 @@ pub enum Allowed {
 }
 
 impl Definition {
-    /// The definition in a path start's `:` piece: a name and what follows it.
+    /// Parses the `:` piece of a path's start: a name, followed by the permitted values.
     ///
     /// # Errors
     /// PB301, without a place.
@@ -43,7 +43,7 @@ impl Definition {
         Ok(Self { name, values: allowed(written)?, written: written.into() })
     }
 
-    /// Whether the variable may have a value.
+    /// Whether a value is permitted.
     pub fn allows(&self, value: &str) -> bool {
         match &self.values {
             Allowed::Range { from, to, .. } => {
@@ -58,7 +58,7 @@ impl Definition {
         }
     }
 
-    /// The example value that the variable with index `k` of its path is checked with.
+    /// The example value for checking, if the variable is the `k`-th of its path.
     pub fn check_value(&self, k: usize) -> SmolStr {
         match &self.values {
             Allowed::Range { from_text, .. } if k.is_multiple_of(2) => from_text.clone(),
@@ -68,7 +68,7 @@ impl Definition {
         }
     }
 
-    /// The values that `check --all-bindings` goes through: all of a list, both ends of a range.
+    /// The values that `check --all-bindings` uses: all values of a list, both ends of a range.
     pub fn corner_values(&self) -> Vec<SmolStr> {
         match &self.values {
             Allowed::Range { .. } => vec![self.check_value(0), self.check_value(1)],
@@ -78,14 +78,14 @@ impl Definition {
     }
 }
 
-/// As it is written at the path's start.
+/// The definition as written at the path's start.
 impl fmt::Display for Definition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.written)
     }
 }
 
-/// The forms are tried in this order: a range may have decimal commas, and a list may begin with a question mark.
+/// Tries the forms in this order: a range may contain decimal commas, and a list may begin with a question mark.
 fn allowed(written: &str) -> Result<Allowed, Box<Diagnostic>> {
     if let Some(range) = range(written) {
         return range;
@@ -105,7 +105,7 @@ fn allowed(written: &str) -> Result<Allowed, Box<Diagnostic>> {
     }
 }
 
-/// `None` when it is no range at all.
+/// Parses a range; `None` if it is not one.
 fn range(written: &str) -> Option<Result<Allowed, Box<Diagnostic>>> {
     let (from_text, to_text) = written.split_once('~')?;
     let (from, to) = (parse_number(from_text)?, parse_number(to_text)?);

@@ -1,4 +1,4 @@
-//! Values that are allowed, and that a machinist would look at twice: PB211. (book: language/letters)
+//! Checks for values that are permitted but suspicious to a machinist: PB211. (book: language/letters)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -8,20 +8,20 @@ use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
 use crate::values::Values;
 
-/// From where on something is doubtful.
+/// Thresholds beyond which something is doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doubts {
-    /// How far B may be below the plate, in mm.
+    /// Depth in mm that B may extend below the plate.
     pub below_plate: f64,
-    /// How many times T an infeed may be.
+    /// Maximum infeed as a multiple of T.
     pub infeed: f64,
-    /// How many times T a mark may be deep.
+    /// Maximum depth of a mark as a fraction of T.
     pub mark_depth: f64,
     /// The machine's largest feed in mm/min.
     pub maximum_feed: Option<f64>,
-    /// By how much a text must be nearer to its element than to another, in mm.
+    /// Minimum difference in mm between the distances of a text from its element and from another one.
     pub text_margin: f64,
-    /// By how much a circle may be larger than the cutter, in mm, and yet be taken for a hole that was to be drilled.
+    /// Excess in mm over the cutter's diameter up to which a circle is suspected to be meant as a drilled hole.
     pub hole_margin: f64,
 }
 
@@ -32,7 +32,7 @@ impl Default for Doubts {
 }
 
 impl Doubts {
-    /// The limits when the configuration gives none.
+    /// The thresholds used if the configuration sets none.
     pub const DEFAULT: Self = Self {
         below_plate: 0.5,
         infeed: 1.0,
@@ -42,7 +42,7 @@ impl Doubts {
         hole_margin: 0.05,
     };
 
-    /// What is doubtful about the feed in mm/min that holds for a path without F.
+    /// The finding about the feed in mm/min that applies to paths without F.
     pub fn fallback_feed(&self, feed: f64) -> Option<Diagnostic> {
         let maximum = self.maximum_feed.filter(|maximum| above(feed, *maximum))?;
         let problem = Diagnostic::new(&messages::FALLBACK_FEED_ABOVE_MACHINE).with("value", feed);
@@ -50,7 +50,7 @@ impl Doubts {
     }
 }
 
-/// What is doubtful about a mark whose bottom, own or the path's, is at this height in mm, and whether that is the path's.
+/// The finding about a mark with this bottom in mm. `is_path`: whether that is the path's D rather than the mark's own.
 pub(crate) fn check_mark(
     bottom: f64,
     own: &Values<'_>,
@@ -73,10 +73,10 @@ pub(crate) fn check_mark(
     Some((says.underline(Letter::D, problem), !is_own))
 }
 
-/// A usual depth of a mark in mm.
+/// A usual depth of a mark in mm, for help.
 const SHALLOW: f64 = 0.2;
 
-/// What is doubtful about the values that `own` gives and that have an effect on the element. `path`: the path's.
+/// Findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
 pub(crate) fn check(
     own: &Values<'_>,
     path: &Values<'_>,

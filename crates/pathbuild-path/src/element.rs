@@ -1,4 +1,4 @@
-//! Elements of a path: what is drawn, and what it means. (book: language/line-types, book: language/markers)
+//! The elements of a path: their shapes and their meanings. (book: language/line-types, book: language/markers)
 
 use pathbuild_diagnostic::words;
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};
@@ -11,27 +11,27 @@ use crate::line_type::LineType;
 use crate::matrix::ElementClass;
 use crate::text::TextId;
 
-/// A line, arc or circle on a path's layer that stands for something along the path.
+/// A line, arc or circle on a path's layer that represents a part of the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
-    /// Where to find it in the file.
+    /// Its entity in the file.
     pub source: Source,
-    /// What is drawn.
+    /// The drawn shape.
     pub shape: Shape,
-    /// What it means.
+    /// Its meaning.
     pub role: Role,
-    /// The text that belongs to it, see [`Drawn::texts`](crate::Drawn::texts).
+    /// Its parameter text, see [`Drawn::texts`](crate::Drawn::texts).
     pub text: Option<TextId>,
 }
 
-/// Which entity of the file something is.
+/// Identifies an entity of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Source {
     /// Its number in the path's source map.
     pub id: ElementId,
     /// Its type.
     pub entity: EntityKind,
-    /// Its layer: index into [`Drawn::layers`](crate::Drawn::layers).
+    /// Its layer, as an index into [`Drawn::layers`](crate::Drawn::layers).
     pub layer: u32,
 }
 
@@ -44,7 +44,7 @@ pub struct Marker {
     pub text: Option<TextId>,
 }
 
-/// What diagnostics say about where an element is.
+/// The location of an element, for diagnostics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
     /// Its number in the path's source map.
@@ -53,11 +53,11 @@ pub struct Origin {
     pub entity: EntityKind,
     /// Its layer.
     pub layer: SmolStr,
-    /// Its beginning, or centre.
+    /// Its start, or its centre.
     pub point: Point,
 }
 
-/// What is drawn.
+/// The shape of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "a circle's parts")]
 pub enum Shape {
@@ -65,33 +65,33 @@ pub enum Shape {
     Circle { centre: Xy, radius: f64 },
 }
 
-/// What an element means.
+/// The meaning of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// Milled, marked, or milled with bars. On a circle: a hole or helical circle.
+    /// A cut: milled, marked, or milled with bars. On a circle: a hole or a helical circle.
     Cut(Cut),
     /// DASHED.
     Sweep,
-    /// HIDDEN: a sweep that takes no text.
+    /// HIDDEN: a sweep without a text.
     SilentSweep,
-    /// DOT: a subpath that is skipped, a sweep. It keeps its text, which is not read, so that it can be switched back.
+    /// DOT: a disabled subpath, swept instead. It keeps its text, which is ignored, so that it can be enabled again.
     SkippedSubpath,
     /// DASHDOT.
     Subpath,
 }
 
-/// How deep.
+/// The kind of a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Cut {
     /// To B.
     Mill,
     /// To D.
     Mark,
-    /// To B, but with bars up to D.
+    /// To B, with bars up to D.
     Support,
 }
 
-/// What a circle is, by its line type and diameter.
+/// The meaning of a circle, by its line type and diameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum CircleMeaning {
     Start,
@@ -104,7 +104,7 @@ pub(crate) enum CircleMeaning {
     UnknownLineType,
 }
 
-/// What a circle that means nothing as it is may have been meant as.
+/// The marker that a meaningless circle was probably meant to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum MeantMarker {
     Start,
@@ -113,20 +113,20 @@ pub(crate) enum MeantMarker {
 }
 
 impl Origin {
-    /// Where an entity is that begins, or has its centre, at a point.
+    /// The location of an entity that starts, or has its centre, at a point.
     pub(crate) fn new(source: Source, layer: &SmolStr, point: Xy) -> Self {
         let Source { id, entity, .. } = source;
         Self { id, entity, layer: layer.clone(), point: shown(point) }
     }
 
-    /// A diagnostic at this element.
+    /// Places a diagnostic at this element.
     pub fn at(&self, diagnostic: Diagnostic) -> Diagnostic {
         diagnostic.at_element(self.id, self.entity, &self.layer, self.point)
     }
 }
 
 impl Shape {
-    /// Its beginning, or centre.
+    /// Its start, or its centre.
     pub fn point(&self) -> Xy {
         match self {
             Self::Curve(curve) => curve.start(),
@@ -134,7 +134,7 @@ impl Shape {
         }
     }
 
-    /// What it is called.
+    /// Its name in messages.
     pub fn word(&self) -> &'static Word {
         match self {
             Self::Curve(Curve::Line(_)) => &words::LINE,
@@ -145,7 +145,7 @@ impl Shape {
 }
 
 impl Element {
-    /// What its text may hold, with a cutter of diameter `tool`.
+    /// Its class for the table of letters, with a cutter of diameter `tool`.
     pub fn class(&self, tool: Option<f64>) -> ElementClass {
         match (self.role, self.shape) {
             (Role::Cut(cut), Shape::Circle { radius, .. }) => circle_class(cut, radius, tool),
@@ -160,7 +160,7 @@ impl Element {
 }
 
 impl Cut {
-    /// The letter that says how deep.
+    /// The letter for its depth.
     pub(crate) fn depth(self) -> Letter {
         match self {
             Self::Mill | Self::Support => Letter::B,
@@ -191,10 +191,10 @@ impl ElementClass {
     }
 }
 
-/// So much, in mm, the diameter of a drilled hole may differ from the cutter's: three decimals cannot tell them apart.
+/// Tolerance in mm for the diameter of a drilled hole to equal the cutter's: numbers with three decimals cannot distinguish them.
 const AS_DRILLED: f64 = 0.001;
 
-/// A circle of the cutter's diameter is a drilled hole, whatever its line type is.
+/// The class of a circle. One with the cutter's diameter is a drilled hole, whatever its line type.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };
     if at_least(AS_DRILLED, (2.0 * radius - tool).abs()) {
@@ -210,12 +210,12 @@ fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     }
 }
 
-/// What a line or arc of this line type means; `None` where it means nothing.
+/// The meaning of a line or arc with this line type; `None` if it has none.
 pub(crate) fn curve_role(line_type: LineType) -> Option<Role> {
     CURVE_ROLES[line_type as usize]
 }
 
-/// By line type. A table, since it can not be foreseen which it is.
+/// The meanings by line type. A table avoids an unpredictable branch.
 const CURVE_ROLES: [Option<Role>; LineType::NAMES.len()] = {
     let mut roles = [None; LineType::NAMES.len()];
     roles[LineType::Continuous as usize] = Some(Role::Cut(Cut::Mill));
@@ -229,7 +229,7 @@ const CURVE_ROLES: [Option<Role>; LineType::NAMES.len()] = {
     roles
 };
 
-/// What a circle means.
+/// The meaning of a circle.
 pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {
     let is_probe = near(radius, 3.0);
     match line_type {
@@ -247,7 +247,7 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
 }
 
 impl MeantMarker {
-    /// What a circle whose line type is not known would be with a likely one.
+    /// The marker that a circle of unknown line type would be with a suitable one.
     pub(crate) fn of(line_type: LineType, radius: f64) -> Self {
         match circle_meaning(line_type, radius) {
             CircleMeaning::Start => Self::Start,
@@ -257,7 +257,7 @@ impl MeantMarker {
     }
 }
 
-/// A point of the drawing as diagnostics show it.
+/// Converts a point of the drawing for diagnostics.
 pub(crate) fn shown(point: Xy) -> Point {
     Point::new(point.x, point.y)
 }

@@ -1,39 +1,39 @@
-//! What the faults of a path leave unknown, so that all errors that do not follow from them are reported at once.
+//! What the errors of a path leave unknown, so that all errors that do not follow from others are reported at once.
 //! (book: reference/diagnostics)
 
 use crate::element::Element;
 use crate::geometry::Xy;
 use crate::letter::Letters;
 
-/// What the drawing of a path leaves unknown.
+/// What errors in the drawing of a path leave unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct DrawingFaults {
-    /// Letters of texts that belong to no element: each element may lack them for that reason.
+    /// Letters in texts without an element: any element may lack them for that reason.
     pub(crate) stray_letters: Letters,
-    /// An entity that cannot be read may be anything.
+    /// Whether there is an unreadable entity, which may be anything.
     pub(crate) has_broken_entity: bool,
-    /// Of two starts it is not known which one holds the path's text.
+    /// Whether there are two starts, either of which may have the path's text.
     pub(crate) has_second_start: bool,
-    /// Ends behind the first.
+    /// End markers after the first.
     pub(crate) other_ends: Vec<Xy>,
-    /// Circles that mean nothing as they are: the walk may turn or end there.
+    /// Circles without a meaning: the walk may turn or end there.
     pub(crate) unclear_circles: Vec<Xy>,
-    /// Lines and arcs of unknown line types: the path runs along them, whatever happens there.
+    /// Lines and arcs of unknown line types: the path runs along them in an unknown way.
     pub(crate) unclear_curves: Vec<Element>,
-    /// Variables whose definition is at fault.
+    /// Variables with an erroneous definition.
     pub(crate) variables: Vec<char>,
 }
 
-/// What is not known of a path that has errors.
+/// What is unknown about a path with errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Faults {
-    /// Letters of which it is not known what the path says.
+    /// Letters whose values are unknown.
     pub(crate) letters: Letters,
-    /// A segment's I may be hidden by an error.
+    /// Whether an error may hide I of a segment.
     pub(crate) is_infeed_unknown: bool,
-    /// Nothing can be said of the walk: its start, its order or a segment is unknown.
+    /// Whether the walk cannot be checked, because its start, its order or a segment is unknown.
     pub(crate) is_walk_unknown: bool,
-    /// Where the path may end; nothing where the end is not known.
+    /// Possible ends of the path; empty if the end is unknown.
     pub(crate) ends: Vec<Xy>,
     /// See [`DrawingFaults::unclear_circles`].
     pub(crate) unclear_circles: Vec<Xy>,

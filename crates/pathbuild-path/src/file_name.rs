@@ -1,4 +1,4 @@
-//! What a drawing's file name says of its paths, against the paths that it holds. (book: language/layers-and-names)
+//! Compares the name of a file with the paths in it. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -6,8 +6,8 @@ use pathbuild_diagnostic::messages::outputs as messages;
 use crate::files::{FilePattern, PathKey};
 use crate::name::{PathName, PathPattern};
 
-/// Paths that the file's name names and that no layer has (PB519), and paths that are not looked for in a file of that name (PB521). Nothing of
-/// Q-projects, which are named after the drawing that they test. `stem`: the name without `.dxf`.
+/// PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never searched in a file of this name. Q-projects
+/// are exempt, since they are named after the drawing that they test. `stem`: the name without `.dxf`.
 pub fn judge_file_name(
     stem: &str,
     held: &[PathName],
@@ -32,12 +32,12 @@ pub fn judge_file_name(
     broken.chain(strays).collect()
 }
 
-/// Whether a drawing is a Q-project by its name.
+/// Whether the name of a drawing is that of a Q-project.
 pub fn is_q_project(stem: &str) -> bool {
     stem.ends_with("_Q") || stem.ends_with("_q")
 }
 
-/// The full path names in a file's name, each once. The ends of a range promise nothing.
+/// The full path names in a file's name, without duplicates. The ends of a range do not count.
 fn promised(stem: &str, files: &FilePattern, paths: &PathPattern) -> Vec<PathName> {
     let ranges = files.range_spans(stem);
     let mut promised: Vec<PathName> = Vec::new();

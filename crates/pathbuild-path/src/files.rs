@@ -1,4 +1,4 @@
-//! Which files may hold a path, by the path names and ranges in the file's name. (book: language/layers-and-names)
+//! Finds the files that may define a path, by the names and ranges in their file names. (book: language/layers-and-names)
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -10,22 +10,22 @@ use crate::group::{Group, Groups};
 use crate::number_range::{NumberKey, NumberRange, number_key};
 use crate::pattern::{Name, Pattern, PatternError};
 
-/// What describes path names in a file's stem.
+/// The pattern of path names in the stem of a file name.
 #[derive(Clone, Debug)]
 pub struct FilePattern(Pattern);
 
-/// A path name, or a range of them, in a file's name. A single name is a range from itself to itself.
+/// A path name or a range of path names in a file name. A single name is a range with equal ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NameRange(Ends);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Ends {
-    /// Wherever it can be one.
+    /// The fast representation, used whenever possible.
     Numbers(NumberRange),
     Groups(Box<GroupRange>),
 }
 
-/// A range by the groups of its ends.
+/// A range as the groups of its ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct GroupRange {
     from: FilePart,
@@ -33,11 +33,11 @@ struct GroupRange {
     to: Option<FilePart>,
 }
 
-/// One end of a range: the groups of the file pattern.
+/// An end of a range: the groups of the file pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct FilePart(Groups);
 
-/// The groups of a path name, by which it is looked for.
+/// The groups of a path name, by which it is looked up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathKey {
     groups: Groups,
@@ -54,53 +54,53 @@ impl FilePattern {
     /// The default: `1234` or `1234.5`.
     pub const DEFAULT: &str = DefaultPattern::File.source();
 
-    /// A pattern from the configuration or the command line.
+    /// Creates a pattern from the configuration or the command line.
     ///
     /// # Errors
-    /// When it is no regular expression, or matches an empty name.
+    /// If it is not a valid regular expression, or matches an empty name.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
         let pattern = Pattern::new(pattern, DefaultPattern::File)?;
         pattern.check_ranges()?;
         Ok(Self(pattern))
     }
 
-    /// The names and ranges in a file's stem, in the order of the specification: ranges, then single names.
+    /// The names and ranges in the stem of a file name, in the order of the specification: first ranges, then single names.
     pub fn ranges(&self, stem: &str) -> Vec<NameRange> {
         let mut found = Vec::new();
         self.each_range(stem, |range| found.push(range));
         found
     }
 
-    /// Takes each of these.
+    /// Calls `take` for each of these names and ranges.
     pub fn each_range(&self, stem: &str, mut take: impl FnMut(NameRange)) {
         if let Some(numbers) = self.0.lone_numbers(stem) {
             return take(NumberRange::new(numbers, None).into());
         }
-        // A range has a dash in it, and most names have none.
+        // A range contains a dash, which most names do not.
         if stem.contains(DASHES) {
             self.0.each_range(stem, |from, to| take(NameRange::new(from, Some(to))));
         }
         self.0.each(stem, |name| take(NameRange::new(name, None)));
     }
 
-    /// Where in a stem ranges stand.
+    /// The positions of ranges in a stem.
     pub(crate) fn range_spans(&self, stem: &str) -> Vec<Range<usize>> {
         if stem.contains(DASHES) { self.0.range_spans(stem) } else { Vec::new() }
     }
 
-    /// The regular expression as it was given.
+    /// The regular expression as given.
     pub fn as_str(&self) -> &str {
         self.0.as_str()
     }
 }
 
 impl PathKey {
-    /// The key of a name; `None` when the path pattern does not match it.
+    /// The key of a name; `None` if the path pattern does not match it.
     pub fn new(name: &str, pattern: &PathPattern) -> Option<Self> {
         pattern.groups(name).map(|groups| Self { number: number_key(&groups), groups })
     }
 
-    /// Whether another name says the same when it is compared as file names are: numbers as numbers, 01 and 1 alike.
+    /// Whether another name is equal when compared like file names, in which numbers are compared by value, so that 01 equals 1.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.groups.len() == other.groups.len()
             && self.groups.iter().zip(other.groups.iter()).all(|(one, other)| one.compare(other).is_eq())
@@ -137,7 +137,7 @@ impl NameRange {
         range.starts_by(path) && range.ends_by(path)
     }
 
-    /// The first group of the first name and of the last.
+    /// The first groups of the first and the last name.
     pub(crate) fn first_groups(&self) -> (Group, Group) {
         match &self.0 {
             Ends::Numbers(range) => range.first_groups(),
@@ -180,13 +180,13 @@ impl GroupRange {
 }
 
 impl FilePart {
-    /// How this part of a file's name lies to a path's name.
+    /// Compares this part of a file name with the name of a path.
     fn compare(&self, path: &PathKey) -> Ordering {
         let (file, path) = (&self.0, &path.groups);
         for index in 0..file.len().max(path.len()) {
             let (file_group, path_group) = match (file.get(index), path.get(index)) {
                 (Some(file), Some(path)) if !file.is_empty() && !path.is_empty() => (file, path),
-                // What has no more groups covers what has some: 1234 is equal to 1234.3A, but 1234.3 is greater than 1234.
+                // A name without further groups covers one with more groups: 1234 equals 1234.3A, but 1234.3 is greater than 1234.
                 _ if groups_left(file, index) > groups_left(path, index) => return Ordering::Greater,
                 _ => return Ordering::Equal,
             };

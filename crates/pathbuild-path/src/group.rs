@@ -5,8 +5,7 @@ use std::cmp::Ordering;
 
 use smol_str::SmolStr;
 
-/// What the groups of a pattern took of a name. Two and three need no memory of their own: those of names are asked for each path that is
-/// embedded.
+/// The groups that a pattern matched in a name. Two or three groups are stored inline, since they are computed for every embedded path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Groups(List);
 
@@ -17,17 +16,17 @@ enum List {
     Any(Box<[Group]>),
 }
 
-/// One of them. Short integers and short texts, as most are, need no memory of their own either.
+/// A group. Short integers and short texts, the usual case, are also stored inline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
-    /// Digits that make a number below 2^64.
+    /// Digits of a number below 2^64.
     Short {
         /// The number.
         value: u64,
-        /// How many digits there are.
+        /// The number of digits.
         digits: usize,
     },
-    /// Anything else: longer integers, texts, nothing.
+    /// Anything else: longer integers, texts, or an empty group.
     Other(SmolStr),
 }
 
@@ -85,12 +84,12 @@ impl Group {
         }
     }
 
-    /// Whether the group took no part.
+    /// Whether the group did not participate.
     pub(crate) fn is_empty(&self) -> bool {
         matches!(self, Self::Other(text) if text.is_empty())
     }
 
-    /// Whether it is digits alone.
+    /// Whether it consists of digits only.
     pub(crate) fn is_integer(&self) -> bool {
         match self {
             Self::Short { .. } => true,
@@ -98,7 +97,7 @@ impl Group {
         }
     }
 
-    /// Two integers by value, however long, else two texts without regard to case.
+    /// Compares two integers of any length by value, and anything else as texts, ignoring case.
     pub(crate) fn compare(&self, other: &Self) -> Ordering {
         if let (Self::Short { value: a, .. }, Self::Short { value: b, .. }) = (self, other) {
             return a.cmp(b);
@@ -111,7 +110,7 @@ impl Group {
         a.chars().flat_map(char::to_uppercase).cmp(b.chars().flat_map(char::to_uppercase))
     }
 
-    /// As it is written.
+    /// The group as written.
     pub(crate) fn text(&self) -> Cow<'_, str> {
         match self {
             Self::Short { value, digits } => Cow::Owned(format!("{value:0digits$}")),

@@ -1,4 +1,4 @@
-//! Which parameters hold for each element, and where each comes from. (book: language/letters)
+//! Lists the effective parameters of each element, and what provides them. (book: language/letters)
 
 use std::collections::BTreeMap;
 
@@ -17,23 +17,23 @@ use crate::values::{Given, Values};
 use crate::variables::{Bindings, Interpolation};
 use crate::walk::walk;
 
-/// An element with the parameters that hold for it.
+/// An element with its effective parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InForce {
-    /// Where it is drawn.
+    /// The location of the element.
     pub origin: Origin,
-    /// What it is called.
+    /// Its name in messages.
     pub what: &'static Word,
-    /// Letter by letter, in the order of the alphabet.
+    /// The parameters in alphabetical order of their letters.
     pub parameters: Vec<Parameter>,
 }
 
-/// A parameter that holds.
+/// An effective parameter.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Parameter {
     pub letter: Letter,
-    /// With variables put in.
+    /// The value with variables substituted.
     pub value: SmolStr,
     pub from: Provider,
 }
@@ -65,9 +65,9 @@ struct Table<'a> {
     interpolation: Interpolation<'a>,
     options: &'a PathOptions,
     role: PathRole,
-    /// The path's own.
+    /// The values of the path's own text.
     values: Values<'a>,
-    /// For each element behind the first of its chain that first element.
+    /// The first element of the chain for each further element of it.
     chains: BTreeMap<u32, u32>,
 }
 
@@ -120,7 +120,7 @@ impl Table<'_> {
     }
 }
 
-/// The value that a text gives a letter, for display; `None` where it is faulty.
+/// The value that a text gives a letter, for display; `None` if it is faulty.
 fn shown(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
     match values.number(letter) {
         _ if letter == Letter::Variable => {
@@ -132,7 +132,7 @@ fn shown(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
     }
 }
 
-/// For each element behind the first of a chain that first one. None where the path has errors.
+/// The first element of the chain for each further element of it. Empty if the path has errors.
 fn chains(raw: &RawPath, bindings: &Bindings, language: &Language) -> BTreeMap<u32, u32> {
     let mut firsts = BTreeMap::new();
     let path = raw.is_sound().then(|| bind(raw, bindings, language).0).flatten();

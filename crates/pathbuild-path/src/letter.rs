@@ -1,6 +1,6 @@
 //! The parameter letters. (book: language/letters)
 
-/// A parameter's letter.
+/// The letter of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the letters are the names; book: language/letters has the table")]
 pub enum Letter {
@@ -26,9 +26,9 @@ pub enum Letter {
     Z,
     /// `>`: the path to embed.
     Embed,
-    /// `@`: another path's parameters.
+    /// `@`: the path whose parameters are borrowed.
     At,
-    /// `:`: a variable's definition or value.
+    /// `:`: the definition or value of a variable.
     Variable,
 }
 
@@ -63,10 +63,10 @@ impl Letter {
         (':', Self::Variable),
     ];
 
-    /// How many there are.
+    /// The number of letters.
     pub(crate) const COUNT: usize = Self::ALL.len();
 
-    /// The letters by their characters, which are all ASCII.
+    /// The letters by their characters, all of which are ASCII.
     const BY_CHARACTER: [Option<Self>; 128] = {
         let mut letters = [None; 128];
         let mut index = 0;
@@ -88,12 +88,12 @@ impl Letter {
         Self::ALL[self as usize].0
     }
 
-    /// Whether its value must not contain a variable.
+    /// Whether its value must not contain variables.
     pub fn is_literal(self) -> bool {
         matches!(self, Self::N | Self::O | Self::At)
     }
 
-    /// Whether its value is text, not a number.
+    /// Whether its value is a text rather than a number.
     pub fn is_text(self) -> bool {
         use Letter::{At, E, Embed, L, M, Q, R, Variable};
         matches!(self, E | L | M | Q | R | Embed | At | Variable)
@@ -118,17 +118,17 @@ impl Letters {
         self.0 & 1 << letter as u32 != 0
     }
 
-    /// These and others.
+    /// The union of two sets.
     pub(crate) const fn and(self, others: Self) -> Self {
         Self(self.0 | others.0)
     }
 
-    /// Whether any of these is in it.
+    /// Whether the sets have a letter in common.
     pub(crate) const fn has_any(self, others: Self) -> bool {
         others.0 & self.0 != 0
     }
 
-    /// Adds a letter; whether it was not there.
+    /// Adds a letter. Returns whether it was new.
     pub(crate) fn insert(&mut self, letter: Letter) -> bool {
         let is_new = !self.contains(letter);
         self.0 |= 1 << letter as u32;
@@ -136,5 +136,5 @@ impl Letters {
     }
 }
 
-/// Those that count in the first segment of a chain.
+/// Letters that apply to a whole chain and are given by its first segment.
 pub(crate) const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::C, Letter::W]);

@@ -1,4 +1,4 @@
-//! Values against their limits: PB203. (book: language/letters)
+//! Checks values against their limits: PB203. (book: language/letters)
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message};
@@ -8,20 +8,19 @@ use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
 use crate::values::{Given, Values};
 
-/// Letters that must be greater than 0 wherever they stand. (Z is not in the specification's list, but a machine that is to probe at
-/// feed 0 never arrives.)
+/// Letters that must always be positive. (Z is not in the list of the specification, but a machine probing at feed 0 never arrives.)
 const POSITIVE: [Letter; 8] =
     [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
 
-/// Letters that must be greater than 0 on paths and where there are bars.
+/// Letters that must be positive on paths and on elements with bars.
 const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
-/// What is wrong with the values that `own` gives, with those of the path where it gives none.
+/// Problems with the values that `own` gives; other values come from the path.
 pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
     let mut limits = Limits { own, path, problems: Vec::new() };
     limits.check_positive(&POSITIVE);
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
-    // The T of a probe or a subpath is the material there, which the path's depths need not reach.
+    // T of a probe or a subpath is the thickness there, which is unrelated to the path's depths.
     for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != Use::Unknown) {
         limits.check_above(Letter::T, depth, &messages::NOT_BELOW);
     }
@@ -32,7 +31,7 @@ pub(crate) fn check(own: &Values<'_>, path: &Values<'_>, class: ElementClass) ->
     limits.problems
 }
 
-/// A usual value of a letter that must be greater than 0.
+/// A usual value for a letter that must be positive.
 fn example(letter: Letter) -> &'static str {
     match letter {
         Letter::F => "F150",
@@ -68,7 +67,7 @@ impl Limits<'_> {
         }
     }
 
-    /// That `upper` is above `lower`, where the own text gives at least one of them: else it is the path's fault, reported there.
+    /// Checks that `upper` is greater than `lower`, if the element's own text gives either; otherwise the problem is reported at the path.
     fn check_above(&mut self, upper: Letter, lower: Letter, message: &'static Message) {
         if !self.own.has(upper) && !self.own.has(lower) {
             return;
@@ -78,7 +77,7 @@ impl Limits<'_> {
         if above(high, low) {
             return;
         }
-        // The message is about the letter that the person can mend here.
+        // The message concerns the letter that can be corrected here.
         let says_upper = *message == messages::NOT_ABOVE;
         let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
         let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };

@@ -1,8 +1,8 @@
-//! Line types: what happens along a line, arc or circle. (book: language/line-types)
+//! Line types, which determine the meaning of lines, arcs and circles. (book: language/line-types)
 
 use std::collections::BTreeMap;
 
-/// The eight line types that mean something, by their usual names.
+/// The eight line types with a meaning, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the meaning depends on the entity: book: language/line-types")]
 pub enum LineType {
@@ -17,12 +17,12 @@ pub enum LineType {
     Phantom,
 }
 
-/// Names beyond the built-in ones, from the configuration.
+/// Additional names from the configuration.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LineTypeAliases(BTreeMap<Box<str>, LineType>);
 
 impl LineType {
-    /// All of them with their names, as help lists them.
+    /// All line types with their names, in the order of the help.
     pub const NAMES: [(&str, Self); 9] = [
         ("CONTINUOUS", Self::Continuous),
         ("DIVIDE", Self::Divide),
@@ -40,26 +40,26 @@ impl LineType {
         Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }
 
-    /// What other programs and languages call it.
+    /// Its names in other programs and languages.
     pub fn other_names(self) -> impl Iterator<Item = &'static str> {
         ALIASES.iter().filter(move |(_, known)| *known == self).map(|(name, _)| *name)
     }
 
-    /// The line type that an unknown name (upper case) most likely means: that with the longest known word in the name, or with a name that
-    /// begins like it or differs by a slip of the pen.
+    /// The line type that an unknown name in upper case most likely means: the one with the longest known word in the name, or else one
+    /// with the same beginning or a single typing error.
     pub fn like(name: &str) -> Option<Self> {
         let names = || Self::NAMES.iter().chain(ALIASES).chain(WORDS);
         let in_name = names().filter(|(word, _)| word.len() >= SHORTEST && name.contains(word));
         let longest = in_name.max_by_key(|(word, _)| word.len());
         let abbreviated = || names().find(|(word, _)| name.len() >= SHORTEST && word.starts_with(name));
         let misspelt = || names().find(|(word, _)| word.len() > SHORTEST + 1 && differs_little(name, word));
-        // Numbered names differ by a digit where they mean something else.
+        // A different digit in a numbered name is not a typing error.
         let misspelt = || misspelt().filter(|_| !name.bytes().any(|byte| byte.is_ascii_digit()));
         longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| *line_type)
     }
 
-    /// The line type that a name in a drawing (upper case) stands for: exactly, with a suffix dropped, or through an alias. It is never
-    /// guessed from the dash pattern: DASHED2 and HIDDEN have the same.
+    /// The line type for a name in upper case: by an exact match, without a suffix, or through an alias. It is never guessed from the dash
+    /// pattern, since DASHED2 and HIDDEN have the same pattern.
     pub fn of(name: &str, aliases: &LineTypeAliases) -> Option<Self> {
         aliases
             .0
@@ -71,13 +71,13 @@ impl LineType {
 }
 
 impl LineTypeAliases {
-    /// Adds a name (in any case) for a line type.
+    /// Adds a name for a line type, in any case.
     pub fn insert(&mut self, name: &str, line_type: LineType) {
         self.0.insert(name.trim().to_uppercase().into(), line_type);
     }
 }
 
-/// The line types that the names in a drawing stand for. They are few and shared by its entities, so each is looked up once.
+/// Cache of the line types for the names in a drawing. There are few names, shared by many entities.
 pub(crate) struct LineTypes<'l, 'd> {
     aliases: &'l LineTypeAliases,
     known: Vec<(&'d str, Option<LineType>)>,
@@ -88,7 +88,7 @@ impl<'l, 'd> LineTypes<'l, 'd> {
         Self { aliases, known: Vec::new() }
     }
 
-    /// What a name stands for.
+    /// The line type for a name.
     pub(crate) fn get(&mut self, name: &'d str) -> Option<LineType> {
         if let Some((_, line_type)) = self.known.iter().find(|(known, _)| *known == name) {
             return *line_type;
@@ -101,20 +101,20 @@ impl<'l, 'd> LineTypes<'l, 'd> {
     }
 }
 
-/// A drawing has fewer line types. Names beyond them are looked up each time.
+/// Maximum number of cached names, more than a usual drawing has. Further ones are looked up each time.
 const MOST_KNOWN: usize = 32;
 
-/// Longest first: what is left of `DASHEDX2` must not be `DASHEDX`.
+/// Suffixes, longest first: `DASHEDX2` must not be reduced to `DASHEDX`.
 const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];
 
 fn named(name: &str) -> Option<LineType> {
     LineType::NAMES.iter().chain(ALIASES).find(|(known, _)| *known == name).map(|(_, line_type)| *line_type)
 }
 
-/// Length of the shortest word that a name is recognized by, in bytes.
+/// Minimum length in bytes of a word by which a name is recognised.
 const SHORTEST: usize = 3;
 
-/// Whether two names differ by one character that is missing, added or another, or by two that have changed places.
+/// Whether two names differ by a missing, additional or different character, or by two transposed ones.
 fn differs_little(name: &str, other: &str) -> bool {
     let (name, other): (Vec<char>, Vec<char>) = (name.chars().collect(), other.chars().collect());
     let same_start = name.iter().zip(&other).take_while(|(a, b)| a == b).count();
@@ -127,7 +127,7 @@ fn differs_little(name: &str, other: &str) -> bool {
     }
 }
 
-/// Parts of names in several languages. They suggest a line type, but never stand for one.
+/// Parts of names in several languages. They are used for suggestions only.
 const WORDS: &[(&str, LineType)] = &[
     ("CONTINU", LineType::Continuous),
     ("KONTINU", LineType::Continuous),
@@ -158,8 +158,8 @@ const WORDS: &[(&str, LineType)] = &[
     ("PHANT", LineType::Phantom),
 ];
 
-/// Names of other programs and languages for the same line types (book: reference/dxf). ISO types are mapped as LibreCAD's
-/// import does; AutoCAD Mechanical's are ISO types by number.
+/// Names of the line types in other programs and languages (book: reference/dxf). ISO types are mapped as LibreCAD's import does; those of
+/// AutoCAD Mechanical are ISO types by number.
 const ALIASES: &[(&str, LineType)] = &[
     ("SOLID", LineType::Continuous),
     ("AUSGEZOGEN", LineType::Continuous),

@@ -1,8 +1,8 @@
-//! Which letter is allowed on which element: the one table of book: language/letters, from which binding, messages and the manual take it.
+//! Which letters are permitted on which elements: the table of book: language/letters, used by binding, messages and the manual.
 
 use crate::letter::Letter;
 
-/// What an element is, as far as parameters are concerned: a row.
+/// The class of an element with respect to parameters: a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum ElementClass {
@@ -16,37 +16,38 @@ pub enum ElementClass {
     HelicalCircle,
     HelicalMark,
     HelicalSupport,
-    /// A circle whose cutter diameter is unknown or larger than it: nothing is said about letters that some circle knows.
+    /// A circle that cannot be classified, because the cutter diameter is unknown or larger than the circle: letters of all kinds of
+    /// circles pass.
     UnknownCircle,
     Subpath,
     Probe,
-    /// An element that is itself at fault, or whose text is not read: every letter passes.
+    /// A faulty element, or one whose text is ignored: every letter passes.
     Unread,
 }
 
-/// What a letter does on an element: a cell.
+/// The use of a letter on an element: a cell of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Use {
-    /// `!`: the element's own value or the path's; an error where neither gives one.
+    /// `!`: from the element or the path; an error if neither gives it.
     Needed,
-    /// `o`: the element's own value, else the path's, else none.
+    /// `o`: from the element, or else from the path; optional.
     Allowed,
-    /// `C`: needed by a chain; counts in the first segment of a chain, and has no effect elsewhere.
+    /// `C`: required by a chain; given by its first segment, without effect on the others.
     ChainNeeded,
-    /// `c`: counts in the first segment of a chain, and has no effect elsewhere.
+    /// `c`: given by the first segment of a chain, without effect on the others.
     Chain,
-    /// `-`: allowed without effect, PB210.
+    /// `-`: permitted without effect, PB210.
     Ignored,
-    /// `p`: the path's alone; PB202 in the element's own text.
+    /// `p`: from the path only; PB202 in the element's own text.
     PathOnly,
-    /// `.`: PB202.
+    /// `.`: not permitted, PB202.
     Unknown,
 }
 
 /// The letters of the columns.
 const COLUMNS: &str = "F B D I C W P U S N Q T O M A H Z L > : E R @";
 
-/// The rows. (M of a path is needed only where it is embedded; > and M of a subpath are judged with what it embeds.)
+/// The rows. (M of a path is only required if it is embedded; `>` and M of a subpath are checked together with the embedded path.)
 const ROWS: [(ElementClass, &str); 13] = [
     (ElementClass::PathStart, "o o o o o o o o o . . ! ! o o . o . . o o o o"),
     (ElementClass::Mill, "o ! - C c c . . - o o p p p . . . . . . . . ."),
@@ -100,19 +101,19 @@ impl Use {
         }
     }
 
-    /// Whether the letter counts in the element's own text.
+    /// Whether the letter has an effect in the element's own text.
     pub const fn counts(self) -> bool {
         matches!(self, Self::Needed | Self::Allowed | Self::ChainNeeded | Self::Chain)
     }
 }
 
 impl ElementClass {
-    /// What a letter does on this element.
+    /// The use of a letter on this element.
     pub fn use_of(self, letter: Letter) -> Use {
         CELLS.get(self as usize).map_or(Use::Allowed, |cells| cells[letter as usize])
     }
 
-    /// The letters that its texts know, for help.
+    /// The letters with an effect in its text, for help.
     pub fn known_letters(self) -> impl Iterator<Item = char> {
         Letter::ALL
             .into_iter()
@@ -120,7 +121,7 @@ impl ElementClass {
             .map(|(character, _)| character)
     }
 
-    /// The letters that must be given.
+    /// The required letters.
     pub(crate) fn needed_letters(self) -> impl Iterator<Item = Letter> {
         Letter::ALL
             .into_iter()
@@ -128,7 +129,7 @@ impl ElementClass {
             .filter(move |letter| self.use_of(*letter) == Use::Needed)
     }
 
-    /// Whether it has support bars, or says what the support bars of others are like.
+    /// Whether it has support bars, or gives the parameters for the support bars of others.
     pub(crate) fn has_bars(self) -> bool {
         matches!(self, Self::PathStart | Self::Support | Self::HelicalSupport)
     }

@@ -1,4 +1,4 @@
-//! What a draughtsman meant by a text that is wrong as a whole: one error that shows the text as it should be.
+//! Recognises typical mistakes that affect a whole text, and reports each as a single error with the corrected text.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{parameters as messages, variables};
@@ -8,15 +8,15 @@ use crate::matrix::ElementClass;
 use crate::number::parse_number;
 use crate::text::{LetterValue, ParameterText, Written};
 
-/// A text that is misunderstood as a whole: none of its pieces is read.
+/// A text that is malformed as a whole, so that none of its pieces is used.
 pub(crate) struct Misreading {
-    /// The one error that is reported, without a place.
+    /// The single error to report, without a place.
     pub(crate) problem: Diagnostic,
     /// The letters that it may have been meant to give.
     pub(crate) unread: Letters,
 }
 
-/// What is wrong with a text as a whole.
+/// The mistake in a text as a whole, if there is one.
 pub(crate) fn in_text(text: ParameterText<'_>, class: ElementClass) -> Option<Misreading> {
     if text.is_plain {
         return None;
@@ -24,12 +24,12 @@ pub(crate) fn in_text(text: ParameterText<'_>, class: ElementClass) -> Option<Mi
     if let Some(problem) = commas(text).or_else(|| lower_case(text, class)) {
         return Some(Misreading { problem, unread: Letters::ALL });
     }
-    // A remark says nothing about its element, but in the place of the path's own text it may hide that.
+    // A remark gives no parameters, but in place of the path's own text it may hide them.
     let unread = if class == ElementClass::PathStart { Letters::ALL } else { Letters::default() };
     remark(text, class).map(|problem| Misreading { problem, unread })
 }
 
-/// `O2,T2,B0`.
+/// Recognises commas as separators: `O2,T2,B0`.
 fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
     let is_separator =
         |value: &str, at: usize| value[at + 1..].chars().next().and_then(Letter::new).is_some();
@@ -45,7 +45,7 @@ fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
     Some(problem.with_text(text.fault(piece)))
 }
 
-/// `o2 t2 i0.5 b0`.
+/// Recognises lower case: `o2 t2 i0.5 b0`.
 fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let upper = |piece: &LetterValue| {
         let letter = text.letter(piece)?.to_ascii_uppercase();
@@ -62,7 +62,7 @@ fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic
     Some(Diagnostic::new(&messages::LOWER_CASE_TEXT).with("text", written).with_text(text.whole()))
 }
 
-/// `Deckel links` or `Halter rechts, 2 Stück`: words, and no parameter that counts.
+/// Recognises remarks: words without any effective parameter, such as `Deckel links` or `Halter rechts, 2 Stück`.
 fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let counts = |piece: &LetterValue| piece.letter.is_some_and(|letter| class.use_of(letter).counts());
     let is_word = |piece: &LetterValue| {
@@ -79,7 +79,7 @@ fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     is_remark.then(|| Diagnostic::new(&messages::REMARK).with("text", text.as_str()).with_text(text.whole()))
 }
 
-/// `O3mm`: a number with its unit, or with a punctuation mark behind it.
+/// Recognises a number with a unit or a punctuation mark: `O3mm`.
 pub(crate) fn unit(letter: Letter, value: &str) -> Option<Diagnostic> {
     let end = value.find(|character: char| !matches!(character, '+' | '-' | '.' | ',' | '0'..='9'));
     let (number, rest) = value.split_at(end.unwrap_or(value.len()));
@@ -92,10 +92,10 @@ pub(crate) fn unit(letter: Letter, value: &str) -> Option<Diagnostic> {
     Some(problem.with("value", value).with("meant", format!("{}{number}", letter.as_char())))
 }
 
-/// What may stand behind a number that is meant in mm or in mm/min.
+/// Suffixes of numbers in mm or mm/min.
 const UNITS: [&str; 8] = ["", ";", ":", "mm", "mm;", "mm,", "mm/min", "/min"];
 
-/// `B=2`: an equals sign where the value follows its letter. `problem`: what is wrong with the reference.
+/// Recognises an equals sign between letter and number: `B=2`. `problem`: the error about the reference.
 pub(crate) fn equals_sign(letter: Letter, value: &str, problem: &Diagnostic) -> Option<Diagnostic> {
     let number = value.strip_prefix('=').filter(|number| parse_number(number).is_some())?;
     if letter.is_text() || problem.message != &variables::UNKNOWN_REFERENCE {
@@ -106,12 +106,12 @@ pub(crate) fn equals_sign(letter: Letter, value: &str, problem: &Diagnostic) -> 
     Some(problem.with("meant", format!("{}{number}", letter.as_char())))
 }
 
-/// Whether a letter stands alone, or with a sign only: a blank separates it from its number.
+/// Whether a letter stands alone or only with a sign, because a space separates it from its number.
 pub(crate) fn is_without_value(text: ParameterText<'_>, piece: &LetterValue) -> bool {
     piece.letter.is_some_and(|letter| !letter.is_text()) && matches!(text.value(piece), "" | "-" | "+")
 }
 
-/// What a piece without a letter was meant to be: a zero for O, or a path's name without its sign.
+/// Recognises the intended meaning of a piece without a letter: a zero instead of O, or a path name without `>`.
 pub(crate) fn in_piece(
     text: ParameterText<'_>,
     piece: &LetterValue,

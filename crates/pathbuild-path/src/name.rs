@@ -1,4 +1,4 @@
-//! Path names, and the layers they are on. (book: language/layers-and-names)
+//! Path names and path layers. (book: language/layers-and-names)
 
 use std::borrow::Cow;
 use std::fmt;
@@ -12,25 +12,25 @@ use crate::default_pattern::DefaultPattern;
 use crate::group::Groups;
 use crate::pattern::{Pattern, PatternError};
 
-/// A path's name as its layer spells it, with points. Equal without regard to case; shown as spelt. Every stage hands it on: a short
-/// one, as all are, needs no memory of its own.
+/// A path name as spelt by its layer, with points. Comparison ignores case. Short names are stored inline, since every stage passes them
+/// on.
 #[derive(Clone)]
 pub struct PathName(SmolStr);
 
-/// A path's name of which the spelling counts: whatever shows it is made again when only its case changes.
+/// A path name whose comparison respects case, so that results that show it are recomputed when only the case changes.
 #[derive(Clone)]
 pub struct SpeltName(PathName);
 
-/// What makes a layer a path layer: its name matches as a whole, without regard to case.
+/// The pattern for names of path layers. It must match the whole name, ignoring case.
 #[derive(Clone, Debug)]
 pub struct PathPattern(Pattern);
 
-/// A layer that holds a path, or parts of one.
+/// A layer that contains a path or part of one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathLayer {
     /// The path.
     pub path: PathName,
-    /// Whether it is a tilde layer (`2916.1P~A`), whose texts and elements find only each other.
+    /// Whether it is a tilde layer (`2916.1P~A`), whose texts and elements only match each other.
     pub tilde: bool,
 }
 
@@ -78,15 +78,15 @@ impl PathPattern {
     /// The default: `2913.2P`.
     pub const DEFAULT: &str = DefaultPattern::Path.source();
 
-    /// A pattern from the configuration or the command line.
+    /// Creates a pattern from the configuration or the command line.
     ///
     /// # Errors
-    /// When it is no regular expression, or matches an empty name.
+    /// If it is not a valid regular expression, or matches an empty name.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
         Pattern::new(pattern, DefaultPattern::Path).map(Self)
     }
 
-    /// The path that a layer belongs to; `None` for a layer that is no path layer.
+    /// The path of a layer; `None` if it is not a path layer.
     pub fn layer(&self, layer: &str) -> Option<PathLayer> {
         let name = without_tilde(layer);
         let path = with_points(name);
@@ -95,62 +95,62 @@ impl PathPattern {
             .then(|| PathLayer { path: PathName(path.into()), tilde: name.len() != layer.len() })
     }
 
-    /// Whether a layer belongs to a path.
+    /// Whether a layer is a path layer.
     pub fn is_layer(&self, layer: &str) -> bool {
         self.0.may_begin(layer) && self.0.matches(&with_points(without_tilde(layer)))
     }
 
-    /// Whether a layer's name begins as those of path layers do: `false` is certain.
+    /// Whether the name of a layer begins like that of a path layer. `false` is definitive.
     pub fn may_begin(&self, layer: &str) -> bool {
         self.0.may_begin(layer)
     }
 
-    /// Whether a name is a path's.
+    /// Whether a name is a path name.
     pub fn matches(&self, name: &str) -> bool {
         self.0.matches(name)
     }
 
-    /// The first path name in a subpath's text, and the byte range it stands at.
+    /// The first path name in the text of a subpath, with its byte range.
     pub fn find(&self, text: &str) -> Option<(PathName, std::ops::Range<usize>)> {
         let found = self.0.find(text)?;
         Some((PathName(text[found.clone()].into()), found))
     }
 
-    /// The groups of a name, by which it is compared with file names. `None` when it does not match.
+    /// The groups of a name, for comparison with file names. `None` if it does not match.
     pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         self.0.groups(name)
     }
 
-    /// The regular expression as it was given.
+    /// The regular expression as given.
     pub fn as_str(&self) -> &str {
         self.0.as_str()
     }
 }
 
 impl PathName {
-    /// A name as a person gave it.
+    /// Creates a name as given by a user.
     pub fn new(name: &str) -> Self {
         Self(name.into())
     }
 
-    /// As it is spelt.
+    /// The name as spelt.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// In the one spelling by which equal names are found and ordered.
+    /// The canonical form, which is equal for equal names and determines their order.
     pub fn folded(&self) -> String {
         if self.0.is_ascii() { self.0.to_ascii_uppercase() } else { self.0.to_uppercase() }
     }
 
-    /// Whether letters or digits stand directly before or behind the name in a text, so that another name is meant.
+    /// Whether letters or digits directly adjoin the name in a text, so that another name is meant.
     pub(crate) fn is_part_of_word(&self, text: &str) -> bool {
         text.split_once(self.as_str()).is_some_and(|(before, behind)| {
             before.ends_with(char::is_alphanumeric) || behind.starts_with(char::is_alphanumeric)
         })
     }
 
-    /// Whether a regular expression of E or --restrict is found anywhere in it, with regard to case.
+    /// Whether a regular expression of E or --restrict matches anywhere in the name. It respects case.
     pub fn is_match(&self, pattern: &Regex) -> bool {
         pattern.is_match(&self.0)
     }
@@ -203,7 +203,7 @@ impl Ord for PathName {
     }
 }
 
-/// A layer's name with `_` read as `.`.
+/// A layer name with `_` replaced by `.`.
 fn with_points(layer: &str) -> Cow<'_, str> {
     if layer.contains('_') { Cow::Owned(layer.replace('_', ".")) } else { Cow::Borrowed(layer) }
 }

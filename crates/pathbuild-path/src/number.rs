@@ -1,7 +1,7 @@
 //! Numbers in parameter texts. (book: language/letters)
 
-/// A number: an optional sign, digits, at most one decimal point or comma. `None` for anything else, exponents included, and for what
-/// is too large to be finite.
+/// Parses a number: an optional sign, digits, and at most one decimal point or comma. `None` for anything else, including exponents, and
+/// for numbers that are too large.
 pub fn parse_number(text: &str) -> Option<f64> {
     let (is_negative, digits) = match text.as_bytes() {
         [b'-', digits @ ..] => (true, digits),
@@ -22,7 +22,7 @@ pub fn parse_number(text: &str) -> Option<f64> {
         return None;
     }
     if count <= MOST_DIGITS {
-        // Both are exact, so their quotient is the number that is nearest to what is written.
+        // Both operands are exact, so the quotient is the number nearest to the decimal notation.
         let decimals = point.map_or(0, |before| count - before);
         let number = value as f64 / POWERS_OF_TEN[decimals];
         return Some(if is_negative { -number } else { number });
@@ -31,13 +31,13 @@ pub fn parse_number(text: &str) -> Option<f64> {
     number.is_finite().then_some(number)
 }
 
-/// How many digits a number may have that is read without more ado: whole numbers of so many are exact.
+/// Maximum number of digits for the fast path: whole numbers of this length are exact in f64.
 const MOST_DIGITS: usize = 15;
 
 const POWERS_OF_TEN: [f64; MOST_DIGITS + 1] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// A whole number: an optional sign and digits.
+/// Parses an integer: an optional sign and digits.
 pub fn parse_integer(text: &str) -> Option<i64> {
     text.parse().ok()
 }

@@ -1,42 +1,42 @@
-//! Name ranges whose groups are short integers, as nearly all are: two numbers that are compared at once, where groups are compared one by
-//! one. They say what the groups say.
+//! Name ranges whose groups are short integers, which is nearly always the case. They are compared as two packed numbers instead of group
+//! by group, with the same result.
 
 use crate::group::{Group, Groups};
 
-/// One end of a range: `1234` or `1234.5`, with how many digits they are written with.
+/// An end of a range, `1234` or `1234.5`, with the numbers of digits as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NumberPart {
     first: Number,
     second: Option<Number>,
 }
 
-/// An integer as it is written.
+/// An integer as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Number {
     value: u32,
     digits: u8,
 }
 
-/// A range of path names, or a single one. Ordered by the first name that it holds.
+/// A range of path names, or a single name. Ordered by the first name in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct NumberRange {
-    /// The first name that it holds. What has no second group covers all that have one.
+    /// The first name in the range. A part without a second group covers all names with one.
     first: NumberKey,
-    /// The last name that it holds.
+    /// The last name in the range.
     last: NumberKey,
-    /// With how many digits its numbers are written; 0 for one that is not there.
+    /// The numbers of digits as written; 0 for a missing number.
     digits: [u8; 4],
 }
 
-/// A path's name among such ranges: its first two groups, one behind the other in one number, which is compared at once.
+/// The key of a path name for such ranges: its first two groups packed into one number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct NumberKey(u64);
 
-/// What is after all second groups of a first one.
+/// Greater than every second group.
 const LAST: u32 = u32::MAX;
 
 impl NumberPart {
-    /// What these digits say; `None` where there are too many of them. The second may be missing.
+    /// Parses the digits of both groups, of which the second may be empty. `None` if there are too many digits.
     pub(crate) fn new(first: &[u8], second: &[u8]) -> Option<Self> {
         let second = if second.is_empty() { None } else { Some(Number::parse(second)?) };
         Some(Self { first: Number::parse(first)?, second })
@@ -86,18 +86,18 @@ impl NumberRange {
 
     #[expect(clippy::needless_bitwise_bool, reason = "without a branch it is twice as fast")]
     pub(crate) fn holds(self, path: NumberKey) -> bool {
-        // Without a branch between: nearly all are looked at in vain, and which of both is why nobody can guess.
+        // Without a branch: most comparisons fail, and which of the two fails is unpredictable.
         (self.first <= path) & (path <= self.last)
     }
 
-    /// The first group of the first name that it holds, and of the last.
+    /// The first groups of the first and the last name.
     pub(crate) fn first_groups(self) -> (Group, Group) {
         let [first, _, last, _] = self.digits;
         let group = |key: NumberKey, digits: u8| Number { value: key.groups().0, digits }.group();
         (group(self.first, first), group(self.last, if last == 0 { first } else { last }))
     }
 
-    /// The groups of its ends.
+    /// The groups of both ends.
     pub(crate) fn groups(self) -> (Groups, Option<Groups>) {
         let [a, b, c, d] = self.digits;
         let from = NumberPart::from_key(self.first, [a, b]).expect("a range has a first number");
@@ -139,12 +139,12 @@ impl Number {
     }
 }
 
-/// The key of a path's groups: of an integer, an integer, and whatever follows.
+/// The key of a path name whose first two groups are integers.
 pub(crate) fn number_key(groups: &Groups) -> Option<NumberKey> {
     let [Group::Short { value: first, .. }, Group::Short { value: second, .. }, ..] = &**groups else {
         return None;
     };
-    // Larger numbers than that no range has that this key is compared with.
+    // No range has larger numbers, so they can be capped.
     let second = u32::try_from(*second).unwrap_or(LAST).min(LAST - 1);
     Some(NumberKey::new(u32::try_from(*first).ok()?, second))
 }

@@ -1,4 +1,4 @@
-//! Paths: raw paths with their variables bound and every parameter known. (book: language/letters, book: language/chains-and-passes)
+//! Paths: raw paths with bound variables and all parameters resolved. (book: language/letters, book: language/chains-and-passes)
 
 use std::sync::Arc;
 
@@ -15,16 +15,16 @@ use crate::name::{PathName, SpeltName};
 use crate::raw::Drawn;
 use crate::text::TextId;
 
-/// A path whose parameters are all there and within their limits.
+/// A path with all parameters present and within their limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// As its layer spells it.
+    /// The name as spelt by its layer.
     pub name: SpeltName,
     /// O in mm.
     pub tool: f64,
     /// T in mm.
     pub thickness: f64,
-    /// S in mm, where the path gives one; what holds else depends on its role: [`Path::embedded_sweep_height`].
+    /// S in mm, if the path gives it; the default depends on its role: [`Path::embedded_sweep_height`].
     pub sweep_height: Option<f64>,
     /// M.
     pub material: Option<SmolStr>,
@@ -32,48 +32,48 @@ pub struct Path {
     pub feed: Option<f64>,
     /// R.
     pub output_suffix: SmolStr,
-    /// E: the regular expression that names of embedded paths must match.
+    /// E: the regular expression for names of embedded paths.
     pub embeds_only: Option<SmolStr>,
-    /// Where it starts.
+    /// The start.
     pub start: Xy,
-    /// Where it ends.
+    /// The end.
     pub end: Xy,
     /// Turn markers.
     pub turns: Vec<Turn>,
-    /// What is drawn, shared with the raw path.
+    /// The drawn elements, shared with the raw path.
     pub drawn: Arc<Drawn>,
-    /// Segments in their order: circles, lines, arcs.
+    /// Segments in order: circles, lines, arcs.
     pub segments: Vec<Segment>,
-    /// How its milling, marking and support segments are milled.
+    /// Parameters of its milling, marking and support segments.
     pub cuts: Vec<CutParameters>,
-    /// How its drilled holes and marks are drilled.
+    /// Parameters of its drilled holes and drilled marks.
     pub holes: Vec<Hole>,
     /// Its helical circles.
     pub helices: Vec<Helix>,
     /// Z-probes in file order.
     pub probes: Vec<Probe>,
-    /// The upper face that S must be above, and those of its probes that have their own T. None where S is its own, which is checked with
-    /// its other values.
+    /// The upper face that S must clear; probes with their own T have further ones. `None` if the path gives its own S, which is checked
+    /// together with its other values.
     pub(crate) surface: Option<Surface>,
     pub(crate) probe_surfaces: Vec<Surface>,
     /// The start marker.
     pub start_origin: Origin,
     /// The end marker.
     pub end_origin: Origin,
-    /// Curves that are no part of it.
+    /// Curves that do not belong to it.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
-    /// What is not known of it because it has errors.
+    /// What errors leave unknown about it.
     pub(crate) faults: Option<Box<Faults>>,
 }
 
 /// An upper face of the material.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Surface {
-    /// What says so.
+    /// The element that gives T.
     pub(crate) origin: Origin,
     /// T in mm.
     pub(crate) thickness: f64,
-    /// The text that may say so, see [`Drawn::texts`].
+    /// The text that may give T, see [`Drawn::texts`].
     pub(crate) text: Option<TextId>,
 }
 
@@ -92,7 +92,7 @@ pub struct Probe {
     pub origin: Origin,
     /// Its centre.
     pub at: Xy,
-    /// T + H: the height that is expected there, before what the path is raised by. mm.
+    /// T + H: the expected height in mm, without the height that the path is raised by.
     pub height: f64,
     /// Z: probing feed in mm/min.
     pub feed: Option<f64>,
@@ -102,14 +102,14 @@ pub struct Probe {
     pub(crate) text: Option<TextId>,
 }
 
-/// What the walk goes along.
+/// A segment of the walk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// What is drawn: index into [`Drawn::elements`].
+    /// Its element, as an index into [`Drawn::elements`].
     pub element: u32,
-    /// Order at a star: N, or what its kind has.
+    /// Order at a star: N, or the default for its kind.
     pub order: f64,
-    /// What it is.
+    /// Its kind.
     pub kind: SegmentKind,
 }
 
@@ -117,33 +117,33 @@ pub struct Segment {
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum SegmentKind {
-    /// Member of a milling chain: index into [`Path::cuts`].
+    /// Member of a milling chain, as an index into [`Path::cuts`].
     Cut(u32),
     /// Index into [`Path::holes`].
     Hole(u32),
     /// Index into [`Path::helices`].
     Helix(u32),
-    /// Its own S in mm; else the path's.
+    /// A sweep with its own S in mm; `None` for the path's.
     Sweep {
         height: Option<f64>,
     },
     Subpath(Box<Subpath>),
 }
 
-/// How a milling, marking or support segment is milled. Lengths in mm, feeds in mm/min.
+/// Parameters of a milling, marking or support segment. Lengths are in mm, feeds in mm/min.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutParameters {
-    /// What it leaves.
+    /// The kind of cut.
     pub cut: Cut,
     /// F.
     pub feed: Option<f64>,
     /// Z of the bottom: B, or D of a mark.
     pub bottom: f64,
-    /// Bars along it, for [`Cut::Support`].
+    /// Support bars, for [`Cut::Support`].
     pub bars: Option<Bars>,
-    /// I, C and W, which count where it is the first of its chain.
+    /// I, C and W, which apply if it is the first segment of its chain.
     pub chain: ChainParameters,
-    /// Its own text, where that gives I, C or W, see [`Drawn::texts`].
+    /// Its own text, if that gives I, C or W; see [`Drawn::texts`].
     pub chain_letters: Option<TextId>,
     /// Q.
     pub comment: Option<SmolStr>,
@@ -160,18 +160,18 @@ pub struct ChainParameters {
     pub first_depth: Option<f64>,
 }
 
-/// Support bars of 45 degree slopes, cut to their number along a segment. (book: program/gcode)
+/// Support bars with slopes of 45 degrees, spread along a segment. (book: program/gcode)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
-    /// D: Z of their top.
+    /// D: Z of the top.
     pub top: f64,
     /// P: length of a bar.
     pub length: f64,
-    /// U: least distance between bars.
+    /// U: minimum distance between bars.
     pub distance: f64,
 }
 
-/// How a hole or mark is drilled.
+/// Parameters of a drilled hole or drilled mark.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "as in CutParameters; peck is C")]
 pub struct Hole {
@@ -181,16 +181,16 @@ pub struct Hole {
     pub comment: Option<SmolStr>,
 }
 
-/// A helical circle, mark or circle with bars.
+/// A helical circle, possibly a mark or with bars.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Helix {
     /// Centre.
     pub centre: Xy,
-    /// Of the drawn circle: the outer one.
+    /// Radius of the drawn circle, which is the outer one.
     pub radius: f64,
-    /// Z down to which it is milled whole: B, or D of a mark and with bars.
+    /// Z down to which the whole circle is milled: B, or D for marks and circles with bars.
     pub bottom: f64,
-    /// B below, and the bars, for circles with bars.
+    /// For circles with bars: B, and the bars.
     pub bars: Option<(f64, Bars)>,
     /// F.
     pub feed: Option<f64>,
@@ -200,32 +200,32 @@ pub struct Helix {
     pub comment: Option<SmolStr>,
 }
 
-/// A path to embed.
+/// A subpath segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subpath {
-    /// Where the embedded path's start comes to lie.
+    /// The position of the embedded path's start.
     pub start: Xy,
-    /// The direction in which its end lies.
+    /// The point that determines the direction to the embedded path's end.
     pub end: Xy,
-    /// Which path.
+    /// The embedded path.
     pub name: SubpathName,
-    /// T, own or the path's.
+    /// T, from the segment or the path.
     pub thickness: f64,
     /// O.
     pub tool: f64,
-    /// Of these letters errors hide the values.
+    /// Letters whose values are hidden by errors.
     pub(crate) unknown: Letters,
     /// M.
     pub material: Option<SmolStr>,
-    /// H: how much it is raised.
+    /// H: the height that the embedded path is raised by.
     pub height: f64,
-    /// Values of its variables, in the order written.
+    /// Values for the variables of the embedded path, in the order written.
     pub values: Vec<SubpathValue>,
-    /// Its own text, see [`Drawn::texts`]. See [`Path::fault`].
+    /// Its own text, see [`Drawn::texts`] and [`Path::fault`].
     pub text: Option<TextId>,
 }
 
-/// What a subpath's text says of the name.
+/// The name in a subpath's text.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum SubpathName {
@@ -235,7 +235,7 @@ pub enum SubpathName {
     Invalid {
         value: Box<str>,
     },
-    /// `has_more`: the whole value, where there is more in it than the name.
+    /// `has_more`: the whole value, if it contains more than the name.
     Found {
         name: SpeltName,
         has_more: Option<Box<str>>,
@@ -252,32 +252,32 @@ pub struct SubpathValue {
 }
 
 impl Path {
-    /// Whether it has errors: it is judged further, but no program is made of it.
+    /// Whether it has errors: it is checked further, but gives no program.
     pub fn has_faults(&self) -> bool {
         self.faults.is_some()
     }
 
-    /// Whether the path or any of its segments says I.
+    /// Whether the path or any of its segments gives I.
     pub(crate) fn gives_infeed(&self) -> bool {
         self.cuts.iter().any(|cut| cut.chain.infeed.is_some())
     }
 
-    /// Whether errors hide what the path says of a letter.
+    /// Whether errors hide the value of a letter.
     pub fn hides(&self, letter: Letter) -> bool {
         self.unknown_letters().contains(letter)
     }
 
-    /// The letters of which errors hide what the path says.
+    /// The letters whose values are hidden by errors.
     pub(crate) fn unknown_letters(&self) -> Letters {
         self.faults.as_ref().map_or_else(Letters::default, |faults| faults.letters)
     }
 
-    /// S of the path where it is embedded or checked: its own, else the default.
+    /// S of the path when embedded or checked: its own, or the default.
     pub fn embedded_sweep_height(&self) -> f64 {
         self.sweep_height(&PathOptions::default(), PathRole::Embedded).unwrap_or_default()
     }
 
-    /// S of the path in a role: its own, else that of the option or the default; `None` where an option is missing.
+    /// S of the path in a role: its own, that of the option, or the default; `None` if the option is missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         self.sweep_height.or_else(|| {
             let height = fallback(Letter::S, ElementClass::PathStart, self.numbers(), options, role);
@@ -285,16 +285,16 @@ impl Path {
         })
     }
 
-    /// The numbers from which fallbacks follow.
+    /// The numbers that defaults are derived from.
     pub fn numbers(&self) -> PathNumbers {
         PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: self.feed }
     }
 
-    /// Whether anything in it is milled at the feed of the options.
+    /// Whether any milling uses the feed of the options.
     pub fn needs_feed(&self) -> bool {
         self.feed.is_none()
             && self.segments.iter().any(|segment| match &segment.kind {
-                // Coming down to a chain's edge is reckoned with the path's feed, whatever its segments say.
+                // The plunge to the edge of a chain uses the path's feed, regardless of its segments.
                 SegmentKind::Cut(_) => true,
                 SegmentKind::Hole(hole) => self.holes[*hole as usize].feed.is_none(),
                 SegmentKind::Helix(helix) => self.helices[*helix as usize].feed.is_none(),
@@ -302,17 +302,17 @@ impl Path {
             })
     }
 
-    /// Where a segment of it is drawn.
+    /// The location of a segment's element.
     pub fn origin(&self, segment: &Segment) -> Origin {
         self.drawn.origin(self.element(segment))
     }
 
-    /// A subpath's own text with a letter underlined, where it gives that.
+    /// A subpath's own text with a letter underlined, if it gives that letter.
     pub fn fault(&self, subpath: &Subpath, letter: Letter) -> Option<TextFault> {
         self.drawn.text(subpath.text)?.fault_of(letter)
     }
 
-    /// Where a segment of it starts and where it ends, as drawn.
+    /// The drawn start and end of a segment.
     pub fn ends(&self, segment: &Segment) -> [Xy; 2] {
         match &self.element(segment).shape {
             Shape::Curve(curve) => [curve.start(), curve.end()],
@@ -320,7 +320,7 @@ impl Path {
         }
     }
 
-    /// What a segment of it is drawn as; `None` for circles.
+    /// The drawn curve of a segment; `None` for circles.
     pub(crate) fn curve(&self, segment: &Segment) -> Option<Curve> {
         match self.element(segment).shape {
             Shape::Curve(curve) => Some(curve),
@@ -341,7 +341,7 @@ impl Subpath {
 }
 
 impl Segment {
-    /// The path that it names, where it is a subpath segment that names one.
+    /// The name of the embedded path, if it is a subpath segment that has one.
     pub fn embedded_name(&self) -> Option<&PathName> {
         match &self.kind {
             SegmentKind::Subpath(subpath) => match &subpath.name {
@@ -352,7 +352,7 @@ impl Segment {
         }
     }
 
-    /// What of several segments at a point comes first when their orders are equal.
+    /// Priority among several segments with the same order at a point.
     pub(crate) fn preference(&self) -> u8 {
         match self.kind {
             SegmentKind::Hole(_) => 1,
@@ -365,7 +365,7 @@ impl Segment {
 }
 
 impl CutParameters {
-    /// What a segment of this kind is called.
+    /// The name of such a segment in messages.
     pub(crate) fn word(&self) -> &'static Word {
         match self.cut {
             Cut::Mill => &words::MILLING_SEGMENT,
@@ -376,7 +376,7 @@ impl CutParameters {
 }
 
 impl Bars {
-    /// How many bars a segment of this length gets.
+    /// The number of bars on a segment of this length.
     pub fn count(&self, length: f64) -> f64 {
         (length / (self.distance + self.length)).floor()
     }

@@ -1,4 +1,4 @@
-//! Patterns with groups, as those of paths and files are: matched as a whole, without regard to case.
+//! Patterns with groups for names of paths and files. They match whole names, ignoring case.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,12 +10,12 @@ use crate::default_pattern::{DefaultPattern, Match};
 use crate::group::Groups;
 use crate::number_range::NumberPart;
 
-/// A pattern for matching a whole name and for searching in a text.
+/// A pattern, for matching whole names and for searching texts.
 #[derive(Clone)]
 pub(crate) enum Pattern {
-    /// One that is read by hand.
+    /// A default pattern with a handwritten matcher.
     Default(DefaultPattern),
-    /// One of the configuration.
+    /// A pattern from the configuration.
     Regex(Box<RegexPattern>),
 }
 
@@ -25,12 +25,12 @@ pub(crate) struct RegexPattern {
     source: Box<str>,
     whole: LazyRegex,
     anywhere: LazyRegex,
-    /// Two of them with a hyphen or an en dash between.
+    /// Two matches separated by a hyphen or an en dash.
     range: LazyRegex,
 }
 
-/// A regular expression that is compiled when it is first used: compiling takes longer than reading most drawings, and a run that
-/// embeds nothing needs only one of them.
+/// A regular expression that is compiled on first use: compiling takes longer than reading most drawings, and a run without embeddings
+/// needs only one of them.
 #[derive(Clone)]
 pub(crate) struct LazyRegex {
     source: Box<str>,
@@ -39,21 +39,21 @@ pub(crate) struct LazyRegex {
 
 /// A name that a pattern found in a text.
 pub(crate) enum Name<'t> {
-    /// By the default pattern, with the text.
+    /// A match of a default pattern, with its text.
     Default(Match, &'t str),
-    /// By another one.
+    /// The groups of any other match.
     Groups(Groups),
 }
 
-/// Why a pattern cannot be used.
+/// The reason why a pattern is invalid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PatternError {
-    /// What is wrong, in the words of the regular expression parser.
+    /// The message of the regular expression parser.
     pub reason: Box<str>,
 }
 
 impl Pattern {
-    /// A pattern that somebody gave, or the default where it is that.
+    /// Creates a pattern, using the handwritten matcher if it is the default one.
     pub(crate) fn new(source: &str, default: DefaultPattern) -> Result<Self, PatternError> {
         if source == default.source() {
             return Ok(Self::Default(default));
@@ -61,7 +61,7 @@ impl Pattern {
         RegexPattern::new(source).map(|pattern| Self::Regex(Box::new(pattern)))
     }
 
-    /// Whether ranges can be looked for, which is asked of the patterns of file names alone.
+    /// Checks that the pattern also works for ranges. Only needed for patterns of file names.
     pub(crate) fn check_ranges(&self) -> Result<(), PatternError> {
         match self {
             Self::Default(_) => Ok(()),
@@ -76,7 +76,7 @@ impl Pattern {
         }
     }
 
-    /// Whether a name begins as one that matches may: nearly all layers do not.
+    /// Whether a name begins like one that matches. Most layers do not.
     pub(crate) fn may_begin(&self, name: &str) -> bool {
         match self {
             Self::Default(_) => name.as_bytes().first().is_some_and(u8::is_ascii_digit),
@@ -98,7 +98,7 @@ impl Pattern {
         }
     }
 
-    /// The groups of a name that matches as a whole; a group that takes no part is empty.
+    /// The groups of a name that matches as a whole. A group that does not participate is empty.
     pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         match self {
             Self::Default(pattern) => pattern.whole(name).map(|found| found.groups(name)),
@@ -106,7 +106,7 @@ impl Pattern {
         }
     }
 
-    /// Each name in a text.
+    /// Calls `take` for each name in a text.
     pub(crate) fn each(&self, text: &str, mut take: impl FnMut(Name<'_>)) {
         match self {
             Self::Default(pattern) => {
@@ -119,7 +119,7 @@ impl Pattern {
         }
     }
 
-    /// The one name in a text that begins with it and has no digits behind it, which is how nearly all files are named: found in a tenth
+    /// The only name in a text, if the text begins with it and no digits follow. Most files are named this way, and this test takes a tenth
     /// of the time.
     pub(crate) fn lone_numbers(&self, text: &str) -> Option<NumberPart> {
         match self {
@@ -128,7 +128,7 @@ impl Pattern {
         }
     }
 
-    /// Both ends of each range in a text: two names with nothing but a hyphen between.
+    /// Calls `take` with both ends of each range in a text: two names separated by nothing but a hyphen.
     pub(crate) fn each_range(&self, text: &str, mut take: impl FnMut(Name<'_>, Name<'_>)) {
         match self {
             Self::Default(pattern) => {
@@ -146,7 +146,7 @@ impl Pattern {
         }
     }
 
-    /// Where each range stands.
+    /// The positions of the ranges.
     pub(crate) fn range_spans(&self, text: &str) -> Vec<Range<usize>> {
         match self {
             Self::Default(pattern) => {
@@ -158,7 +158,7 @@ impl Pattern {
 }
 
 impl Name<'_> {
-    /// Its groups as numbers, where they are some.
+    /// Its groups as numbers, if they are numbers.
     pub(crate) fn numbers(&self) -> Option<NumberPart> {
         match self {
             Self::Default(found, text) => found.numbers(text),
@@ -175,7 +175,7 @@ impl Name<'_> {
 }
 
 impl RegexPattern {
-    /// Compiles at once, to see whether it can be.
+    /// Compiles the expressions immediately, to validate them.
     fn new(source: &str) -> Result<Self, PatternError> {
         let pattern = Self {
             source: source.into(),
@@ -202,7 +202,7 @@ impl LazyRegex {
         Self { source: source.into(), compiled: OnceLock::new() }
     }
 
-    /// Compiles it, to see whether it can be.
+    /// Compiles the expression, to validate it.
     pub(crate) fn check(&self) -> Result<(), PatternError> {
         let compiled = compile(&self.source)?;
         self.compiled.get_or_init(|| compiled);
@@ -226,7 +226,7 @@ impl fmt::Debug for LazyRegex {
     }
 }
 
-/// Compiles without regard to case. The size limit keeps a hostile pattern from taking the machine.
+/// Compiles an expression that ignores case. The size limit prevents a hostile pattern from exhausting memory.
 fn compile(source: &str) -> Result<Regex, PatternError> {
     RegexBuilder::new(source)
         .case_insensitive(true)

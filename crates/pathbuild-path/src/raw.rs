@@ -1,4 +1,4 @@
-//! Raw paths: what is drawn on a path's layers, with the texts found, whatever the variables are. (book: reference/dxf)
+//! Raw paths: the elements on a path's layers with their texts, before variables are bound. (book: reference/dxf)
 
 use std::sync::Arc;
 
@@ -15,12 +15,12 @@ use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern, SpeltName};
 use crate::text::{ParameterText, ParameterTexts, TextId, Written};
 
-/// A path as it is drawn. It knows no lines and handles of the file: see [`SourceMap`].
+/// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawPath {
-    /// Its name, as its first layer in the file spells it.
+    /// Its name as spelt by its first layer in the file.
     pub name: SpeltName,
-    /// The start marker. Its text is that of the path itself, also where @ refers to another's.
+    /// The start marker. Its text is the path's own, even if @ refers to the text of another path.
     pub start: Option<Marker>,
     /// The end marker.
     pub end: Option<Marker>,
@@ -28,38 +28,38 @@ pub struct RawPath {
     pub turns: Vec<Marker>,
     /// Z-probes, in file order.
     pub probes: Vec<Marker>,
-    /// Its elements and texts.
+    /// Its elements with their texts.
     pub drawn: Arc<Drawn>,
-    /// The path's own parameters among the texts: its start's, or a copy of those of the path that @ names.
+    /// The path's own parameters among the texts: the text of its start, or a copy of that of the path named by @.
     pub(crate) parameters: Option<TextId>,
-    /// The path that @ names, and its start marker, where the parameters stand.
+    /// The path named by @, and its start marker, which has the parameters.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
-    /// What its faults leave unknown.
+    /// What errors leave unknown.
     pub(crate) faults: DrawingFaults,
-    /// The variables that it defines, in the order written.
+    /// Its variables in the order written.
     pub definitions: Vec<Definition>,
-    /// Curves on its layers that are no part of it, with where they begin, if that is known.
+    /// Curves on its layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
-    /// What is wrong with the drawing alone. When one is an error the path goes no further.
+    /// Findings about the drawing alone. An error ends the compilation of the path.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// What is drawn on a path's layers. Shared by the stages, which know elements and texts by number.
+/// The elements on a path's layers. Shared between stages, which refer to elements and texts by number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// All circles, then all lines, then all arcs, each in file order. (book: language/chains-and-passes)
     pub elements: Vec<Element>,
-    /// The texts that elements have.
+    /// The texts of elements.
     pub texts: ParameterTexts,
-    /// The path's layers, in the order in which they appear in the file; at least one.
+    /// The path's layers in file order; at least one.
     pub layers: Vec<SmolStr>,
 }
 
-/// Where the elements of a path are in the file: by [`ElementId`](pathbuild_diagnostic::ElementId).
+/// The positions of a path's elements in the file, by [`ElementId`](pathbuild_diagnostic::ElementId).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceMap(pub(crate) Vec<Position>);
 
-/// Line and handle of an entity.
+/// The line and handle of an entity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Position {
@@ -67,20 +67,20 @@ pub struct Position {
     pub handle: Option<Handle>,
 }
 
-/// What the language needs to know of the configuration to read a drawing.
+/// Settings of the drawing language.
 #[derive(Clone, Debug)]
 pub struct Language {
-    /// Which layers are path layers.
+    /// The names of path layers.
     pub path_pattern: PathPattern,
-    /// Which layers hold clamps, where somebody says so.
+    /// The names of layers with clamps, if configured.
     pub keep_out: Option<KeepOutPattern>,
-    /// Names of line types.
+    /// Additional names of line types.
     pub line_types: LineTypeAliases,
-    /// How far apart ends may be, in mm, that the walk joins with a warning (PB115); 0: only ends that coincide meet.
+    /// Largest gap in mm that the walk closes with a warning (PB115); 0 requires ends to coincide.
     pub join_tolerance: f64,
-    /// Longest value that variables may make, in bytes.
+    /// Maximum length in bytes of a value with variables substituted.
     pub text_limit: usize,
-    /// From where on something is doubtful.
+    /// Thresholds beyond which something is doubtful.
     pub doubts: Doubts,
 }
 
@@ -89,7 +89,7 @@ pub struct Language {
 pub struct RawFile {
     /// The paths.
     pub paths: Vec<(RawPath, SourceMap)>,
-    /// What belongs to the file and to none of its paths.
+    /// Findings about the file that belong to none of its paths.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -101,28 +101,28 @@ impl Language {
 }
 
 impl RawPath {
-    /// Whether the drawing alone is in order.
+    /// Whether the drawing itself has no errors.
     pub fn is_sound(&self) -> bool {
         !self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// The first of its layers.
+    /// Its first layer.
     pub fn layer(&self) -> &str {
         &self.drawn.layers[0]
     }
 
-    /// The path's own parameters: its start's text, or that of the path that @ names. Empty where there is none.
+    /// The path's own parameters: the text of its start, or that of the path named by @. Empty if there is none.
     pub fn parameters(&self) -> ParameterText<'_> {
         self.drawn.text(self.parameters).unwrap_or_default()
     }
 
-    /// Whether a text of an element is probably the path's own, which its start lacks: nothing is wrong with its letters.
+    /// Whether the text of an element is probably the path's own, which is missing from the start.
     pub(crate) fn may_be_of_path(&self, text: ParameterText<'_>) -> bool {
         self.parameters.is_none() && text.letters.contains(Letter::O) && text.letters.contains(Letter::T)
     }
 
-    /// A diagnostic about the path's own parameters. Those that @ borrows are reported with the path they belong to, so that what is wrong
-    /// with them is said once.
+    /// Places a diagnostic about the path's own parameters. Those borrowed by @ are reported with the lending path, so that each problem is
+    /// reported only once.
     pub(crate) fn at_parameters(&self, diagnostic: Diagnostic) -> Diagnostic {
         match (&self.borrowed_from, &self.start) {
             (Some(lender), _) => lender.1.at(diagnostic).in_path(lender.0.as_str()),
@@ -131,7 +131,7 @@ impl RawPath {
         }
     }
 
-    /// The cutter's diameter: the literal O, when it is a number that can be one.
+    /// The cutter's diameter: O, if it is a literal and valid number.
     pub fn tool(&self) -> Option<f64> {
         let parameters = self.parameters();
         match parameters.piece(Letter::O)?.written {
@@ -142,12 +142,12 @@ impl RawPath {
 }
 
 impl Drawn {
-    /// A text, where there is one.
+    /// A text, if there is one.
     pub fn text(&self, text: Option<TextId>) -> Option<ParameterText<'_>> {
         self.texts.get(text?)
     }
 
-    /// Where an element is drawn.
+    /// The location of an element.
     pub fn origin(&self, element: &Element) -> Origin {
         Origin::new(element.source, &self.layers[element.source.layer as usize], element.shape.point())
     }
@@ -158,7 +158,7 @@ impl SourceMap {
         self.0.push(position);
     }
 
-    /// Fills in the line and handle of a diagnostic whose element is in this map.
+    /// Fills in the line and handle of a diagnostic about an element of this map.
     pub fn locate(&self, diagnostic: &mut Diagnostic) {
         let element = diagnostic.place.element.and_then(|id| self.0.get(id.0 as usize));
         if let Some(position) = element {

@@ -1,38 +1,38 @@
-//! The name ranges of a directory's files: which files may hold a path. (book: language/layers-and-names)
+//! The table of name ranges in a directory, for finding the files that may define a path. (book: language/layers-and-names)
 
 use crate::files::{NameRange, PathKey};
 use crate::group::Group;
 
-/// The name ranges of many files, in the order of the first groups of their first names. "Integers by value, the rest as text" is no order:
-/// each look-up searches among the integers or the texts, and ranges from one to the other are all looked at.
+/// The name ranges of many files, ordered by the first group of their first name. Integers and texts have no common order, so each lookup
+/// searches either the integers or the texts, and scans all ranges from one to the other.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RangeTable {
     sorted: Vec<Entry>,
-    /// Ranges without an order.
+    /// Ranges that cannot be ordered.
     others: Vec<(NameRange, u32)>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Entry {
-    /// The first group of the first name, and of the last.
+    /// The first groups of the first and of the last name.
     from: First,
     to: First,
-    /// The greatest `to` of the entries up to this one.
+    /// The maximum of `to` over the entries up to this one.
     latest: First,
     range: NameRange,
     file: u32,
 }
 
-/// The first group of a name. Integers come before texts.
+/// The first group of a name. Integers precede texts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum First {
     Integer(u64),
-    /// In upper case.
+    /// A text in upper case.
     Text(String),
 }
 
 impl First {
-    /// `None` for a group that took no part, and for an integer that is too long.
+    /// `None` for a group that did not participate, and for an integer that is too long.
     fn new(group: &Group) -> Option<Self> {
         match group {
             Group::Short { value, .. } => Some(Self::Integer(*value)),
@@ -63,7 +63,7 @@ impl Entry {
 }
 
 impl FromIterator<(NameRange, u32)> for RangeTable {
-    /// Each range with the number of the file that has it in its name.
+    /// Builds the table from ranges, each with the number of its file.
     fn from_iter<I: IntoIterator<Item = (NameRange, u32)>>(ranges: I) -> Self {
         let (mut sorted, mut others) = (Vec::new(), Vec::new());
         for (range, file) in ranges {
@@ -72,7 +72,7 @@ impl FromIterator<(NameRange, u32)> for RangeTable {
                 Err(other) => others.push(other),
             }
         }
-        // Entries are large: their keys are sorted.
+        // Sorts by cached keys, since entries are large.
         sorted.sort_by_cached_key(|entry| entry.from.clone());
         for index in 1..sorted.len() {
             if sorted[index - 1].latest > sorted[index].latest {
@@ -84,7 +84,7 @@ impl FromIterator<(NameRange, u32)> for RangeTable {
 }
 
 impl RangeTable {
-    /// The numbers of the files that may hold a path: ascending, each once.
+    /// The numbers of the files that may define a path, in ascending order without duplicates.
     pub fn files(&self, path: &PathKey) -> Vec<u32> {
         let mut files = Vec::new();
         let mut take = |range: &NameRange, file: u32| {
@@ -95,7 +95,7 @@ impl RangeTable {
         let group = path.first_group();
         match group.and_then(First::new).zip(group) {
             Some((first, group)) => {
-                // A text is compared with integers as a text, of which they are in no order.
+                // A text is compared with integers as text, for which they are not ordered.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }
@@ -114,7 +114,7 @@ impl RangeTable {
         files
     }
 
-    /// The entries that begin at a first group or before it, and end there or behind it.
+    /// The entries whose ranges contain a first group.
     fn around(&self, first: &First) -> impl Iterator<Item = &Entry> {
         let begun = self.sorted.partition_point(|entry| entry.from <= *first);
         let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);

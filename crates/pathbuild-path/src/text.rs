@@ -1,4 +1,4 @@
-//! Parameter texts: letters and values. (book: language/parameter-texts)
+//! Parses parameter texts into letters and values. (book: language/parameter-texts)
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -13,20 +13,20 @@ use crate::matrix::{ElementClass, Use};
 use crate::mistakes;
 use crate::number::{parse_integer, parse_number};
 
-/// The parameter texts of a path, read once: what they say is asked for by several stages.
+/// The parameter texts of a path, parsed once for all stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ParameterTexts {
-    /// All texts behind each other.
+    /// All texts, concatenated.
     string: String,
     pieces: Vec<LetterValue>,
     texts: Vec<Text>,
 }
 
-/// A text of a path: its number, counted from 1.
+/// The number of a text in a path, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextId(NonZeroU32);
 
-/// Where a text and its pieces are, and what is known of it as a whole.
+/// The ranges of a text and its pieces, and properties of the whole text.
 #[derive(Clone, Debug, PartialEq)]
 struct Text {
     string: Range<u32>,
@@ -40,51 +40,51 @@ struct Text {
 pub struct ParameterText<'t> {
     string: &'t str,
     pieces: &'t [LetterValue],
-    /// All that it has.
+    /// The letters in it.
     pub(crate) letters: Letters,
-    /// Whether each of its pieces has another letter and its value is what it should be, without a reference to a variable.
+    /// Whether all its pieces have different letters and valid values without references to variables.
     pub(crate) is_plain: bool,
 }
 
-/// A letter with its value, still with variables in it.
+/// A letter with its value, before variables are substituted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LetterValue {
-    /// The letter; `None` for a character that is none (PB202).
+    /// The letter; `None` if the piece begins with another character (PB202).
     pub letter: Option<Letter>,
-    /// What its value is before variables are put in.
+    /// The value before variables are substituted.
     pub(crate) written: Written,
-    /// Its bytes in the text.
+    /// The byte range in the text.
     span: Range<u32>,
 }
 
-/// What a value is.
+/// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Written {
-    /// A number, of a letter whose value is one.
+    /// A number, for a letter with a numeric value.
     Number(f64),
-    /// Text, of a letter whose value is text.
+    /// A text, for a letter with a text value.
     Text,
-    /// Neither of them before variables have values.
+    /// Contains references, so it is unknown before variables are bound.
     Reference,
-    /// No number, where the letter asks for one.
+    /// Not a number, although the letter requires one.
     NoNumber,
 }
 
 impl ParameterTexts {
-    /// Adds a text as it is drawn.
+    /// Adds a text as drawn.
     pub(crate) fn push_drawn(&mut self, text: &str) -> TextId {
-        // What is milled alike is written alike, mostly nearby.
+        // Texts with the same content are usually near each other.
         let is_same = |known: &&Text| self.string[range(&known.string)] == *text;
         if let Some(same) = self.texts.iter().rev().take(NEARBY).find(is_same) {
             let same = same.clone();
             return self.add(same);
         }
-        // Nearly all texts are what they look like.
+        // Most texts contain neither codes nor continuation lines.
         let is_plain = !text.bytes().any(|byte| matches!(byte, b'%' | b'~'));
         if is_plain { self.push(text) } else { self.push(&joined(&without_percent_codes(text))) }
     }
 
-    /// Adds a text whose lines are joined and codes replaced.
+    /// Adds a text whose lines are joined and whose codes are replaced.
     pub(crate) fn push(&mut self, text: &str) -> TextId {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
@@ -105,12 +105,12 @@ impl ParameterTexts {
         TextId(NonZeroU32::MIN.saturating_add(number(self.texts.len() - 1)))
     }
 
-    /// One of these texts.
+    /// The text with this number.
     pub fn get(&self, text: TextId) -> Option<ParameterText<'_>> {
         self.texts.get(text.0.get() as usize - 1).map(|text| self.text(text))
     }
 
-    /// The first of these texts.
+    /// The first text.
     pub fn first(&self) -> Option<ParameterText<'_>> {
         self.texts.first().map(|text| self.text(text))
     }
@@ -126,7 +126,7 @@ impl ParameterTexts {
     }
 }
 
-/// With so many of the last texts a new one is compared before it is read.
+/// Number of preceding texts that a new text is compared with before it is parsed.
 const NEARBY: usize = 8;
 
 fn number(index: usize) -> u32 {
@@ -138,7 +138,7 @@ fn range(numbers: &Range<u32>) -> Range<usize> {
 }
 
 impl From<&str> for ParameterTexts {
-    /// A single text, `%%` codes already replaced.
+    /// Creates a single text whose `%%` codes are already replaced.
     fn from(text: &str) -> Self {
         let mut texts = Self::default();
         texts.push(&joined(text));
@@ -147,27 +147,27 @@ impl From<&str> for ParameterTexts {
 }
 
 impl<'t> ParameterText<'t> {
-    /// The text as it is shown in diagnostics.
+    /// The text as shown in diagnostics.
     pub fn as_str(self) -> &'t str {
         self.string
     }
 
-    /// All pieces in the order they are written.
+    /// All pieces in the order written.
     pub fn pieces(self) -> &'t [LetterValue] {
         self.pieces
     }
 
-    /// The first piece of a letter.
+    /// The first piece with a letter.
     pub fn piece(self, letter: Letter) -> Option<&'t LetterValue> {
         self.pieces.get(self.index(letter)?)
     }
 
-    /// Which of the pieces is the first of a letter.
+    /// The index of the first piece with a letter.
     pub(crate) fn index(self, letter: Letter) -> Option<usize> {
         self.pieces.iter().position(|piece| piece.letter == Some(letter))
     }
 
-    /// What a piece begins with, a letter or not.
+    /// The first character of a piece, whether it is a parameter letter or not.
     pub(crate) fn letter(self, piece: &LetterValue) -> Option<char> {
         self.string[piece.span()].chars().next()
     }
@@ -177,14 +177,14 @@ impl<'t> ParameterText<'t> {
         &self.string[piece.span()]
     }
 
-    /// A piece's value as written.
+    /// The value of a piece as written.
     pub fn value(self, piece: &LetterValue) -> &'t str {
         let mut characters = self.string[piece.span()].chars();
         characters.next();
         characters.as_str()
     }
 
-    /// Letters that pieces without a letter may stand for: `b2` for B, a lone `2` for any.
+    /// Letters that pieces without a letter may stand for: B for `b2`, any letter for a lone `2`.
     pub(crate) fn unread_letters(self) -> Letters {
         let meant = |piece: &LetterValue| {
             let first = self.letter(piece).unwrap_or_default();
@@ -194,7 +194,7 @@ impl<'t> ParameterText<'t> {
         unread.fold(Letters::default(), |all, piece| all.and(meant(piece)))
     }
 
-    /// All letters that it may have been meant to give, to whatever element.
+    /// All letters that the text may have been meant to give to some element.
     pub(crate) fn meant_letters(self) -> Letters {
         match mistakes::in_text(self, ElementClass::Unread) {
             Some(misreading) => misreading.unread,
@@ -202,7 +202,7 @@ impl<'t> ParameterText<'t> {
         }
     }
 
-    /// Whether a letter stands in the text more than once.
+    /// Whether a letter occurs more than once.
     pub(crate) fn repeats(self, letter: Letter) -> bool {
         !self.is_plain && self.pieces.iter().filter(|piece| piece.letter == Some(letter)).nth(1).is_some()
     }
@@ -212,18 +212,18 @@ impl<'t> ParameterText<'t> {
         TextFault::new(self.string, piece.span())
     }
 
-    /// The whole text with the first piece of a letter underlined, where there is one.
+    /// The whole text with the first piece of a letter underlined, if there is one.
     pub(crate) fn fault_of(self, letter: Letter) -> Option<TextFault> {
         self.piece(letter).map(|piece| self.fault(piece))
     }
 
-    /// The whole text underlined.
+    /// The whole text, underlined.
     pub fn whole(self) -> TextFault {
         TextFault::new(self.string, 0..self.string.len())
     }
 
-    /// What is wrong whatever the values are: PB202, PB204 and PB206, and as warnings PB210. Without places. Nothing is wrong with a
-    /// text that is not read.
+    /// Problems that do not depend on values: PB202, PB204 and PB206, and PB210 as a warning, without places. Texts that are ignored have
+    /// none.
     pub fn problems(self, class: ElementClass) -> Vec<Diagnostic> {
         if class == ElementClass::Unread {
             return Vec::new();
@@ -233,7 +233,7 @@ impl<'t> ParameterText<'t> {
         }
         let (mut letters, mut variables) = (Letters::default(), BTreeSet::new());
         let of_piece = |piece: &LetterValue| {
-            // Letters are the same letter; variables only when they are the same variable.
+            // A letter must not be repeated; variables may occur several times under different names.
             let is_repeated = match piece.letter {
                 None => false,
                 Some(Letter::Variable) => !variables.insert(self.value(piece).chars().next()),
@@ -265,7 +265,7 @@ impl<'t> ParameterText<'t> {
         (how == Use::Ignored).then(|| self.without_effect(letter, piece, class))
     }
 
-    /// What to do depends on what was meant: who writes one of the two depths where the other counts must not just remove it.
+    /// The advice depends on the intention: a depth whose letter has no effect should be replaced by the other depth, not just removed.
     fn without_effect(self, letter: Letter, piece: &LetterValue, class: ElementClass) -> Diagnostic {
         let counts = |other| class.use_of(other) == Use::Needed;
         let problem = match letter {
@@ -293,7 +293,7 @@ impl LetterValue {
 }
 
 impl Written {
-    /// What a value is that a letter has, or that is put in for one.
+    /// Classifies a value of a letter.
     pub(crate) fn of(letter: Letter, value: &str) -> Self {
         let number = match letter {
             _ if letter.is_text() => None,
@@ -324,7 +324,8 @@ fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
         .with("element", class.word())
 }
 
-/// Joins what `~` at the end of a line continues: a long value goes on in the next line. Blanks behind the `~` cannot be seen in a CAD.
+/// Joins lines ending in `~`, by which a long value continues on the next line. Spaces after the `~` are ignored, because they are
+/// invisible in a CAD program.
 fn joined(text: &str) -> Cow<'_, str> {
     if !text.contains('~') {
         return Cow::Borrowed(text);
@@ -350,12 +351,12 @@ fn is_line_end(character: char) -> bool {
     matches!(character, '\n' | '\r')
 }
 
-/// What separates pieces: not a non-breaking space.
+/// Whether a byte separates pieces. Non-breaking spaces do not.
 fn is_blank(byte: u8) -> bool {
     byte <= b' ' && matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
-/// The first piece of a text from a byte on.
+/// The first piece at or after a byte offset.
 fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
     let bytes = text.as_bytes();
     let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;

@@ -1,4 +1,4 @@
-//! The circle by which a text finds its element, and what it overlaps. (book: language/parameter-texts)
+//! The circle by which a text is matched with its element, and its overlap with shapes. (book: language/parameter-texts)
 
 use nalgebra::Vector2;
 use pathbuild_dxf::{HorizontalAlign, MText, Text, VerticalAlign};
@@ -6,7 +6,7 @@ use pathbuild_dxf::{HorizontalAlign, MText, Text, VerticalAlign};
 use crate::approx::above;
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 
-/// A text's circle, in mm.
+/// The circle of a text, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "a circle's parts")]
 pub struct TextCircle {
@@ -14,11 +14,11 @@ pub struct TextCircle {
     pub radius: f64,
 }
 
-/// Width of a letter as part of its height.
+/// Width of a character relative to its height.
 const LETTER_WIDTH: f64 = 0.6;
 
 impl TextCircle {
-    /// The circle of a one-line text.
+    /// The circle of a single-line text.
     pub fn of_text(text: &Text) -> Self {
         let width = LETTER_WIDTH * text.height * text.string.chars().count() as f64;
         let mut offset = offset(text.horizontal, text.vertical, width, text.height);
@@ -35,7 +35,7 @@ impl TextCircle {
         }
     }
 
-    /// The circle of a text of several lines.
+    /// The circle of a multi-line text.
     pub fn of_mtext(text: &MText) -> Self {
         let letter = LETTER_WIDTH * text.height;
         let room = text.width.map_or(f64::INFINITY, |width| width / letter);
@@ -51,17 +51,17 @@ impl TextCircle {
         }
     }
 
-    /// How far the circle's centre is from another circle's.
+    /// The distance from its centre to the centre of another circle.
     pub fn distance_to_centre(&self, centre: Xy) -> f64 {
         (centre - self.centre).norm()
     }
 
-    /// How far its centre is from a circle's rim.
+    /// The distance from its centre to the rim of a circle.
     pub(crate) fn distance_to_circle(&self, centre: Xy, radius: f64) -> f64 {
         ((self.centre - centre).norm() - radius).abs()
     }
 
-    /// How far its centre is from an arc, where its radial projection lies on the arc.
+    /// The distance from its centre to an arc, if its radial projection lies on the arc.
     pub fn distance_to_arc(&self, arc: &Arc) -> Option<f64> {
         let out = self.centre - arc.centre;
         let (along, across) = (out.dot(&(arc.start - arc.centre)), (arc.start - arc.centre).perp(&out));
@@ -71,7 +71,7 @@ impl TextCircle {
         (ahead <= arc.degrees).then(|| self.distance_to_circle(arc.centre, arc.radius))
     }
 
-    /// How far its centre is from a line, where the foot of the perpendicular lies on the line.
+    /// The distance from its centre to a line, if the foot of the perpendicular lies on the line.
     pub fn distance_to_line(&self, line: &Line) -> Option<f64> {
         let direction = line.end - line.start;
         let length = direction.norm();
@@ -83,7 +83,7 @@ impl TextCircle {
         (0.0..=length).contains(&foot).then(|| (direction.perp(&out) / length).abs())
     }
 
-    /// How far its rim is from the nearest point of a curve, for help: 0 where they touch.
+    /// The gap between its rim and a curve, for help; 0 if they touch.
     pub fn gap_to(&self, curve: &Curve) -> f64 {
         let beside = match curve {
             Curve::Line(line) => self.distance_to_line(line),
@@ -94,12 +94,12 @@ impl TextCircle {
     }
 }
 
-/// The rows in which a CAD draws a line of a text: broken at blanks where the next word has no room. Each by its number of characters.
+/// Lengths in characters of the rows of a text line, wrapped at spaces as in a CAD program.
 struct Rows<'t> {
     words: std::str::Split<'t, char>,
-    /// For so many characters.
+    /// The width of a row in characters.
     room: f64,
-    /// The length of the word that had no room.
+    /// The length of the word that did not fit.
     next: Option<usize>,
 }
 
@@ -121,7 +121,7 @@ impl Iterator for Rows<'_> {
     }
 }
 
-/// From the anchor to the middle of a text that is not turned.
+/// The vector from the anchor to the centre of an unrotated text.
 fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, height: f64) -> Vector2<f64> {
     let right = match horizontal {
         HorizontalAlign::Left => width / 2.0,

@@ -1,4 +1,4 @@
-//! The values in a parameter text, with variables put in. (book: language/letters)
+//! The values in a parameter text, with variables substituted. (book: language/letters)
 
 use std::borrow::Cow;
 
@@ -11,40 +11,40 @@ use crate::mistakes;
 use crate::text::{LetterValue, ParameterText, Written};
 use crate::variables::Interpolation;
 
-/// What a text says of a letter.
+/// The value that a text gives a letter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum Given {
-    /// Nothing.
+    /// None.
     #[default]
     Absent,
-    /// Something that was reported already: nothing that follows from it is.
+    /// A value with a reported problem; consequences are not reported.
     Faulty,
-    /// A number.
+    /// A valid number.
     Number(f64),
 }
 
-/// A text's values.
+/// The values of a text.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
-    /// What its pieces say with variables put in; nothing where they say that as they are written.
+    /// The values of its pieces with variables substituted; empty if all values are literal.
     filled: Vec<Filled<'t>>,
-    /// Letters that the text lacks, but that something in it that is at fault may stand for.
+    /// Letters missing from the text that a faulty piece of it may stand for.
     pub(crate) unread: Letters,
     /// PB205, PB303, PB305 and PB005, without places.
     pub(crate) problems: Vec<Diagnostic>,
 }
 
-/// What a piece says with variables put in.
+/// The value of a piece with variables substituted.
 #[derive(Clone, Debug)]
 enum Filled<'t> {
     Value(Written, Cow<'t, str>),
-    /// Something that was reported, or that is not looked at.
+    /// No value, because of a reported problem or because the piece is ignored.
     Nothing,
 }
 
 impl Given {
-    /// The number.
+    /// The number, if it is valid.
     pub(crate) fn number(self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(number),
@@ -52,14 +52,14 @@ impl Given {
         }
     }
 
-    /// This, or another where this says nothing.
+    /// This value, or another one if this is absent.
     pub(crate) fn or(self, other: Self) -> Self {
         if self == Self::Absent { other } else { self }
     }
 }
 
 impl<'t> Values<'t> {
-    /// The values of the text of an element of this class. A piece that [`ParameterText::problems`] finds at fault has no value.
+    /// The values of the text of an element of this class. Pieces with problems found by [`ParameterText::problems`] have no value.
     pub(crate) fn of(
         text: ParameterText<'t>,
         class: ElementClass,
@@ -75,7 +75,7 @@ impl<'t> Values<'t> {
             return values;
         }
         values.unread = text.unread_letters();
-        // A definition is no value: its "=" would be taken for a reference.
+        // A definition is not a value: its "=" is not a reference.
         let is_definition = |letter| class == ElementClass::PathStart && letter == Letter::Variable;
         let is_value = |letter: &Letter| {
             !matches!(class.use_of(*letter), Use::Unknown | Use::PathOnly)
@@ -88,7 +88,7 @@ impl<'t> Values<'t> {
         for piece in text.pieces() {
             filled.push(match piece.letter.filter(is_value) {
                 Some(letter) if letter.is_literal() && text.value(piece).contains('=') => Filled::Nothing,
-                // Its number stands apart from it, which is reported there.
+                // The number is separated from its letter, which is reported there.
                 Some(_) if is_apart(piece) => Filled::Nothing,
                 Some(letter) => values.fill(letter, piece, interpolation),
                 None => Filled::Nothing,
@@ -118,7 +118,7 @@ impl<'t> Values<'t> {
         self.problems.push(problem.with_text(self.text.fault(piece)));
     }
 
-    /// A letter's number. Of several of a letter, which are reported, none counts.
+    /// The number of a letter. If the letter is repeated, which is reported, there is none.
     pub(crate) fn number(&self, letter: Letter) -> Given {
         let Some(index) = self.text.index(letter) else {
             return if self.unread.contains(letter) { Given::Faulty } else { Given::Absent };
@@ -135,12 +135,12 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// A letter's text; `None` where it says nothing or something that was reported.
+    /// The text value of a letter; `None` if it is absent or has a reported problem.
     pub(crate) fn text(&self, letter: Letter) -> Option<&str> {
         self.value(self.text.index(letter)?)
     }
 
-    /// Whether the text may give the letter, but it is not known with which value.
+    /// Whether the text may give the letter, but with an unknown value.
     pub(crate) fn is_unknown(&self, letter: Letter) -> bool {
         match self.text.index(letter) {
             Some(index) => self.value(index).is_none(),
@@ -148,7 +148,7 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// Values of variables in the order written, with the piece they stand in.
+    /// The values of variables in the order written, each with its piece.
     pub(crate) fn variables(&self) -> impl Iterator<Item = (&str, &'t LetterValue)> {
         let pieces = self.text.pieces().iter().enumerate();
         let variables = pieces.filter(|(_, piece)| piece.letter == Some(Letter::Variable));
@@ -163,22 +163,22 @@ impl<'t> Values<'t> {
         }
     }
 
-    /// Whether the text has the letter at all.
+    /// Whether the text contains the letter.
     pub(crate) fn has(&self, letter: Letter) -> bool {
         self.text.letters.contains(letter)
     }
 
-    /// Whether the text has the letter, or something in it that is at fault may stand for it.
+    /// Whether the text contains the letter, or a faulty piece that may stand for it.
     pub(crate) fn may_give(&self, letter: Letter) -> bool {
         self.has(letter) || self.unread.contains(letter)
     }
 
-    /// All letters that the text has.
+    /// All letters in the text.
     pub(crate) fn letters(&self) -> Letters {
         self.text.letters
     }
 
-    /// The text with the letter's piece underlined.
+    /// The text with the piece of the letter underlined.
     pub(crate) fn fault(&self, letter: Letter) -> Option<TextFault> {
         self.text.fault_of(letter)
     }
@@ -188,7 +188,7 @@ impl<'t> Values<'t> {
         self.text.fault(piece)
     }
 
-    /// A diagnostic about a letter, with its piece underlined where there is one.
+    /// Adds the text with the letter's piece underlined to a diagnostic, if the text contains the letter.
     pub(crate) fn underline(&self, letter: Letter, diagnostic: Diagnostic) -> Diagnostic {
         match self.fault(letter) {
             Some(fault) => diagnostic.with_text(fault),

@@ -1,4 +1,4 @@
-//! Values of variables, and putting them into texts. (book: language/variables)
+//! Values of variables, and their substitution in texts. (book: language/variables)
 
 use std::borrow::Cow;
 
@@ -10,27 +10,27 @@ use crate::definition::Definition;
 use crate::letter::Letter;
 use crate::raw::RawPath;
 
-/// The values that a path's variables have where it is used, in order of their names.
+/// The values bound to a path's variables, in order of their names.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Bindings(Vec<(char, SmolStr)>);
 
-/// Puts values for references.
+/// Substitutes values for references.
 pub(crate) struct Interpolation<'a> {
     pub(crate) bindings: &'a Bindings,
     pub(crate) limit: usize,
-    /// Variables whose definitions are at fault: it is not known which values they have.
+    /// Variables with erroneous definitions, whose values are unknown.
     pub(crate) unknown: &'a [char],
 }
 
-/// Why a value cannot be had; `None` where that was reported with a definition.
+/// The reason why a value is undefined; `None` if it was reported with a definition.
 type Problem = Option<Box<Diagnostic>>;
 
-/// Values refer to others so deep. More than people give names to with letters and digits; without an end, thousands of variables would
-/// make a round each over the whole text.
+/// Maximum depth of references in values. More than there are letters and digits for names; without a limit, thousands of variables would
+/// each cause a pass over the whole text.
 const MOST_LEVELS: usize = 64;
 
 impl Bindings {
-    /// Bindings of names to values; the first of a name holds.
+    /// Binds names to values; the first value for a name wins.
     pub fn new(values: impl IntoIterator<Item = (char, SmolStr)>) -> Self {
         let mut values: Vec<_> = values.into_iter().collect();
         values.sort_by_key(|(name, _)| *name);
@@ -38,7 +38,7 @@ impl Bindings {
         Self(values)
     }
 
-    /// The example values that a path by itself is checked with: k counts from 0 over its definitions as they are written.
+    /// The example values for checking a path on its own; k counts the definitions from 0 as written.
     pub fn check_values(definitions: &[Definition]) -> Self {
         let value = |(k, definition): (usize, &Definition)| (definition.name, definition.check_value(k));
         Self::new(definitions.iter().enumerate().map(value))
@@ -50,7 +50,7 @@ impl Bindings {
         Some(&self.0[index].1)
     }
 
-    /// All names and values.
+    /// All names with their values.
     pub fn iter(&self) -> impl Iterator<Item = (char, &str)> {
         self.0.iter().map(|(name, value)| (*name, value.as_str()))
     }
@@ -60,14 +60,14 @@ impl Bindings {
         definitions.iter().all(|definition| self.get(definition.name).is_some())
     }
 
-    /// Whether there are none.
+    /// Whether there are no bindings.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
 
 impl RawPath {
-    /// PB302 for each variable without a value: nobody emits a path that has variables by itself.
+    /// PB302 for each variable without a value, since a path with variables cannot be emitted on its own.
     pub fn missing_values(&self, bindings: &Bindings) -> Vec<Diagnostic> {
         let missing = self.definitions.iter().filter(|definition| bindings.get(definition.name).is_none());
         let report = |definition: &Definition| {
@@ -89,13 +89,13 @@ impl RawPath {
 }
 
 impl Interpolation<'_> {
-    /// A value with all references replaced, again and again until nothing changes.
+    /// Replaces all references in a value repeatedly, until none are left.
     ///
     /// # Errors
     /// PB303, PB305 or PB005, without a place.
     pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Problem> {
         let mut filled = Cow::Borrowed(value);
-        // Without a circle each round resolves at least one level, and there are no more levels than variables.
+        // Unless there is a cycle, each pass resolves at least one level, and there are at most as many levels as variables.
         for _ in 0..=self.bindings.0.len().min(MOST_LEVELS) {
             if !filled.contains('=') {
                 return Ok(filled);
@@ -111,7 +111,7 @@ impl Interpolation<'_> {
         }
     }
 
-    /// PB305 for the variable whose value still has references.
+    /// PB305 for the variable whose value still contains references.
     fn endless(&self, name: String) -> Box<Diagnostic> {
         let problem = if self.bindings.0.len() > MOST_LEVELS {
             Diagnostic::new(&messages::TOO_DEEP).with("limit", MOST_LEVELS)

@@ -1,4 +1,4 @@
-//! Boxes around the candidates of a layer, so that a text looks at those around it only.
+//! Bounding boxes of the candidates of a layer, so that a text is only compared with nearby ones.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -9,33 +9,33 @@ use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
 use crate::text_circle::TextCircle;
 
-/// Where the candidates of a layer lie.
+/// A spatial index of the candidates of a layer.
 pub(crate) enum Boxes {
-    /// Few are all looked at: that is sooner done than to make a tree of them.
+    /// For a few candidates: scanning all of them is faster than building a tree.
     List(List),
     Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
 }
 
-/// The boxes of a few candidates.
+/// The bounding boxes of a few candidates.
 pub(crate) struct List {
     fours: Vec<Four>,
     count: usize,
 }
 
-/// The left, lower, right and upper sides of four boxes beside each other, the last two negated, so that all are compared at once. Rounded
+/// The left, lower, right and upper sides of four boxes, the last two negated, so that all four boxes are compared at once. Rounded
 /// outwards.
 struct Four([f32x4; 4]);
 
-/// The sides of one box in this order.
+/// The sides of one box, in the same order.
 type Sides = [f32; 4];
 
-/// How many candidates are few.
+/// Maximum number of candidates in a list.
 pub(super) const FEW: usize = 128;
 
-/// So many are compared before those are taken that are touched.
+/// Number of boxes compared before those that are touched are processed.
 const BITS: usize = u64::BITS as usize;
 
-/// Boxes are larger by this than what they hold, in mm: rounding must not decide what a text touches.
+/// Margin in mm around each box, so that rounding does not decide which candidates a text touches.
 const SLACK: f64 = 1e-6;
 
 impl Default for Boxes {
@@ -54,7 +54,7 @@ impl Boxes {
         Self::Tree(RTree::bulk_load(numbered.collect()))
     }
 
-    /// Takes each candidate whose box a circle touches, in any order; in a list also some that it nearly touches.
+    /// Calls `take` for each candidate whose box touches a circle, in any order. A list also yields some near misses.
     pub(super) fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
         let searched = square(circle.centre, circle.radius);
         match self {
@@ -65,11 +65,11 @@ impl Boxes {
         }
     }
 
-    /// The candidates with a distance of a point in mm that none of them is nearer than; the least distances first.
+    /// The candidates, each with a lower bound for its distance in mm from a point, in ascending order.
     pub(super) fn nearest(&self, point: Xy) -> Box<dyn Iterator<Item = (usize, f64)> + '_> {
         let at_least = |squared: f64| libm::sqrt(squared) - SLACK;
         match self {
-            // Nothing is gained by sorting a few.
+            // Sorting a few candidates is not worth the effort.
             Self::List(list) => Box::new((0..list.count).map(|index| (index, f64::NEG_INFINITY))),
             Self::Tree(tree) => {
                 let found = tree.nearest_neighbor_iter_with_distance_2([point.x, point.y]);
@@ -84,7 +84,7 @@ impl List {
         let (mut fours, mut count) = (Vec::new(), 0);
         let mut sides = boxes.map(|box_| sides(&box_));
         while let Some(first) = sides.next() {
-            // What is missing in the last is nowhere, even where limits are infinite.
+            // Missing boxes of the last group never match, even if the limits are infinite.
             let mut four = [first, [f32::NAN; 4], [f32::NAN; 4], [f32::NAN; 4]];
             count += 1;
             for (place, next) in four[1..].iter_mut().zip(&mut sides) {
@@ -100,7 +100,7 @@ impl List {
         let limits = limits.map(f32x4::splat);
         let mut first = 0;
         for fours in self.fours.chunks(BITS / 4) {
-            // Found first and taken then, since few are found, and it is hard to foresee which.
+            // First all matches are collected as bits, then processed, since matches are rare and unpredictable for the branch predictor.
             let found = |Four(sides): &Four| {
                 let [left, low, right, high] = std::array::from_fn(|side| sides[side].simd_le(limits[side]));
                 ((left & low) & (right & high)).to_bitmask()
@@ -120,13 +120,13 @@ fn sides(box_: &AABB<[f64; 2]>) -> Sides {
     [left, low, -right, -high].map(|side| rounded(side, -ROUNDING))
 }
 
-/// Up to where the sides of boxes are that touch this one.
+/// Upper limits for the sides of boxes that touch this one.
 fn limits(box_: &AABB<[f64; 2]>) -> Sides {
     let ([left, low], [right, high]) = (box_.lower(), box_.upper());
     [right, high, -left, -low].map(|side| rounded(side, ROUNDING))
 }
 
-/// More than a number changes, as part of itself, when it becomes an `f32`.
+/// Relative error bound for the conversion of a number to `f32`.
 const ROUNDING: f64 = 1e-7;
 
 #[expect(clippy::cast_possible_truncation, reason = "what is lost is made up for before")]
@@ -134,7 +134,7 @@ fn rounded(side: f64, by: f64) -> f32 {
     (side + by * side.abs()) as f32
 }
 
-/// A box around a shape; of an arc around its whole circle.
+/// The bounding box of a shape; an arc gets that of its whole circle.
 fn around(shape: &Shape) -> AABB<[f64; 2]> {
     match shape {
         Shape::Circle { centre, radius } => square(*centre, *radius),

@@ -1,4 +1,4 @@
-//! Which element a parameter text belongs to. (book: language/parameter-texts)
+//! Matches parameter texts with elements. (book: language/parameter-texts)
 
 mod boxes;
 #[cfg(test)]
@@ -16,27 +16,27 @@ use crate::text_circle::TextCircle;
 
 pub(crate) use boxes::Boxes;
 
-/// Something that a text can belong to.
+/// An element that a text may belong to.
 pub(crate) struct Candidate {
-    /// Where to find it in the file.
+    /// Its number in the source map.
     pub(crate) id: ElementId,
-    /// What is drawn.
+    /// The drawn shape.
     pub(crate) shape: Shape,
-    /// Parts of the same polyline take a text together.
+    /// Number of the polyline that it is part of. The parts of a polyline share a text.
     pub(crate) group: Option<u32>,
-    /// Where its text is put.
+    /// The owner of its text.
     pub(crate) owner: Owner,
-    /// An earlier text has it.
+    /// Whether an earlier text belongs to it.
     pub(crate) is_taken: bool,
 }
 
-/// A candidate that a text misses, and by how much.
+/// A candidate that a text does not reach, with the distance between them.
 pub(crate) struct Miss {
     pub(crate) candidate: usize,
     pub(crate) distance: f64,
 }
 
-/// What is overlapped, in the order in which it is preferred.
+/// The kind of shape that a text overlaps, in order of priority.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum OverlapKind {
     Circle,
@@ -44,17 +44,17 @@ enum OverlapKind {
     Line,
 }
 
-/// A candidate that a text belongs to.
+/// The candidate that a text belongs to.
 #[derive(Clone, Copy)]
 pub(crate) struct Found {
     pub(crate) candidate: usize,
-    /// The next one of the same kind, and how much farther away it is in mm.
+    /// The second best candidate of the same kind, and how much farther away it is in mm.
     pub(crate) rival: Option<(usize, f64)>,
-    /// The nearest one of another kind, where that is nearer, and by how much in mm.
+    /// A candidate of another kind that is nearer, and by how much in mm.
     pub(crate) nearer: Option<(usize, f64)>,
 }
 
-/// How many candidates are still looked at. Where each of thousands of texts overlaps each of thousands of elements there would be no end.
+/// Budget for examining candidates. It bounds the quadratic work if thousands of texts overlap thousands of elements.
 pub(crate) struct Looks(Cell<usize>);
 
 impl Looks {
@@ -62,20 +62,20 @@ impl Looks {
         Self(Cell::new(most))
     }
 
-    /// Whether one more was looked for than there are: what was found since is not to be trusted.
+    /// Whether the budget was exceeded, so that results since then are unreliable.
     pub(crate) fn are_over(&self) -> bool {
         self.0.get() == 0
     }
 
-    /// Takes one, unless it is the last.
+    /// Uses up one unit, if that does not exhaust the budget.
     fn take(&self) -> bool {
         self.0.set(self.0.get().saturating_sub(1));
         !self.are_over()
     }
 }
 
-/// The candidate that a text with this circle belongs to: the nearest overlapped circle, else arc, else line; the first of several at
-/// the same distance. Nothing where the looks are over.
+/// The candidate that a text with this circle belongs to: the nearest overlapped circle, or else arc, or else line; the first of several at
+/// the same distance. `None` if the budget is exhausted.
 pub(crate) fn find(
     circle: &TextCircle,
     candidates: &[Candidate],
@@ -120,14 +120,14 @@ pub(crate) fn find(
     })
 }
 
-/// The nearest free candidate to a text that overlaps none; the first of several. Nothing where the looks are over.
+/// The nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.
 pub(crate) fn nearest_miss(
     circle: &TextCircle,
     candidates: &[Candidate],
     boxes: &Boxes,
     looks: &Looks,
 ) -> Option<Miss> {
-    // To begin with, a tree looks at more than it gives.
+    // A tree examines more nodes initially than it yields candidates.
     if candidates.len() > boxes::FEW && looks.are_over() {
         return None;
     }
@@ -136,7 +136,7 @@ pub(crate) fn nearest_miss(
         if nearest.as_ref().is_some_and(|nearest| nearest.distance < at_least - circle.radius) {
             break;
         }
-        // A few are looked at for each text.
+        // The first few candidates are free for each text.
         if number >= boxes::FEW && !looks.take() {
             return None;
         }
@@ -151,7 +151,7 @@ pub(crate) fn nearest_miss(
     nearest
 }
 
-/// How far a text is from a shape that it overlaps.
+/// The kind of overlap and the distance if a text overlaps a shape.
 fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
     match shape {
         Shape::Circle { centre, radius } => {
@@ -159,7 +159,7 @@ fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
             (distance < text.radius + radius).then_some((OverlapKind::Circle, distance))
         }
         Shape::Curve(Curve::Arc(arc)) => {
-            // Looked at first: it is soon said, and true of few of the arcs around.
+            // A cheap test first, which rules out most of the nearby arcs.
             if text.distance_to_circle(arc.centre, arc.radius) > text.radius {
                 return None;
             }

@@ -1,4 +1,4 @@
-//! Looking at what lies around a text finds what looking at everything finds.
+//! Searching near a text gives the same results as comparing everything.
 
 use pathbuild_diagnostic::ElementId;
 use proptest::prelude::*;
@@ -10,7 +10,7 @@ use crate::read::Owner;
 use crate::text_circle::TextCircle;
 
 fn point() -> impl Strategy<Value = Xy> {
-    // Some far off, where an f32 has no thousandths, and many at round numbers, where boxes touch.
+    // Some points are far away, where an f32 cannot represent thousandths, and many are at round numbers, where boxes touch.
     let coordinate = || prop_oneof![-20.0..20.0, (-20..20).prop_map(f64::from), 99_990.0..100_010.0];
     (coordinate(), coordinate()).prop_map(|(x, y)| Xy::new(x, y))
 }
@@ -32,7 +32,7 @@ fn candidate((shape, is_taken): (Shape, bool)) -> Candidate {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// In lists and in trees.
+    /// For lists and for trees.
     #[test]
     fn boxes_hide_nothing(
         shapes in prop_oneof![
@@ -60,13 +60,13 @@ proptest! {
     }
 }
 
-/// So many lines through one point.
+/// A number of lines through one point.
 fn bundle(count: usize) -> Vec<Candidate> {
     let line = Shape::Curve(Curve::Line(Line { start: Xy::new(-1.0, 0.0), end: Xy::new(1.0, 0.0) }));
     (0..count).map(|_| candidate((line, false))).collect()
 }
 
-/// One look for each candidate, and one is left.
+/// One unit for each candidate, with one left over.
 #[test]
 fn what_is_found_when_the_looks_are_over_is_not_trusted() {
     for count in [10, 200] {
@@ -80,7 +80,7 @@ fn what_is_found_when_the_looks_are_over_is_not_trusted() {
     }
 }
 
-/// Of 200 candidates a few are looked at for each text anyway.
+/// The first few of 200 candidates are free for each text.
 #[test]
 fn the_hint_of_the_nearest_is_given_up_when_the_looks_are_over() {
     let (circle, candidates) = (TextCircle { centre: Xy::new(0.0, 9.0), radius: 0.5 }, bundle(200));

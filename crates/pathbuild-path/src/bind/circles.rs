@@ -1,4 +1,4 @@
-//! Circles: drilled holes and helical circles.
+//! Binds circles: drilled holes and helical circles.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing, walk};
@@ -13,11 +13,11 @@ use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::path::{Helix, Hole, SegmentKind};
 
-/// Orders at a star: holes come first, then circles, small ones before large ones. (book: language/chains-and-passes)
+/// Orders at a star: holes come first, then circles, from small to large. (book: language/chains-and-passes)
 const BEFORE_ALL: f64 = -1_000_000.0;
 
 impl Binder<'_> {
-    /// What a circle is in the path, with its order at a star.
+    /// The segment for a circle, with its order at a star.
     pub(super) fn circle(
         &mut self,
         element: &Element,
@@ -41,7 +41,7 @@ impl Binder<'_> {
                         .with("tool", tool);
                     self.report(scope.at, problem);
                 }
-                // Whatever is made of it, it needs its depth, and is a point of the walk.
+                // Even so, it needs its depth, and it is a point of the walk.
                 let class =
                     if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
                 let hole = self.hole(&Scope { class, ..scope }, cut);
@@ -84,7 +84,7 @@ impl Binder<'_> {
         }
     }
 
-    /// PB118 where a hole was probably meant to be drilled.
+    /// PB118 if a circle was probably meant as a drilled hole.
     fn check_margin(&mut self, scope: &Scope<'_>, radius: f64, tool: f64) {
         let difference = 2.0 * radius - tool;
         if above(difference, self.language.doubts.hole_margin) {

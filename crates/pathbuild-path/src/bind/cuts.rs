@@ -1,4 +1,4 @@
-//! Milling, marking and support segments.
+//! Binds milling, marking and support segments.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::walk;
@@ -13,7 +13,7 @@ use crate::path::{Bars, ChainParameters, CutParameters};
 use crate::text::TextId;
 
 impl Binder<'_> {
-    /// How a segment of a milling chain is milled, after its order at a star: index into the path's cuts.
+    /// Adds the cut of a segment in a milling chain. Returns its order at a star, and its index among the path's cuts.
     pub(super) fn cut(
         &mut self,
         element: &Element,
@@ -57,7 +57,7 @@ impl Binder<'_> {
         }
     }
 
-    /// The bars of a segment of this length, with room for the cutter between each two.
+    /// The bars of a segment of this length, with room for the cutter between consecutive bars.
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
@@ -85,7 +85,7 @@ impl Binder<'_> {
     }
 }
 
-/// What is said of bars that leave no gap on this length.
+/// The finding about bars that leave no gap on this length.
 pub(super) fn no_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
     (bars.count(length) == 0.0).then(|| {
         Diagnostic::new(&walk::NO_GAP_BETWEEN_BARS)

@@ -1,4 +1,5 @@
-//! Letters of a start text that have no effect. Most are habit and not worth a word; these are not. (book: language/support-bars)
+//! Checks letters of a start text that have no effect. Most are written out of habit and are harmless; these are not. (book:
+//! language/support-bars)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -11,11 +12,11 @@ use crate::letter::Letter;
 use crate::path::SegmentKind;
 use crate::read::{Part, Ring, rings};
 
-/// The letters that only support bars have.
+/// The letters that only apply to support bars.
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
 impl Binder<'_> {
-    /// Reports W of a path without a chain, and support bars that an outline has lost.
+    /// Reports W of a path without a chain, and missing support bars of an outline.
     pub(super) fn check_habits(&mut self) {
         let is_chain = |element: &crate::element::Element| {
             matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)))
@@ -30,7 +31,7 @@ impl Binder<'_> {
         }
     }
 
-    /// PB212 where nothing has bars and what is cut through closes a ring: then the part comes loose.
+    /// PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose.
     fn check_bars(&mut self) {
         let elements = &self.raw.drawn.elements;
         if elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {

@@ -1,4 +1,4 @@
-//! From a raw path and values of its variables to a [`Path`]: every parameter found, inherited and checked.
+//! Binds the variables of a raw path to values, which gives a [`Path`] with every parameter resolved, inherited and checked.
 //! (book: language/letters, book: language/variables)
 
 mod circles;
@@ -28,66 +28,66 @@ use crate::{doubts, limits};
 
 use segments::{Scope, UNNUMBERED};
 
-/// A path as far as it is known, and what is wrong with its values.
+/// A path as far as it is known, with the problems of its values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Examined {
-    /// The path; one with [faults](Path::has_faults) is good for more findings only. `None` where nothing is drawn.
+    /// The path; one with [faults](Path::has_faults) serves only to find further problems. `None` if nothing is drawn.
     pub path: Option<Path>,
-    /// What is wrong with its values, as far as that does not follow from what is wrong with the drawing.
+    /// Problems with its values, unless they merely follow from errors in the drawing.
     pub problems: Vec<Diagnostic>,
 }
 
-/// The path that a raw path is with these values, and what is wrong with it. There is a path only where nothing is an error.
+/// Binds a raw path to values. Returns the path, unless there are errors, and the diagnostics.
 ///
-/// The bindings must be those of its definitions.
+/// The bindings must match its definitions.
 pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<Path>, Vec<Diagnostic>) {
     let Examined { path, problems } = examine(raw, bindings, language);
     (path.filter(|path| !path.has_faults()), problems)
 }
 
-/// Gives a raw path these values, whether it is sound or not, and reports what is wrong with them.
+/// Binds a raw path to values, even if it has errors, and reports problems with them.
 pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> Examined {
     let mut binder = Binder::new(raw, bindings, language);
     let path = binder.path();
     Examined { path, problems: binder.problems }
 }
 
-/// Collects the values of a path and what is wrong with them.
+/// State of binding a path.
 struct Binder<'a> {
     raw: &'a RawPath,
     language: &'a Language,
     interpolation: Interpolation<'a>,
-    /// The path's own values.
+    /// The values in the path's own text.
     values: Values<'a>,
     segments: Vec<Segment>,
     cuts: Vec<CutParameters>,
     holes: Vec<Hole>,
     helices: Vec<Helix>,
     problems: Vec<Diagnostic>,
-    /// Which of them are about what a text says.
+    /// Indices of the diagnostics about each text.
     of_texts: HashMap<TextId, Vec<usize>>,
-    /// The path's D was said to be doubtful for marks.
+    /// Whether the path's D was reported as doubtful for marks.
     has_doubtful_marks: bool,
-    /// A segment with support bars has a gap between them.
+    /// Whether any segment with support bars has a gap between them.
     has_gap: bool,
-    /// The doubt about the first that has none.
+    /// The finding about the first segment without a gap.
     gapless: Option<Diagnostic>,
-    /// Where values are unknown because of errors.
+    /// What is unknown because of errors.
     unknown: Unknown,
 }
 
-/// What errors hide.
+/// What errors leave unknown.
 #[derive(Default)]
 struct Unknown {
-    /// I of a segment.
+    /// I of some segment.
     infeed: bool,
-    /// N of a segment: the order at a star.
+    /// N of some segment, and therefore the order at a star.
     order: bool,
-    /// A value without which there is no path.
+    /// A value that is required for a path.
     needed: bool,
 }
 
-/// What something is reported at.
+/// The location of a finding.
 #[derive(Clone, Copy)]
 enum At<'a> {
     Element(&'a Element),
@@ -95,7 +95,7 @@ enum At<'a> {
 }
 
 impl At<'_> {
-    /// Its own text.
+    /// The element's own text.
     fn text(self) -> Option<TextId> {
         match self {
             At::Element(element) => element.text,
@@ -110,7 +110,7 @@ impl<'a> Binder<'a> {
             Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
         let mut values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
         let has_text = raw.parameters.is_some() && !raw.faults.has_second_start;
-        // What only the path's own text lacks is missing there; what elements may lack because a text is at fault is not.
+        // Letters that are missing only from the path's own text are known to be missing; those that may be in a faulty text are not.
         let hidden =
             if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
         values.unread = values.unread.and(hidden);
@@ -139,7 +139,7 @@ impl<'a> Binder<'a> {
         let thickness = self.path_number(Letter::T).filter(positive);
         let sweep_height = self.path_number(Letter::S);
         self.bind_segments(tool);
-        // Rounded corners stand between sides that have gaps. Where nothing has one, U is doubtful.
+        // Short edges of rounded corners stand between longer sides with gaps. U is doubtful only if no segment has a gap.
         let gapless = self.gapless.take().filter(|_| !self.has_gap);
         self.problems.extend(gapless);
         self.check_habits();
@@ -180,7 +180,7 @@ impl<'a> Binder<'a> {
         Some(path)
     }
 
-    /// A marker, or in its place another marker or element, so that the rest of the path can be judged.
+    /// A marker, or a substitute for a missing one, so that the rest of the path can be checked.
     fn marker(&self, marker: Option<&Marker>) -> Option<Marker> {
         let raw = self.raw;
         let any = marker.or(raw.start.as_ref()).or(raw.end.as_ref()).cloned();
@@ -190,7 +190,7 @@ impl<'a> Binder<'a> {
         })
     }
 
-    /// Notes what is not known of a path with errors.
+    /// Records what is unknown about a path with errors.
     fn add_faults(&self, path: &mut Path) {
         let DrawingFaults { has_broken_entity, has_second_start, other_ends, unclear_circles, .. } =
             &self.raw.faults;
@@ -215,7 +215,7 @@ impl<'a> Binder<'a> {
         self.add_unclear_curves(path);
     }
 
-    /// The path runs along lines and arcs of unknown line types too.
+    /// Adds lines and arcs of unknown line types as sweeps, since the path runs along them too.
     fn add_unclear_curves(&self, path: &mut Path) {
         let unclear = &self.raw.faults.unclear_curves;
         if unclear.is_empty() {
@@ -230,7 +230,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The upper face that a path without an S of its own must sweep above.
+    /// The upper face that the sweeps of a path without its own S must clear.
     fn surface(&self, start: &Marker, thickness: f64) -> Surface {
         let origin = self.raw.borrowed_from.as_ref().map_or(&start.origin, |lender| &lender.1).clone();
         Surface { origin, thickness, text: self.raw.parameters }
@@ -255,7 +255,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// What is about the path's own values.
+    /// Reports a problem with the path's own values.
     fn report_at_start(&mut self, problem: Diagnostic) {
         let problem = self.raw.at_parameters(problem);
         self.problems.push(if problem.path.is_none() {
@@ -265,7 +265,7 @@ impl<'a> Binder<'a> {
         });
     }
 
-    /// The bottom of a cut that is there, own or the path's; a mark that is doubtful is reported, of marks with the path's D the first.
+    /// The bottom of a cut, from its own text or the path's. Doubtful marks are reported; of those with the path's D only the first.
     fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
@@ -290,7 +290,7 @@ impl<'a> Binder<'a> {
         self.values.text(letter).map(Into::into)
     }
 
-    /// The values of an element's text, checked; what is wrong is reported at the element.
+    /// The checked values of an element's text. Problems are reported at the element.
     fn element_values(
         &mut self,
         at: At<'_>,
@@ -318,7 +318,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Reports once what the parts of a polyline, which share a text, have in common. Another text may say the same.
+    /// Reports a problem, but only once for the parts of a polyline, which share a text. Other texts may have the same problem.
     fn report(&mut self, at: At<'_>, problem: Diagnostic) {
         let problem = self.origin(at).at(problem.in_path(self.raw.name.as_str()));
         if let (Some(text), true) = (at.text(), problem.text.is_some()) {
@@ -359,7 +359,8 @@ impl<'a> Binder<'a> {
     }
 }
 
-/// The last line of a regular expression error says what is wrong; the lines before it draw the place, which the text shows anyway.
+/// The last line of a regular expression error, which gives the reason. The lines before it show the position, which our own message shows
+/// already.
 pub(crate) fn regex_reason(error: &regex::Error) -> String {
     let text = error.to_string();
     let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();

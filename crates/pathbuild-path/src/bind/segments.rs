@@ -1,4 +1,4 @@
-//! Elements to segments, each with the parameters it needs.
+//! Converts elements to segments, with their parameters.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
@@ -14,7 +14,7 @@ use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::text::{LetterValue, ParameterText};
 use crate::values::{Given, Values};
 
-/// Order of what does not say N. (book: language/chains-and-passes)
+/// Order of elements without N. (book: language/chains-and-passes)
 pub(super) const UNNUMBERED: f64 = 9998.0;
 
 impl Binder<'_> {
@@ -34,7 +34,7 @@ impl Binder<'_> {
                     let (order, kind) = self.circle(element, cut, *centre, *radius, tool);
                     segments.push(segment(order, kind));
                 }
-                // A text that one has is not read.
+                // Their texts are ignored.
                 (Role::SilentSweep | Role::SkippedSubpath, _) => {
                     segments.push(segment(UNNUMBERED, SegmentKind::Sweep { height: None }));
                 }
@@ -44,7 +44,7 @@ impl Binder<'_> {
         self.segments = segments;
     }
 
-    /// What any other element is in the path, with its order at a star.
+    /// The segment for any other element, with its order at a star.
     fn other(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
         let Shape::Curve(curve) = element.shape else { return None };
         let class = element.class(None);
@@ -54,7 +54,7 @@ impl Binder<'_> {
         if element.role != Role::Subpath {
             return Some((order, SegmentKind::Sweep { height: self.value(&scope, Letter::S) }));
         }
-        // A text that is at fault may hide what is embedded: that is not asked for.
+        // A faulty text may hide the name of the embedded path, so it is not required.
         if values.is_unknown(Letter::Embed) || values.text(Letter::Embed) == Some("") && has_unread(&values) {
             return Some((order, SegmentKind::Sweep { height: None }));
         }
@@ -62,7 +62,7 @@ impl Binder<'_> {
         Some((order, SegmentKind::Subpath(Box::new(subpath))))
     }
 
-    /// N of an element, else what holds without it.
+    /// N of an element, or the default order.
     pub(super) fn order(&mut self, scope: &Scope<'_>) -> f64 {
         self.unknown.order |= scope.values.number(Letter::N) == Given::Faulty && scope.values.has(Letter::N);
         self.value(scope, Letter::N).unwrap_or(UNNUMBERED)
@@ -110,10 +110,10 @@ impl Binder<'_> {
         }
     }
 
-    /// What a letter says on an element by the table of letters: its own value, else the path's; PB201 where it is needed and neither gives one.
+    /// The value of a letter for an element by the table of letters: its own or the path's. PB201 if it is required and neither gives it.
     pub(super) fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
         let given = scope.texts(&self.values).number(letter);
-        // What every path must give is missing there, and reported once.
+        // A letter that every path must have is reported once, at the path's start.
         let is_missing_here = || ElementClass::PathStart.use_of(letter) != Use::Needed;
         if scope.class.use_of(letter) == Use::Needed && given == Given::Absent && is_missing_here() {
             let problem = Diagnostic::new(&messages::MISSING)
@@ -127,12 +127,12 @@ impl Binder<'_> {
     }
 }
 
-/// Whether a text has pieces that no letter begins.
+/// Whether a text contains pieces that do not begin with a letter.
 fn has_unread(values: &Values<'_>) -> bool {
     values.unread != Letters::default()
 }
 
-/// The element whose values are asked for.
+/// The element whose values are looked up.
 pub(super) struct Scope<'a> {
     pub(super) at: At<'a>,
     pub(super) class: ElementClass,
@@ -140,13 +140,13 @@ pub(super) struct Scope<'a> {
 }
 
 impl<'a> Scope<'a> {
-    /// The texts that can give the element its parameters. Chains are not known yet, so letters of chains are its own.
+    /// The texts that can give the element its parameters. Chains are not known yet, so the letters of chains come from the element itself.
     pub(super) fn texts(&self, path: &'a Values<'a>) -> Texts<'a, 'a> {
         Texts { class: self.class, own: self.values, chain: None, path }
     }
 }
 
-/// The index of something behind all others.
+/// Appends an item and returns its index.
 pub(super) fn pushed<T>(list: &mut Vec<T>, thing: T) -> u32 {
     list.push(thing);
     u32::try_from(list.len() - 1).unwrap_or(u32::MAX)

@@ -1,4 +1,4 @@
-//! What is wrong with what a path embeds. The order of errors: book: reference/diagnostics.
+//! Checks embeddings. The order of errors: book: reference/diagnostics.
 
 use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
 use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
@@ -13,32 +13,32 @@ use crate::letter::Letter;
 use crate::name::{PathName, PathPattern};
 use crate::path::{SubpathName, SubpathValue};
 
-/// Judges the subpath segments of one path. All diagnostics name the path and the place of the segment.
+/// Checks the subpath segments of one path. All diagnostics carry the path and the place of the segment.
 #[derive(Debug)]
 pub struct Judge<'a> {
     outer: &'a PathSignature,
     pattern: &'a PathPattern,
     rule: Rule<'a>,
-    /// Whether embeddings that `PathDxf2GCode` accepts against its manual are warnings instead of errors.
+    /// Whether embeddings that `PathDxf2GCode` accepts in spite of its manual are warnings instead of errors.
     is_compatible: bool,
 }
 
-/// What names of embedded paths must match.
+/// The rule that names of embedded paths must satisfy.
 #[derive(Debug)]
 enum Rule<'a> {
-    /// E of the path; `None` where it is no regular expression, which nothing matches.
+    /// E of the path; `None` if it is not a valid regular expression, so that nothing matches.
     Own(&'a str, Option<Regex>),
-    /// `--restrict`: the first restriction that concerns the path.
+    /// `--restrict`: the first restriction that applies to the path.
     Restriction(&'a Regex),
     /// No rule.
     Any,
 }
 
-/// A distance in mm by which a segment and the path it embeds may differ.
+/// Tolerance in mm for the length of a segment and the path it embeds.
 const CHORD_TOLERANCE: f64 = 0.001;
 
 impl<'a> Judge<'a> {
-    /// Judges what a path embeds, by its E, else by these restrictions.
+    /// Creates a judge for the embeddings of a path, by its E or else by these restrictions.
     pub fn new(
         outer: &'a PathSignature,
         restrictions: &'a [Restriction],
@@ -54,7 +54,7 @@ impl<'a> Judge<'a> {
         Self { outer, pattern, rule, is_compatible }
     }
 
-    /// PB502 as a warning where there is more than a name behind `>`.
+    /// PB502 as a warning if `>` is followed by more than a name.
     pub fn warnings(&self, call: &SubpathCall) -> Vec<Diagnostic> {
         let SubpathName::Found { name, has_more: Some(value) } = &call.subpath.name else {
             return Vec::new();
@@ -66,7 +66,7 @@ impl<'a> Judge<'a> {
         vec![as_warning(self.at_name(call, warning.with("name", name.as_str())))]
     }
 
-    /// Whether the name goes on before or behind the part that is one: then another path is meant.
+    /// Whether the name is only part of a longer word, so that another path is meant.
     fn is_other_name(&self, name: &PathName, value: &str) -> bool {
         !self.is_compatible && name.is_part_of_word(value)
     }
@@ -74,7 +74,7 @@ impl<'a> Judge<'a> {
     /// The path that a segment names.
     ///
     /// # Errors
-    /// PB501, PB502 and PB507: the segment names no path, or a path that may not be embedded.
+    /// PB501, PB502 and PB507: the segment names no path, or one that must not be embedded.
     pub fn name<'c>(&self, call: &'c SubpathCall) -> Result<&'c PathName, Box<Diagnostic>> {
         let problem = match &call.subpath.name {
             SubpathName::Missing { text } => {
@@ -99,7 +99,7 @@ impl<'a> Judge<'a> {
         Err(Box::new(problem))
     }
 
-    /// The rule that keeps the path from embedding one of this name.
+    /// The rule that forbids embedding a path of this name.
     fn broken_rule(&self, name: &PathName) -> Option<&str> {
         let (rule, is_kept) = match &self.rule {
             Rule::Own(rule, pattern) => (*rule, pattern.as_ref().is_some_and(|it| name.is_match(it))),
@@ -109,7 +109,7 @@ impl<'a> Judge<'a> {
         (!is_kept).then_some(rule)
     }
 
-    /// PB503: no file defines the path. `known` are the paths of the files that were searched.
+    /// PB503: no file defines the path. `known` are the paths of the searched files.
     pub fn not_found(
         &self,
         call: &SubpathCall,
@@ -142,8 +142,8 @@ impl<'a> Judge<'a> {
         self.at_name(call, problem.with("first", first).with("second", second))
     }
 
-    /// PB302 to PB304: what is wrong with the values that a segment gives the variables of the embedded path. A path whose drawing has errors
-    /// is not asked for its variables.
+    /// PB302 to PB304: problems with the values that a segment gives the variables of the embedded path. Nothing is reported for a path
+    /// whose drawing has errors.
     pub fn binding_problems(&self, call: &SubpathCall, inner: &PathHeader) -> Vec<Diagnostic> {
         if !inner.is_sound {
             return Vec::new();
@@ -186,7 +186,7 @@ impl<'a> Judge<'a> {
         Some(self.at(call, problem, Some(&given.text)))
     }
 
-    /// PB201, PB505, PB506, PB510: what of M, T, O and the size differs between a segment and the path it embeds.
+    /// PB201, PB505, PB506, PB510: mismatches between a segment and the path it embeds in M, T, O and the size.
     pub fn misfits(&self, call: &SubpathCall, inner: &PathSignature) -> Vec<Diagnostic> {
         let subpath = &call.subpath;
         let mut problems: Vec<Diagnostic> = self.material(call, inner).into_iter().collect();
@@ -220,7 +220,7 @@ impl<'a> Judge<'a> {
         problems
     }
 
-    /// A program has one cutter, that of the emitted path, whatever a segment says.
+    /// A program has a single cutter, that of the emitted path, regardless of the segment.
     fn other_cutter(&self, call: &SubpathCall, inner: &PathSignature) -> Diagnostic {
         let problem = Diagnostic::new(&messages::CUTTER_OF_PROJECT)
             .with("outer", self.outer.name.as_str())
@@ -268,7 +268,7 @@ impl<'a> Judge<'a> {
         self.at(call, problem, call.fault(letter))
     }
 
-    /// Puts a diagnostic where a segment is.
+    /// Places a diagnostic at a segment.
     fn at(&self, call: &SubpathCall, diagnostic: Diagnostic, text: Option<&TextFault>) -> Diagnostic {
         let diagnostic = call.origin.at(diagnostic.in_path(self.outer.name.as_str()));
         match text {
@@ -277,7 +277,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The same with the name underlined.
+    /// Places a diagnostic at a segment, with the name underlined.
     fn at_name(&self, call: &SubpathCall, diagnostic: Diagnostic) -> Diagnostic {
         self.at(call, diagnostic, call.fault(Letter::Embed))
     }

@@ -1,5 +1,5 @@
-//! Embedding: what a path shows to the paths that embed it, and whether a path may stand where a subpath segment names it. Values in,
-//! diagnostics out: where the paths come from is the caller's business. (book: language/embedding)
+//! Embedding: the properties of a path that matter to embedding paths, and whether a path fits a subpath segment. These are pure functions
+//! from values to diagnostics; callers provide the paths. (book: language/embedding)
 
 mod judge;
 mod near;

@@ -1,11 +1,11 @@
-//! Names that may have been meant.
+//! Suggests similar names.
 
 use crate::name::PathName;
 
-/// How many names are proposed.
+/// Maximum number of suggestions.
 const MOST: usize = 5;
 
-/// Names that differ from a name by at most one character, leading zeros aside: `8999.1P` for `8999.01P`.
+/// Known names that differ from a name by at most one character, ignoring leading zeros: `8999.1P` for `8999.01P`.
 pub fn near_names(name: &PathName, mut known: Vec<PathName>) -> Vec<PathName> {
     let wanted = plain(name);
     known.retain(|other| strsim::levenshtein(&wanted, &plain(other)) <= 1);

@@ -1,4 +1,4 @@
-//! Material that H raises, and the sweeps above it. (book: language/letters)
+//! Material raised by H, and the sweeps above it. (book: language/letters)
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
@@ -9,17 +9,17 @@ use crate::element::Origin;
 use crate::letter::Letter;
 use crate::path::Path;
 
-/// A Z-probe, which the tool comes to at sweep height.
+/// A Z-probe, which the tool approaches at sweep height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbeTop {
     origin: Origin,
-    /// T + H in mm, above the plane that the path lies on.
+    /// T + H in mm, above the plane of the path.
     height: f64,
     fault: Option<TextFault>,
 }
 
 impl ProbeTop {
-    /// The probes of a path that H raises. What T says of others is checked with S.
+    /// The probes of a path that are raised by H. T of the others is checked together with S.
     pub(super) fn raised(path: &Path) -> Vec<Self> {
         let top = |probe: &crate::path::Probe| {
             let fault = path.drawn.text(probe.text)?.fault_of(Letter::H)?;
@@ -30,12 +30,12 @@ impl ProbeTop {
 }
 
 impl PathSignature {
-    /// The highest that its own material and probes stand, in mm above the plane that it lies on.
+    /// Height in mm of the highest point of its own material and probes, above its plane.
     pub fn own_top(&self) -> f64 {
         self.raised_probes.iter().map(|probe| probe.height).fold(self.thickness, f64::max)
     }
 
-    /// PB203 for each probe of its own that stands as high as its sweeps run, in mm.
+    /// PB203 for each of its own probes that reaches the sweep height, in mm.
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
         let too_high = self.raised_probes.iter().filter(|probe| !above(sweep_height, probe.height));
         let problem =
@@ -43,8 +43,8 @@ impl PathSignature {
         too_high.map(problem).collect()
     }
 
-    /// PB203 where what a subpath segment embeds stands as high as its sweeps run. `top`: of all that is embedded, in mm above the plane
-    /// that this path lies on.
+    /// PB203 if the path embedded by a segment reaches the sweep height. `top`: height in mm of everything embedded, above the plane of
+    /// this path.
     pub fn raised_subpath_problem(
         &self,
         call: &SubpathCall,

@@ -4,30 +4,30 @@ use regex::Regex;
 
 use crate::name::PathName;
 
-/// Paths whose name matches PARENT may embed only paths whose name matches CHILD.
+/// Paths whose names match PARENT may only embed paths whose names match CHILD.
 #[derive(Clone, Debug)]
 pub struct Restriction {
-    /// Searched in the embedding path's name.
+    /// Matched anywhere in the name of the embedding path.
     parent: Regex,
-    /// Searched in the embedded path's name.
+    /// Matched anywhere in the name of the embedded path.
     child: Regex,
 }
 
 impl Restriction {
-    /// A rule of two regular expressions.
+    /// Creates a rule from two regular expressions.
     ///
     /// # Errors
-    /// When one of them is no regular expression.
+    /// If one of them is not a valid regular expression.
     pub fn new(parent: &str, child: &str) -> Result<Self, regex::Error> {
         Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
     }
 
-    /// Whether the rule applies to what this path embeds.
+    /// Whether the rule applies to the embeddings of this path.
     pub(super) fn concerns(&self, parent: &PathName) -> bool {
         parent.is_match(&self.parent)
     }
 
-    /// What embedded names must match.
+    /// The expression that embedded names must match.
     pub(super) fn child(&self) -> &Regex {
         &self.child
     }

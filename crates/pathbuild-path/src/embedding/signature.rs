@@ -1,4 +1,4 @@
-//! What other paths see of a path.
+//! The interface of a path to other paths.
 
 use pathbuild_diagnostic::TextFault;
 use smol_str::SmolStr;
@@ -15,65 +15,64 @@ use crate::path::{Path, Segment, SegmentKind, Subpath};
 use crate::raw::RawPath;
 use crate::variables::Bindings;
 
-/// A path before its variables have values.
+/// A path before its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathHeader {
-    /// As its layer spells it.
+    /// The name as spelt by its layer.
     pub name: SpeltName,
-    /// Whether the drawing of the path has no errors, values aside.
+    /// Whether the drawing of the path has no errors, apart from its values.
     pub is_sound: bool,
-    /// The variables that it defines.
+    /// Its variables.
     pub definitions: Vec<Definition>,
 }
 
-/// A path with values for its variables, as far as others depend on it: an edit that changes none of this concerns nobody else. Lengths
-/// in mm.
+/// The properties of a bound path that others depend on. An edit that leaves them unchanged does not affect other paths. Lengths are in mm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathSignature {
-    /// As its layer spells it.
+    /// The name as spelt by its layer.
     pub name: SpeltName,
     /// O.
     pub tool: f64,
     /// T.
     pub thickness: f64,
-    /// S, where the path gives one.
+    /// S, if the path gives it.
     pub sweep_height: Option<f64>,
-    /// What S must be above.
+    /// The faces that S must clear.
     pub sweep_limits: SweepLimits,
     /// M.
     pub material: Option<SmolStr>,
     /// R.
     pub output_suffix: SmolStr,
-    /// E: what the names of embedded paths must match.
+    /// E: the regular expression for names of embedded paths.
     pub embeds_only: Option<SmolStr>,
     /// The distance from its start to its end.
     pub size: f64,
-    /// Whether anything in it is milled at the feed of the options.
+    /// Whether any milling uses the feed of the options.
     pub needs_feed: bool,
     /// Whether it has Z-probes of its own.
     pub has_probes: bool,
-    /// Those that H raises.
+    /// The probes raised by H.
     pub raised_probes: Vec<ProbeTop>,
-    /// Letters of which errors hide what the path says.
+    /// Letters whose values are hidden by errors.
     pub(crate) unknown: Letters,
-    /// Its subpath segments, in their order.
+    /// Its subpath segments in order.
     pub subpaths: Box<[SubpathCall]>,
 }
 
-/// A subpath segment, with what messages about it show.
+/// A subpath segment, with details for messages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubpathCall {
     /// Index into [`Path::segments`].
     pub segment: usize,
-    /// Where it is drawn.
+    /// The location of its element.
     pub origin: Origin,
-    /// What it says.
+    /// Its parameters.
     pub subpath: Subpath,
-    /// Its own text with a letter underlined, for each letter below that it gives.
+    /// Its own text with a letter underlined, for each compared letter that it gives.
     faults: Box<[(Letter, TextFault)]>,
 }
 
-/// The letters of a subpath segment that are held against the paths on both sides.
+/// The letters of a subpath segment that are compared with the paths on both sides.
 const COMPARED: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
 impl PathHeader {
@@ -110,7 +109,7 @@ impl PathSignature {
 }
 
 impl PathSignature {
-    /// S of the path in a role: its own, else that of the option or the default; `None` where an option is missing.
+    /// S of the path in a role: its own, that of the option, or the default; `None` if the option is missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         self.sweep_height.or_else(|| {
             let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };

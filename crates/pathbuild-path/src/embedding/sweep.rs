@@ -1,4 +1,4 @@
-//! What a sweep height must be above, for paths whose S depends on their role. (book: language/letters)
+//! Lower limits for the sweep height of paths whose S depends on their role. (book: language/letters)
 
 use std::iter;
 
@@ -12,8 +12,7 @@ use crate::name::SpeltName;
 use crate::path::{Path, Segment, SegmentKind};
 use crate::text::TextId;
 
-/// The upper faces of the material that a path's sweep height must be above. None where the path gives its own S: that is checked with
-/// its other values.
+/// The upper faces that a path's sweeps must clear. Empty if the path gives its own S, which is checked together with its other values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepLimits {
     path: SpeltName,
@@ -23,7 +22,7 @@ pub struct SweepLimits {
 /// An upper face of the material.
 #[derive(Clone, Debug, PartialEq)]
 struct Face {
-    /// The element whose T says so.
+    /// The element that gives T.
     origin: Origin,
     /// T in mm.
     thickness: f64,
@@ -31,7 +30,7 @@ struct Face {
 }
 
 impl SweepLimits {
-    /// The limits of a path: its own T, that of its probes, that of its subpath segments.
+    /// The limits of a path: T of the path itself, of its probes and of its subpath segments.
     pub fn of(path: &Path) -> Self {
         let Some(surface) = &path.surface else {
             return Self { path: path.name.clone(), faces: Box::default() };
@@ -52,7 +51,7 @@ impl SweepLimits {
         Self { path: path.name.clone(), faces }
     }
 
-    /// PB203 for each face that a sweep height in mm is not above.
+    /// PB203 for each face that a sweep height in mm does not clear.
     pub fn check(&self, height: f64) -> Vec<Diagnostic> {
         let too_high = self.faces.iter().filter(|face| !above(height, face.thickness));
         let problem = |face: &Face| {

@@ -1,12 +1,11 @@
-//! How far curves are from each other, exactly: by their ends, their crossings, and the points where what is shortest between them stands
-//! upright on both.
+//! Exact distances between curves, found from their ends, their crossings, and the common perpendiculars.
 
 use nalgebra::Vector2;
 
 use super::{Arc, Curve, Line, Xy};
 
 impl Curve {
-    /// The distance in mm of the two nearest points of two curves; 0 where they cross or touch.
+    /// The distance in mm between two curves; 0 if they cross or touch.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.crosses(other) {
             return 0.0;
@@ -17,7 +16,7 @@ impl Curve {
         to_other.chain(to_self.map(|point| self.distance_to(point))).fold(f64::INFINITY, f64::min)
     }
 
-    /// The distance in mm of a point from the nearest point of the curve.
+    /// The distance in mm between a point and the curve.
     pub fn distance_to(&self, point: Xy) -> f64 {
         match self {
             Self::Line(line) => (line.nearest(point) - point).norm(),
@@ -25,7 +24,7 @@ impl Curve {
         }
     }
 
-    /// The points within an arc or line, beside its ends, that may be the nearest to another arc.
+    /// The interior points of a curve that may be nearest to another arc.
     fn towards(&self, other: &Self) -> Vec<Xy> {
         match (self, other) {
             (Self::Line(line), Self::Arc(arc)) => vec![line.nearest(arc.centre)],
@@ -53,7 +52,7 @@ impl Line {
         self.start + along * (along.dot(&(point - self.start)) / squared).clamp(0.0, 1.0)
     }
 
-    /// Whether each has an end on both sides of the other. Lines that only touch have an end on the other.
+    /// Whether each curve has ends on both sides of the other. Lines that only touch have an end on the other line.
     fn crosses(&self, other: &Self) -> bool {
         let divides = |one: &Self, other: &Self| {
             let along = one.end - one.start;
@@ -73,7 +72,7 @@ impl Arc {
         (point - self.start).norm().min((point - self.end).norm())
     }
 
-    /// Whether it passes its circle's point in that direction from its centre.
+    /// Whether the arc contains the point of its circle in that direction from the centre.
     fn spans(&self, out: Vector2<f64>) -> bool {
         let from = self.start - self.centre;
         let angle = libm::atan2(from.perp(&out), from.dot(&out)).to_degrees();
@@ -81,7 +80,7 @@ impl Arc {
         (if ahead < 0.0 { ahead + 360.0 } else { ahead }) <= self.degrees
     }
 
-    /// Its points on the line through its centre and another.
+    /// The points of the arc on the line through its centre and another point.
     fn on_line_through(&self, other: Xy) -> Vec<Xy> {
         let way = other - self.centre;
         let Some(out) = way.try_normalize(0.0) else { return Vec::new() };
@@ -113,7 +112,7 @@ impl Arc {
         if squared == 0.0 {
             return false;
         }
-        // From this centre along the way to the line through both crossings, as a part of the way.
+        // The position of the radical line on the way between the centres, as a fraction of the way.
         let along = (squared + self.radius * self.radius - other.radius * other.radius) / (2.0 * squared);
         let half = self.radius * self.radius / squared - along * along;
         if half < 0.0 {

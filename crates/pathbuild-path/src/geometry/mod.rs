@@ -1,4 +1,4 @@
-//! Lines, arcs and circles in the plane, and the turn-and-move that places an embedded path.
+//! Lines, arcs and circles in the plane, and the placement of embedded paths.
 
 mod distance;
 
@@ -9,7 +9,7 @@ use crate::approx::coincide;
 /// A point in the plane, in mm.
 pub type Xy = Point2<f64>;
 
-/// A straight piece of a path.
+/// A line segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "its ends")]
 pub struct Line {
@@ -17,26 +17,26 @@ pub struct Line {
     pub end: Xy,
 }
 
-/// A circular piece of a path, run from `start` to `end`.
+/// A circular arc from `start` to `end`.
 ///
-/// Both the ends and the angles are kept: the ends decide what meets, the angles how long it is.
+/// Both ends and angles are stored: the ends determine what meets, the angles determine the length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// Centre.
     pub centre: Xy,
-    /// Radius in mm, > 0.
+    /// Radius in mm, greater than 0.
     pub radius: f64,
-    /// Where it begins.
+    /// The start.
     pub start: Xy,
-    /// Where it ends.
+    /// The end.
     pub end: Xy,
-    /// The direction in which it is run.
+    /// The direction.
     pub clockwise: bool,
-    /// How far it goes round in that direction, in degrees, above 0 up to 360.
+    /// The angle covered in that direction in degrees, greater than 0 and at most 360.
     pub degrees: f64,
 }
 
-/// What a segment is drawn as, from its start to its end.
+/// The curve of a segment, from its start to its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the types say it")]
 pub enum Curve {
@@ -44,18 +44,18 @@ pub enum Curve {
     Arc(Arc),
 }
 
-/// How an embedded path lies in the program: turned, then moved; never scaled.
+/// The placement of an embedded path in a program: a rotation followed by a translation, without scaling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     turn: UnitComplex<f64>,
     shift: Vector2<f64>,
 }
 
-/// So far from a whole turn, in turns, an arc is still a full circle.
+/// Tolerance in turns within which an arc counts as a full circle.
 const WHOLE_TURN: f64 = 1e-9;
 
 impl Curve {
-    /// Where it begins.
+    /// The start.
     pub fn start(&self) -> Xy {
         match self {
             Self::Line(line) => line.start,
@@ -63,7 +63,7 @@ impl Curve {
         }
     }
 
-    /// Where it ends.
+    /// The end.
     pub fn end(&self) -> Xy {
         match self {
             Self::Line(line) => line.end,
@@ -71,12 +71,12 @@ impl Curve {
         }
     }
 
-    /// The distance between its ends, in mm.
+    /// The distance between start and end in mm.
     pub fn chord(&self) -> f64 {
         (self.end() - self.start()).norm()
     }
 
-    /// The length along it, in mm.
+    /// The length in mm.
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => (line.end - line.start).norm(),
@@ -84,7 +84,7 @@ impl Curve {
         }
     }
 
-    /// The same curve, run the other way.
+    /// The same curve in the opposite direction.
     pub fn reversed(self) -> Self {
         match self {
             Self::Line(line) => Self::Line(Line { start: line.end, end: line.start }),
@@ -94,7 +94,7 @@ impl Curve {
         }
     }
 
-    /// The piece of it from `from` to `to`, both in mm along it from its start.
+    /// The section between two distances from the start, in mm along the curve.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {
             Self::Line(line) => {
@@ -107,7 +107,7 @@ impl Curve {
 }
 
 impl Arc {
-    /// An arc by its angles (degrees, as drawn). Angles that differ by nothing or by a whole turn, as far as their digits go, make a full
+    /// An arc by its angles in degrees as drawn. If the angles are equal or differ by a whole turn, up to rounding, the arc is a full
     /// circle.
     pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
         let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
@@ -120,7 +120,7 @@ impl Arc {
         Self { centre, radius, start, end, clockwise, degrees: 360.0 * (turns - turns.floor()) }
     }
 
-    /// The length along it, in mm.
+    /// The length in mm.
     pub fn length(&self) -> f64 {
         self.radius * self.degrees.to_radians()
     }
@@ -137,13 +137,13 @@ impl Arc {
 }
 
 impl Placement {
-    /// As the path itself lies in its drawing, but with `origin` at (0, 0).
+    /// The placement that moves `origin` to (0, 0) without rotation.
     pub fn from_origin(origin: Xy) -> Self {
         Self { turn: UnitComplex::identity(), shift: -origin.coords }
     }
 
-    /// Brings `start` exactly onto `onto_start`, and the direction from `start` to `end` into that from `onto_start` to `onto_end`. Where
-    /// a direction is missing because both its ends coincide, it is turned as what is `around` it is.
+    /// The placement that maps `start` exactly to `onto_start`, and the direction from `start` to `end` to that from `onto_start` to
+    /// `onto_end`. If a direction is undefined because its points coincide, the rotation is that of the surrounding placement `around`.
     pub fn aligning((start, end): (Xy, Xy), (onto_start, onto_end): (Xy, Xy), around: &Self) -> Self {
         let has_no_direction = coincide(start, end) || coincide(onto_start, onto_end);
         let turn =
@@ -151,12 +151,12 @@ impl Placement {
         Self { turn, shift: onto_start.coords - turn * start.coords }
     }
 
-    /// Where a point of the path comes to lie.
+    /// Places a point.
     pub fn place(&self, point: Xy) -> Xy {
         self.turn * point + self.shift
     }
 
-    /// Where a curve comes to lie.
+    /// Places a curve.
     pub fn place_curve(&self, curve: &Curve) -> Curve {
         match curve {
             Curve::Line(line) => {
@@ -172,7 +172,7 @@ impl Placement {
     }
 }
 
-/// The point of a circle at an angle in degrees. Quarter turns are exact, so that what a person drew at 90 degrees stays there.
+/// The point of a circle at an angle in degrees. Quarter turns are exact, so that points drawn at 90 degrees stay there.
 pub fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {
     centre + direction(degrees) * radius
 }
@@ -195,7 +195,8 @@ pub fn direction(degrees: f64) -> Vector2<f64> {
     }
 }
 
-/// The rotation that turns one direction into another (neither is 0), from products and one square root: no angles, which would lose digits.
+/// The rotation from one direction to another, neither of which is 0. Computed from products and a square root, since angles would lose
+/// precision.
 fn rotation_between(from: Vector2<f64>, to: Vector2<f64>) -> UnitComplex<f64> {
     let along = from.dot(&to);
     let across = from.perp(&to);

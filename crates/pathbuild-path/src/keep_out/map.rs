@@ -1,4 +1,4 @@
-//! Where clamps stand, for asking which of them a move comes into.
+//! A spatial index of clamps, for finding those that a move hits.
 
 use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -7,8 +7,8 @@ use super::outline::{Outline, around};
 use crate::approx::above;
 use crate::geometry::Curve;
 
-/// The way of the tool's tip in one move: along a curve in the plane, at a height that changes evenly. Up and down it is a line without
-/// length. Lengths in mm.
+/// The path of the tool tip in one move: along a curve in the plane, with a constant slope. A vertical move is a line without length.
+/// Lengths are in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Way {
@@ -17,7 +17,7 @@ pub struct Way {
     pub to_z: f64,
 }
 
-/// Clamps by where they stand.
+/// A spatial index of clamps.
 #[derive(Clone, Debug)]
 pub struct KeepOutMap {
     clamps: Vec<Clamp>,
@@ -31,7 +31,7 @@ struct Clamp {
 }
 
 impl KeepOutMap {
-    /// A map of clamps by their heights and outlines.
+    /// Creates a map from the heights and outlines of clamps.
     pub fn new<'k>(clamps: impl IntoIterator<Item = (f64, &'k [Curve])>) -> Self {
         let clamp = |(height, outline)| Clamp { height, outline: Outline::new(outline) };
         let clamps: Vec<Clamp> = clamps.into_iter().map(clamp).collect();
@@ -42,13 +42,13 @@ impl KeepOutMap {
         Self { boxes: RTree::bulk_load(boxes.collect()), clamps }
     }
 
-    /// Whether there is none.
+    /// Whether there are no clamps.
     pub fn is_empty(&self) -> bool {
         self.clamps.is_empty()
     }
 
-    /// The clamps that a tool of that radius comes into on its way, by their numbers in ascending order. `slack` is by how much it may, in mm: what
-    /// rounding makes of a way.
+    /// The numbers of the clamps that a tool of this radius hits on its way, in ascending order. `slack`: tolerance in mm for rounding
+    /// errors.
     pub fn entered(&self, way: &Way, radius: f64, slack: f64) -> Vec<usize> {
         let radius = (radius - slack).max(0.0);
         let near = self.boxes.locate_in_envelope_intersecting(around(&way.curve, radius));
@@ -64,12 +64,12 @@ impl KeepOutMap {
 }
 
 impl Way {
-    /// The lowest height on it.
+    /// The lowest height.
     pub fn lowest(&self) -> f64 {
         self.from_z.min(self.to_z)
     }
 
-    /// The part of it that is below a height.
+    /// The part of the way below a height.
     fn below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
         let length = self.curve.length();

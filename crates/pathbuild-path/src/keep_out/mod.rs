@@ -1,4 +1,4 @@
-//! Keep-outs: clamps that the tool must not come into below their height. (book: language/keep-outs)
+//! Keep-outs: clamps that the tool must not enter below their height. (book: language/keep-outs)
 
 mod map;
 mod outline;
@@ -13,7 +13,7 @@ use crate::pattern::{LazyRegex, PatternError};
 
 pub use map::{KeepOutMap, Way};
 
-/// Which layers hold clamps: the name matches as a whole, without regard to case.
+/// The pattern for names of layers with clamps. It must match the whole name, ignoring case.
 #[derive(Clone)]
 pub struct KeepOutPattern {
     source: Box<str>,
@@ -25,28 +25,28 @@ pub struct KeepOutPattern {
 pub struct KeepOut {
     /// Its layer.
     pub layer: SmolStr,
-    /// Where its outline begins; of a circle the centre.
+    /// The start of its outline; for a circle, the centre.
     pub at: Xy,
-    /// Its height in mm, above the plate or what its drawing is raised to.
+    /// Its height in mm, above the plate or above the level that its drawing is raised to.
     pub height: f64,
-    /// Its outline: curves that meet, end to start, all around. A circle is one arc.
+    /// Its outline: a closed sequence of curves. A circle is a single arc.
     pub outline: Vec<Curve>,
 }
 
 /// The clamps of a drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeepOuts {
-    /// Those of which nothing is wrong, layer by layer in the order of the file.
+    /// The valid clamps, layer by layer in file order.
     pub all: Vec<KeepOut>,
-    /// What is wrong, with its place in the file. While there is an error, it is not known where clamps are.
+    /// Findings with their positions in the file. If any is an error, the clamps are not fully known.
     pub problems: Vec<Diagnostic>,
 }
 
 impl KeepOutPattern {
-    /// A pattern of the configuration.
+    /// Creates a pattern from the configuration.
     ///
     /// # Errors
-    /// When it is no regular expression.
+    /// If it is not a valid regular expression.
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
         let whole = LazyRegex::new(format!("^(?:{pattern})$"));
         whole.check()?;
@@ -58,14 +58,14 @@ impl KeepOutPattern {
         self.whole.get().is_match(layer)
     }
 
-    /// The regular expression as it was given.
+    /// The regular expression as given.
     pub fn as_str(&self) -> &str {
         &self.source
     }
 }
 
 impl KeepOut {
-    /// The clamp where it stands when its drawing is placed and raised.
+    /// The clamp after placing and raising its drawing.
     pub fn placed(&self, placement: &Placement, raised: f64) -> Self {
         Self {
             layer: self.layer.clone(),

@@ -1,4 +1,4 @@
-//! The outline of a clamp: how near something comes to it, and what is inside.
+//! The outline of a clamp: distance from it, and whether a point is inside.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -6,7 +6,7 @@ use rstar::{AABB, RTree};
 use crate::approx::above;
 use crate::geometry::{Arc, Curve, Line, Xy};
 
-/// A closed outline, ready to be asked.
+/// A closed outline, prepared for queries.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
     pieces: RTree<Boxed>,
@@ -14,21 +14,21 @@ pub(crate) struct Outline {
 
 type Boxed = GeomWithData<Rectangle<[f64; 2]>, LetterValue>;
 
-/// A part of the outline that only rises or only falls.
+/// A part of the outline that rises or falls monotonically.
 #[derive(Clone, Copy, Debug)]
 struct LetterValue {
     curve: Curve,
-    /// The heights between which it counts as a side of the outline. Where one piece ends the next begins, without the gap that rounding
-    /// leaves between them.
+    /// The range of Y in which it counts as a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
+    /// leave.
     from: f64,
     to: f64,
 }
 
-/// Boxes are larger by this than what they hold, in mm: more than the gap between ends that meet.
+/// Margin in mm around bounding boxes, larger than the gap between ends that meet.
 const SLACK: f64 = 1e-4;
 
 impl Outline {
-    /// An outline of curves that meet, end to start, all around. There is one at least.
+    /// Creates an outline from a closed, non-empty sequence of curves.
     pub(crate) fn new(curves: &[Curve]) -> Self {
         let monotone: Vec<Curve> = curves.iter().flat_map(monotone).collect();
         let mut from = monotone.last().map_or(0.0, |last| last.end().y);
@@ -40,20 +40,20 @@ impl Outline {
         Self { pieces: RTree::bulk_load(pieces.collect()) }
     }
 
-    /// The box around it.
+    /// Its bounding box.
     pub(super) fn extent(&self) -> AABB<[f64; 2]> {
         self.pieces.root().envelope()
     }
 
-    /// Whether a disc of that radius, in mm, is anywhere inside while its centre goes along a curve. A disc that only touches the outline is
-    /// not.
+    /// Whether any part of a disc enters the outline while its centre moves along a curve. Touching the outline is not entering. The radius
+    /// is in mm.
     pub(crate) fn is_entered(&self, way: &Curve, radius: f64) -> bool {
         let mut near = self.pieces.locate_in_envelope_intersecting(around(way, radius + SLACK));
         near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
     }
 
-    /// Whether a point that is not on the outline is inside: whether a ray to the right of it crosses the outline more often upwards than
-    /// downwards, or the other way round.
+    /// Whether a point that is not on the outline is inside: whether the upward and downward crossings of a ray to the right do not cancel
+    /// out.
     fn contains(&self, point: Xy) -> bool {
         let [right, _] = self.extent().upper();
         let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);
@@ -63,7 +63,7 @@ impl Outline {
 }
 
 impl LetterValue {
-    /// 1 where it crosses the ray to the right of a point upwards, -1 downwards, 0 where it does not.
+    /// 1 if it crosses the ray to the right of a point upwards, -1 if downwards, 0 if not at all.
     fn crossing(&self, point: Xy) -> i32 {
         let up = self.from <= point.y && point.y < self.to;
         let down = self.to <= point.y && point.y < self.from;
@@ -79,14 +79,14 @@ impl LetterValue {
             Curve::Arc(Arc { centre, radius, start, end, clockwise, .. }) => {
                 let up = y - centre.y;
                 let out = libm::sqrt((radius * radius - up * up).max(0.0));
-                // On its right side a circle falls clockwise.
+                // The right half of a circle runs downwards when clockwise.
                 if (start.y > end.y) == *clockwise { centre.x + out } else { centre.x - out }
             }
         }
     }
 }
 
-/// The pieces of a curve that only rise or only fall: an arc is cut where it is highest and lowest.
+/// The monotone pieces of a curve: arcs are split at their highest and lowest points.
 fn monotone(curve: &Curve) -> Vec<Curve> {
     let Curve::Arc(arc) = curve else { return vec![*curve] };
     let out = arc.start - arc.centre;
@@ -103,7 +103,7 @@ fn monotone(curve: &Curve) -> Vec<Curve> {
     cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
 }
 
-/// A box around a curve and what is so near it; of an arc around its whole circle.
+/// The bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
 pub(super) fn around(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
     let (a, b) = match curve {
         Curve::Line(line) => (line.start, line.end),

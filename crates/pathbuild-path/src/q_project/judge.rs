@@ -1,4 +1,4 @@
-//! What is wrong with a Q-project or with proxy lines: PB515, PB516, PB517.
+//! Checks Q-projects and proxy lines: PB515, PB516, PB517.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::number::parse_number;
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName};
 use crate::read::ProxyLine;
 
-/// A distance in mm by which lengths may differ, as those of embedded paths may.
+/// Tolerance in mm for lengths, the same as for embedded paths.
 const LENGTH_TOLERANCE: f64 = 0.001;
 
-/// What a component and its Q-project say against each other.
+/// Disagreements between a component and its Q-project.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QProjectFindings {
     /// PB517, in the component's drawing.
@@ -25,8 +25,8 @@ pub struct QProjectFindings {
     pub in_q_project: Vec<Diagnostic>,
 }
 
-/// Holds the Q-project of a component against it. `paths`: those of the Q-project, if none of them has errors; else it is not known what it
-/// embeds. `drawing`: the file name of the component.
+/// Compares a component with its Q-project. `paths`: the paths of the Q-project, unless one has errors and its embeddings are unknown.
+/// `drawing`: the file name of the component.
 pub fn judge_q_project(component: &Component<'_>, drawing: &str, paths: Option<&[Path]>) -> QProjectFindings {
     let judge = Judge { component, drawing };
     let in_q_project = paths.map(|paths| judge.embeddings(paths)).unwrap_or_default();
@@ -38,7 +38,7 @@ struct Judge<'a> {
     drawing: &'a str,
 }
 
-/// What two texts say differently: the letter or variable, and both values.
+/// A difference between two texts: the letter or variable, and both values.
 type Difference = (String, Value, Value, Option<TextFault>);
 
 impl<'a> Judge<'a> {
@@ -77,7 +77,7 @@ impl<'a> Judge<'a> {
         problems
     }
 
-    /// The path whose start and end a proxy line joins, where that is another than the one it names, which it does not join.
+    /// The path whose ends a proxy line connects, if these are not the ends of the path that it names.
     fn other(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
         let (start, end) = (proxy.curve.start(), proxy.curve.end());
         let joined = self.component.paths.iter().filter(|raw| {
@@ -116,7 +116,7 @@ impl<'a> Judge<'a> {
         self.component.names().flat_map(of_name).collect()
     }
 
-    /// PB516 where a subpath agrees with no proxy line of its path. Proxy lines that are wrong themselves are not compared with.
+    /// PB516 if a subpath agrees with none of its path's proxy lines. Faulty proxy lines are ignored.
     fn embedding(
         &self,
         name: &PathName,
@@ -135,7 +135,7 @@ impl<'a> Judge<'a> {
         compared.swap_remove(0).into_iter().map(place).collect()
     }
 
-    /// What a subpath of a path of the Q-project says that a proxy line does not.
+    /// The differences between a subpath of the Q-project and a proxy line.
     fn differences(
         &self,
         name: &PathName,
@@ -175,7 +175,7 @@ fn differing(
     }
 }
 
-/// What a proxy line says of T, O and M that its path does not.
+/// The differences in T, O and M between a proxy line and its path.
 fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
     let number = |letter: Letter, there: f64| {
         let (here, fault) = proxy.value(letter)?;
@@ -191,7 +191,7 @@ fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
     numbers.into_iter().flatten().chain(material()).collect()
 }
 
-/// What a subpath of a Q-project says of T, O, M and variables that the proxy line does not.
+/// The differences in T, O, M and variables between a subpath of the Q-project and a proxy line.
 fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
     let fault = |letter| path.fault(subpath, letter);
     let number = |letter: Letter, here: f64| {
@@ -237,7 +237,7 @@ fn is_number(text: &str, number: f64) -> bool {
     parse_number(text).is_some_and(|written| near(written, number))
 }
 
-/// Numbers are the same with a point or a comma.
+/// Whether two values are equal; numbers may have a decimal point or a comma.
 fn is_same_value(a: &str, b: &str) -> bool {
     a == b || parse_number(a).is_some_and(|number| is_number(b, number))
 }

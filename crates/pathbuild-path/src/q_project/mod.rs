@@ -1,4 +1,4 @@
-//! Q-projects: `NAME_Q` embeds every path of `NAME` as its proxy lines say. (book: language/q-projects)
+//! Q-projects: `NAME_Q` embeds every path of `NAME` as given by its proxy lines. (book: language/q-projects)
 
 mod judge;
 mod plan;
@@ -16,10 +16,10 @@ use crate::variables::Bindings;
 pub use judge::{QProjectFindings, judge_q_project};
 pub use plan::{QProject, QProjectLine, plan_q_project};
 
-/// A component: a drawing's paths, as its proxy lines embed them.
+/// A component: the paths of a drawing, with their proxy lines.
 #[derive(Debug)]
 pub struct Component<'a> {
-    /// In order of first appearance.
+    /// The paths in order of first appearance.
     paths: Vec<&'a RawPath>,
     proxies: &'a [ProxyLine],
     language: &'a Language,
@@ -27,7 +27,7 @@ pub struct Component<'a> {
 }
 
 impl<'a> Component<'a> {
-    /// The paths of a drawing, with the proxy lines beside them.
+    /// Groups the proxy lines of a drawing by its paths.
     pub fn new(
         paths: impl Iterator<Item = &'a RawPath>,
         proxies: &'a [ProxyLine],
@@ -50,18 +50,18 @@ impl<'a> Component<'a> {
         self.paths.iter().copied().find(|path| *path.name == *name)
     }
 
-    /// The proxy lines that stand for a path.
+    /// The proxy lines of a path.
     fn proxies(&self, name: &PathName) -> &[&'a ProxyLine] {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// A path with the values that a proxy line sets, and example values for what it leaves open; `None` where the path has errors.
+    /// A path bound to the values that a proxy line sets, and to example values for its other variables; `None` if the path has errors.
     fn path(&self, raw: &RawPath, proxy: Option<&ProxyLine>) -> Option<Path> {
         raw.is_sound().then(|| bind(raw, &values(raw, proxy), self.language).0)?
     }
 }
 
-/// The values of a path's variables: those that a proxy line sets and the path allows, else example values.
+/// The values for a path's variables: those that a proxy line sets and the path permits, otherwise example values.
 fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
     let examples = Bindings::check_values(&raw.definitions);
     let value = |definition: &Definition| {

@@ -1,4 +1,4 @@
-//! What a Q-project is to embed.
+//! Plans the content of a Q-project.
 
 use super::{Component, values};
 use crate::approx::near;
@@ -7,26 +7,26 @@ use crate::path::Path;
 use crate::raw::RawPath;
 use crate::read::ProxyLine;
 
-/// A path of a Q-project that is to be drawn: all that is milled with one cutter.
+/// A planned path of a Q-project, for everything milled with one cutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QProject {
-    /// T, O and M of its path: the greatest T of what it embeds.
+    /// T, O and M of the path: T is the maximum of the embedded paths.
     pub parameters: String,
-    /// What it embeds, in the order of the drawing's paths.
+    /// Its segments, in the order of the drawing's paths.
     pub lines: Vec<QProjectLine>,
 }
 
-/// A subpath segment that is to be drawn.
+/// A planned subpath segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QProjectLine {
-    /// From its start to its end, in mm.
+    /// Its length in mm.
     pub length: f64,
     /// Its text.
     pub text: String,
 }
 
-/// The Q-project of a component: a path for each O, in the order in which they first appear, each embedded path as its first proxy line
-/// says, else with its own values. Paths with errors are left out.
+/// Plans the Q-project of a component: one path for each O, in order of first appearance. Each embedded path uses the values of its first
+/// proxy line, or its own. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
     for planned in component.paths.iter().filter_map(|raw| line(component, raw)) {
@@ -39,7 +39,7 @@ pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     by_cutter.into_iter().map(of_cutter).collect()
 }
 
-/// The path that embeds these, which have the same O.
+/// The path that embeds these paths, all of which have the same O.
 fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
     let first = &planned[0].0;
     let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
@@ -55,7 +55,7 @@ fn line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProjectLine)
     Some((path, line))
 }
 
-/// The text of a proxy line, and what it leaves open.
+/// The text of a proxy line, completed by the values it leaves open.
 fn text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
     let mut pieces = vec![format!(">{}", path.name)];
     if let Some(proxy) = proxy {

@@ -1,11 +1,11 @@
-//! What is wrong with a path whose elements and texts have all been found, whatever its values are.
+//! Checks a path once all its elements and texts are known, independently of values.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
 use crate::raw::RawPath;
 
-/// A raw path while it is checked.
+/// A raw path being checked.
 pub(super) struct Checked<'r> {
     pub(super) raw: &'r mut RawPath,
 }
@@ -17,7 +17,7 @@ impl Checked<'_> {
         self.raw.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
     }
 
-    /// Reports markers that are missing.
+    /// Reports missing markers.
     pub(super) fn check_markers(&mut self) {
         if self.raw.start.is_some() && self.raw.end.is_some() {
             return;

@@ -1,4 +1,4 @@
-//! The entities of each path while they are collected.
+//! Collects the entities of each path.
 
 use std::mem::take;
 use std::sync::Arc;
@@ -21,16 +21,16 @@ use crate::name::PathName;
 use crate::raw::{Drawn, Language, Position, RawPath, SourceMap};
 use crate::text::ParameterTexts;
 
-/// A path while its entities are being collected.
+/// A path whose entities are being collected.
 pub(crate) struct Collected<'d> {
     pub(crate) name: PathName,
     pub(crate) start: Option<Marker>,
     pub(super) ends: Vec<Marker>,
     pub(super) turns: Vec<Marker>,
     pub(crate) probes: Vec<Marker>,
-    /// In file order.
+    /// The elements in file order.
     pub(crate) elements: Vec<Element>,
-    /// The texts that found an element.
+    /// The texts that belong to an element.
     pub(crate) given: ParameterTexts,
     pub(crate) map: SourceMap,
     pub(crate) texts: Texts<'d>,
@@ -38,18 +38,18 @@ pub(crate) struct Collected<'d> {
     pub(crate) diagnostics: Vec<Diagnostic>,
     has_broken_circle: bool,
     pub(super) faults: DrawingFaults,
-    /// Circles that mean nothing as they are.
+    /// Circles without a meaning.
     pub(super) unclear: Vec<UnclearCircle>,
-    /// Problems that many elements share: their place among the diagnostics, and how many elements have them.
+    /// Problems shared by several elements: their index among the diagnostics, and the number of elements.
     pub(super) shared: Vec<SharedProblem>,
     pub(super) has_elements: bool,
 }
 
-/// A circle whose line type or diameter means nothing.
+/// A circle without a meaning because of its line type or diameter.
 pub(crate) struct UnclearCircle {
     pub(super) marker: Marker,
     pub(super) shape: Shape,
-    /// What it may have been meant as.
+    /// The marker that it was probably meant to be.
     pub(super) meant: MeantMarker,
 }
 
@@ -61,18 +61,18 @@ pub(super) struct SharedProblem {
     count: usize,
 }
 
-/// Where a text that finds a candidate is put.
+/// The owner of a text that belongs to a candidate.
 #[derive(Clone, Copy)]
 pub(crate) enum Owner {
     Start,
     Probe(usize),
-    /// By its place among the path's elements.
+    /// An element of the path, by its index.
     Element(usize),
-    /// An element that is reported anyway.
+    /// An element with errors of its own.
     Faulty,
 }
 
-/// The paths of a drawing in order of first appearance, their texts not yet assigned.
+/// The paths of a drawing in order of first appearance, before their texts are assigned.
 pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths: Vec<_> = layers.by_path().map(|layers| Collected::new(drawing, layers)).collect();
@@ -102,7 +102,7 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collec
 }
 
 impl Collected<'_> {
-    /// A path with these layers.
+    /// Creates a path with these layers.
     fn new(drawing: &Drawing, layers: &[FoundLayer]) -> Self {
         let mut path = Self {
             name: layers[0].path.clone(),
@@ -132,12 +132,12 @@ impl Collected<'_> {
         path
     }
 
-    /// Whether there is anything but texts: a layer with texts alone is no path.
+    /// Whether there is anything but texts: layers with texts alone form no path.
     pub(crate) fn has_elements(&self) -> bool {
         self.has_elements
     }
 
-    /// What is wrong with a group of layers that holds texts only.
+    /// The findings about a group of layers with texts only.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
         take(&mut self.texts).assign(&mut self, 0.0);
         let mut diagnostics = take(&mut self.diagnostics);
@@ -148,7 +148,7 @@ impl Collected<'_> {
         diagnostics
     }
 
-    /// Gives each text to its element.
+    /// Assigns each text to its element.
     pub(crate) fn assign_texts(&mut self, language: &Language) {
         self.settle_shared();
         let mut texts = take(&mut self.texts);
@@ -156,7 +156,7 @@ impl Collected<'_> {
         let before = self.diagnostics.len();
         texts.assign(self, language.doubts.text_margin);
         self.texts = texts;
-        // A broken entity may be what the text belongs to.
+        // The text may belong to a broken entity.
         if self.faults.has_broken_entity {
             self.diagnostics.truncate(before);
         }
@@ -166,7 +166,7 @@ impl Collected<'_> {
         }
     }
 
-    /// Puts the elements into the order of segments, and checks what needs no values.
+    /// Sorts the elements into the order of segments, and checks everything that does not depend on values.
     pub(super) fn finish(mut self, starts: &Starts) -> (RawPath, SourceMap) {
         self.elements.sort_by_key(|element| match element.shape {
             Shape::Circle { .. } => 0,
@@ -211,7 +211,7 @@ impl Collected<'_> {
         self.report(diagnostic);
     }
 
-    /// Puts in how many elements share each problem.
+    /// Fills in the number of elements that share each problem.
     fn settle_shared(&mut self) {
         for shared in take(&mut self.shared) {
             self.diagnostics[shared.index].arguments.push(("count", shared.count.into()));
@@ -236,7 +236,7 @@ impl Collected<'_> {
         ElementId(id)
     }
 
-    /// Takes a diagnostic of the reader: its line and handle go into the source map, where an edit elsewhere may shift them.
+    /// Adds a diagnostic of the reader. Its line and handle go into the source map, since edits elsewhere may shift them.
     fn add_located(&mut self, diagnostic: &Diagnostic) {
         let mut diagnostic = diagnostic.clone();
         let position = Position {
@@ -256,7 +256,7 @@ impl Collected<'_> {
     }
 }
 
-/// What an element that takes texts is called.
+/// The name of an element that takes texts, for messages.
 pub(crate) fn candidate_word(candidate: &Candidate) -> &'static pathbuild_diagnostic::Word {
     match candidate.owner {
         Owner::Start => &words::PATH_START,

@@ -1,4 +1,4 @@
-//! A text of the drawing, TEXT or MTEXT, before it is known what it belongs to.
+//! The texts of a drawing, TEXT or MTEXT, before they are assigned.
 
 use pathbuild_dxf::{Geometry, MText, Text};
 
@@ -22,7 +22,7 @@ pub(super) enum AnyText<'d> {
 }
 
 impl<'d> FoundText<'d> {
-    /// As the drawing has it.
+    /// The string as in the drawing.
     pub(super) fn string(&self) -> &'d str {
         self.text.string()
     }
@@ -41,7 +41,7 @@ impl<'d> FoundText<'d> {
 }
 
 impl<'d> AnyText<'d> {
-    /// The text, if an entity is one.
+    /// The text, if the entity is one.
     pub(super) fn of(geometry: &'d Geometry) -> Option<Self> {
         match geometry {
             Geometry::Text(text) => Some(Self::Text(text)),
@@ -50,7 +50,7 @@ impl<'d> AnyText<'d> {
         }
     }
 
-    /// As the drawing has it.
+    /// The string as in the drawing.
     pub(super) fn string(self) -> &'d str {
         match self {
             Self::Text(text) => &text.string,

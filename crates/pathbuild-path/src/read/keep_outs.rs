@@ -1,4 +1,4 @@
-//! The clamps of a drawing: closed outlines, each with its height as a text. (book: language/keep-outs)
+//! Reads the clamps of a drawing: closed outlines, each with a text for its height. (book: language/keep-outs)
 
 use std::collections::HashSet;
 
@@ -20,7 +20,7 @@ use crate::raw::Language;
 use crate::text::{ParameterText, ParameterTexts, Written, without_percent_codes};
 use crate::text_circle::TextCircle;
 
-/// The clamps of a drawing of which at least the layers with clamps were read.
+/// The clamps of a drawing. At least the layers with clamps must have been read.
 pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
     let mut found = KeepOuts::default();
     let Some(pattern) = &language.keep_out else { return found };
@@ -40,7 +40,7 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
     found
 }
 
-/// The entities on each layer, by their numbers.
+/// The indices of the entities on each layer.
 fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
     let mut layers = vec![Vec::new(); drawing.layers.len()];
     for (number, entity) in drawing.entities.iter().enumerate() {
@@ -49,7 +49,7 @@ fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
     layers
 }
 
-/// A layer while its clamps are looked for.
+/// State of reading the clamps of a layer.
 struct Reading<'d> {
     drawing: &'d Drawing,
     layer: &'d Layer,
@@ -57,34 +57,34 @@ struct Reading<'d> {
     problems: Vec<Diagnostic>,
 }
 
-/// The texts of an outline.
+/// The texts inside an outline.
 #[derive(Clone, Default)]
 struct Over<'d> {
-    /// The first few, with their entities.
+    /// The first few, with the indices of their entities.
     first: Vec<(usize, AnyText<'d>)>,
     count: usize,
 }
 
-/// So many texts of an outline are named: in a crowd each outline may have all texts.
+/// Maximum number of an outline's texts to list: in a crowd, each outline may contain all texts.
 const MOST_NAMED: usize = 3;
 
-/// An outline before it is known how high it is.
+/// An outline without its height.
 struct Closed {
     outline: Vec<Curve>,
-    /// Which entity it begins with.
+    /// The index of its first entity.
     entity: usize,
     at: Xy,
 }
 
 impl Reading<'_> {
-    /// The clamps on the layer, where nothing is wrong with it.
+    /// The clamps on the layer, unless the layer has errors.
     fn clamps(&mut self, entities: &[usize]) -> Vec<KeepOut> {
         if self.layer.hidden {
             self.report(on_layer(&self.layer.name, Diagnostic::new(&messages::CLAMPS_NOT_VISIBLE)));
         }
         self.check_whole();
         if self.problems.iter().any(Diagnostic::is_error) {
-            // What is missing may be the rest of an outline, or its text.
+            // The missing part may belong to an outline, or be its text.
             return Vec::new();
         }
         for entity in entities {
@@ -103,13 +103,13 @@ impl Reading<'_> {
         self.problems.push(problem);
     }
 
-    /// PB003 where the layer is a path's as well.
+    /// PB003 if the layer is also a path layer.
     fn report_path(&mut self) {
         let problem = Diagnostic::new(&configuration::KEEP_OUT_IS_PATH).with("layer", &*self.layer.name);
         self.report(on_layer(&self.layer.name, problem));
     }
 
-    /// What was not read of the layer, and may be a part of a clamp.
+    /// Reports entities of the layer that could not be read, since they may be part of a clamp.
     fn check_whole(&mut self) {
         let faults = self.drawing.faults.iter().filter(|fault| fault.layer == self.number);
         let mut problems: Vec<Diagnostic> = faults.map(|fault| fault.diagnostic.clone()).collect();
@@ -134,7 +134,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The outlines that close; PB117 for what does not.
+    /// The closed outlines; PB117 for all others.
     fn outlines(&mut self, entities: &[usize]) -> Vec<Closed> {
         let (mut outlines, mut parts) = (Vec::new(), Vec::new());
         for number in entities {
@@ -165,7 +165,7 @@ impl Reading<'_> {
                     let problem = self.at(part.entity, at, problem);
                     self.report(problem);
                 }
-                // Several parts break off in one point.
+                // Several parts end at the same point.
                 Ring::Branch { .. } => {}
             }
         }
@@ -181,9 +181,10 @@ impl Reading<'_> {
         self.report(problem);
     }
 
-    /// The height of each outline: of the one text inside it or overlapping it. PB117 where there is none, or several, or a text says none.
+    /// The height of each outline, from the one text inside or overlapping it. PB117 if there is none, if there are several, or if the text
+    /// gives no height.
     fn heights(&mut self, entities: &[usize], outlines: &[Closed]) -> Vec<Option<f64>> {
-        // Texts lie below any height.
+        // Texts count as being below any height.
         let map = KeepOutMap::new(outlines.iter().map(|closed| (1.0, &*closed.outline)));
         let mut texts = vec![Over::default(); outlines.len()];
         for number in entities {
@@ -222,7 +223,7 @@ impl Reading<'_> {
         None
     }
 
-    /// The height that a text says.
+    /// The height given by a text.
     fn height_in(&mut self, number: usize, text: AnyText<'_>) -> Option<f64> {
         let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
         let read = texts.first().unwrap_or_default();
@@ -235,7 +236,7 @@ impl Reading<'_> {
         height
     }
 
-    /// A problem at an entity.
+    /// Places a problem at an entity.
     fn at(&self, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
         at_entity(self.drawing, entity, point, problem)
     }
@@ -250,7 +251,7 @@ impl<'d> Over<'d> {
     }
 }
 
-/// `Z25`, and nothing else.
+/// The height in a text of the form `Z25`.
 fn height(text: ParameterText<'_>) -> Option<f64> {
     let [piece] = text.pieces() else { return None };
     match (piece.letter, piece.written) {
@@ -259,7 +260,7 @@ fn height(text: ParameterText<'_>) -> Option<f64> {
     }
 }
 
-/// A text without its line ends, for messages.
+/// A text on one line, for messages.
 fn one_line(text: AnyText<'_>) -> String {
     without_percent_codes(text.string()).trim_end().replace('\n', " ")
 }

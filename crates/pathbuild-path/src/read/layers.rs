@@ -1,4 +1,4 @@
-//! Which layers belong to which path. (book: language/layers-and-names)
+//! Assigns layers to paths. (book: language/layers-and-names)
 
 use pathbuild_dxf::{Drawing, Layer};
 
@@ -6,33 +6,33 @@ use crate::name::{PathName, PathPattern};
 
 /// The path layers of a drawing.
 pub(super) struct PathLayers {
-    /// In file order, but those of a path behind its first.
+    /// The path layers in file order, except that the layers of a path follow its first one.
     found: Vec<FoundLayer>,
-    /// By the number of the layer.
+    /// The memberships by layer number.
     memberships: Vec<Option<Membership>>,
 }
 
 /// A path layer.
 pub(super) struct FoundLayer {
-    /// Its path's name as it spells it.
+    /// The name of its path, as spelt by the layer.
     pub(super) path: PathName,
-    /// Which of the drawing's layers it is.
+    /// Its number among the layers of the drawing.
     pub(super) number: usize,
-    /// The number of its path's first.
+    /// The number of the first layer of its path.
     first: usize,
 }
 
-/// The path that a layer belongs to.
+/// The place of a layer in a path.
 #[derive(Clone, Copy)]
 pub(super) struct Membership {
-    /// Which of the drawing's paths.
+    /// Index of the path in the drawing.
     pub(super) path: usize,
-    /// Which of its layers.
+    /// Index of the layer in the path.
     pub(super) layer: u32,
 }
 
 impl PathLayers {
-    /// Those of a drawing.
+    /// Finds the path layers of a drawing.
     pub(super) fn find(drawing: &Drawing, pattern: &PathPattern) -> Self {
         let layer = |(number, layer): (usize, &Layer)| {
             let path = pattern.layer(&layer.name)?.path;
@@ -61,7 +61,7 @@ impl PathLayers {
         by_path(&self.found)
     }
 
-    /// The path that a layer belongs to; `None` for a layer that is no path layer.
+    /// The membership of a layer; `None` if it is not a path layer.
     pub(super) fn membership(&self, layer: u32) -> Option<Membership> {
         self.memberships[layer as usize]
     }

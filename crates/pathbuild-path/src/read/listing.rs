@@ -1,4 +1,4 @@
-//! Which element each text belongs to, for showing. (book: language/parameter-texts)
+//! Lists the element of each text, for display. (book: language/parameter-texts)
 
 use std::collections::BTreeMap;
 
@@ -12,39 +12,39 @@ use crate::name::PathName;
 use crate::raw::{Language, Position};
 use crate::text_circle::TextCircle;
 
-/// A text on a path layer, and what it belongs to.
+/// A text on a path layer, with its elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssignedText {
-    /// The text, `%%` codes replaced, with its line ends.
+    /// The text with `%%` codes replaced and line ends kept.
     pub text: Box<str>,
     /// TEXT or MTEXT.
     pub entity: EntityKind,
-    /// The path that it is in.
+    /// The path.
     pub path: PathName,
     /// Its layer.
     pub layer: Box<str>,
-    /// Where it is in the file.
+    /// Its position in the file.
     pub position: Position,
-    /// The circle by which it finds its element.
+    /// The circle by which it is matched with an element.
     pub circle: TextCircle,
-    /// The element; several where it is a polyline; none where the text belongs to nothing (PB107).
+    /// The elements: several for a polyline, none if the text belongs to nothing (PB107).
     pub elements: Vec<AssignedElement>,
 }
 
-/// An element that has a text.
+/// An element with a text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssignedElement {
     /// Its type in the file.
     pub entity: EntityKind,
-    /// Its line type's name.
+    /// The name of its line type.
     pub line_type: Box<str>,
-    /// Where it is in the file.
+    /// Its position in the file.
     pub position: Position,
-    /// What is drawn.
+    /// The drawn shape.
     pub shape: Shape,
 }
 
-/// The texts of a drawing's path layers, in file order.
+/// The texts on the path layers of a drawing, in file order.
 pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedText> {
     let entities = entities_by_path(drawing, language);
     let mut texts: Vec<AssignedText> = Vec::new();
@@ -84,7 +84,7 @@ fn assigned(
     }
 }
 
-/// The entities of each path in file order, which is how its elements are numbered.
+/// The entities of each path in file order, which is the order of element numbers.
 fn entities_by_path<'d>(drawing: &'d Drawing, language: &Language) -> BTreeMap<PathName, Vec<&'d Entity>> {
     let paths = drawing.layers.iter().map(|layer| language.path_pattern.layer(&layer.name));
     let paths: Vec<Option<PathName>> = paths.map(|layer| layer.map(|layer| layer.path)).collect();

@@ -1,4 +1,4 @@
-//! Start and end of a path where no circle, or more than one, is drawn as its marker.
+//! Chooses the start and end of a path if no circle, or several, are drawn as its marker.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
@@ -13,7 +13,7 @@ const TURN: f64 = 0.75;
 const PROBE: f64 = 3.0;
 
 impl Collected<'_> {
-    /// Takes circles for the start and the end that were probably meant as these. Each was reported, or is here.
+    /// Chooses the circles that were probably meant as start and end. Each problem has been reported already, or is reported here.
     pub(super) fn settle_markers(&mut self, texts: &mut Texts<'_>) {
         if self.start.is_none() {
             self.start = self.take_unclear(MeantMarker::Start).or_else(|| self.circle_with_path_text(texts));
@@ -32,7 +32,7 @@ impl Collected<'_> {
         }
     }
 
-    /// The first circle of unknown line type that has this marker's diameter.
+    /// The first circle of unknown line type with the diameter of this marker.
     fn take_unclear(&mut self, meant: MeantMarker) -> Option<Marker> {
         let index = self.unclear.iter().position(|circle| circle.meant == meant)?;
         let marker = self.unclear.remove(index).marker;
@@ -40,7 +40,7 @@ impl Collected<'_> {
         Some(marker)
     }
 
-    /// A circle that is no start, but has the text of one. PB101 is reported there.
+    /// A circle that is not a start marker but has the text of one. PB101 is reported there.
     fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
         let radius = |shape: &Shape| match shape {
             Shape::Circle { radius, .. } => *radius,

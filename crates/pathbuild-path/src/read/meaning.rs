@@ -1,4 +1,4 @@
-//! What each entity of a path means. (book: language/line-types, book: language/markers)
+//! Determines the meaning of each entity of a path. (book: language/line-types, book: language/markers)
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -23,7 +23,7 @@ struct Found<'d> {
 }
 
 impl<'d> Collected<'d> {
-    /// Takes the next entity in file order.
+    /// Adds the next entity in file order.
     pub(super) fn add(
         &mut self,
         entity: &'d Entity,
@@ -60,7 +60,7 @@ impl<'d> Collected<'d> {
 
     fn check_plane(&mut self, source: Source, points: &[Point3], begin: Xy) {
         self.has_elements = true;
-        // As nearly all of them are.
+        // The usual case.
         if points.iter().all(|point| point.z == 0.0) {
             return;
         }
@@ -133,7 +133,7 @@ impl<'d> Collected<'d> {
         self.start = Some(marker);
     }
 
-    /// A line type that means nothing here. The element still takes its text, which would else be reported as belonging to nothing.
+    /// Adds an element with a meaningless line type. It still takes its text, which would otherwise be reported as belonging to nothing.
     fn add_unknown(&mut self, found: &Found<'_>, shape: Shape) {
         let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
         let name = &*found.entity.line_type;
@@ -168,7 +168,7 @@ impl<'d> Collected<'d> {
     }
 }
 
-/// A length with as many digits as tell it from what it nearly is: 1.0001, not 1.
+/// A length with enough digits to distinguish it from a similar one: 1.0001, not 1.
 fn exact(length: f64) -> Value {
     let is_shown = (length * 1000.0 - (length * 1000.0).round()).abs() <= 1e-6;
     if is_shown { length.into() } else { format!("{length:.9}").trim_end_matches('0').into() }

@@ -1,4 +1,5 @@
-//! From a drawing's entities to raw paths: sorting by layer, meaning of elements, assignment of texts. (book: reference/dxf)
+//! Converts the entities of a drawing to raw paths: groups them by layer, determines their meaning and assigns the texts. (book:
+//! reference/dxf)
 
 mod checked;
 mod collect;
@@ -35,7 +36,7 @@ pub use listing::{AssignedElement, AssignedText, assigned_texts};
 pub use proxies::{ProxyLine, proxy_lines};
 pub use stray::{NearNames, may_be_stray_text, stray_findings};
 
-/// Finds the paths of a drawing. A drawing with errors of its own has none.
+/// Finds the paths of a drawing; none if the drawing itself has errors.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     let mut collected = collect::paths(drawing, language);
     let without_elements = collected.extract_if(.., |path| !path.has_elements()).collect::<Vec<_>>();
@@ -50,7 +51,7 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     RawFile { paths: collected.into_iter().map(|path| path.finish(&starts)).collect(), diagnostics }
 }
 
-/// A problem at an entity of a drawing.
+/// Places a problem at an entity of a drawing.
 fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
     let (kind, origin) = (drawing.entities[entity].kind, drawing.origins[entity]);
     let layer = &drawing.layers[drawing.entities[entity].layer as usize];
@@ -65,12 +66,12 @@ fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Diagnostic) -
     Diagnostic { place, ..problem }
 }
 
-/// The start texts of all paths, to which @ can refer; none where nobody does.
+/// The start texts of all paths, for references by @; empty if there are no references.
 type Starts = BTreeMap<PathName, Start>;
 
 struct Start {
     text: Box<str>,
-    /// Whether it refers to another one itself.
+    /// Whether it refers to another path itself.
     borrows: bool,
     origin: Origin,
 }

@@ -1,4 +1,4 @@
-//! The parameters of a path and its elements, as far as they can be checked without values: which letters, @, definitions.
+//! Checks the parameters of a path and its elements as far as possible without values: letters, @, definitions.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ impl Checked<'_> {
         let mut seen = HashSet::new();
         for element in &drawn.elements {
             let Some(text) = element.text else { continue };
-            // The parts of a polyline share one text, which is checked once.
+            // The parts of a polyline share a text, which is checked once.
             if !seen.insert(text) {
                 continue;
             }
@@ -104,7 +104,7 @@ impl Checked<'_> {
     }
 }
 
-/// The path that @ names, with its start.
+/// The path named by @, with its start.
 fn referenced<'s>(
     text: ParameterText<'_>,
     piece: &LetterValue,

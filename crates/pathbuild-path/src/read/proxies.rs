@@ -1,4 +1,4 @@
-//! Proxy lines: drawn beside a component's path, to be copied into projects. (book: language/q-projects)
+//! Proxy lines: drawn beside the path of a component, for copying into projects. (book: language/q-projects)
 
 use std::collections::BTreeMap;
 
@@ -17,16 +17,16 @@ use crate::name::PathName;
 use crate::raw::{Language, Position};
 use crate::text::{LetterValue, ParameterText, ParameterTexts};
 
-/// A DASHDOT line or arc with a subpath's text, on a layer that is no path layer.
+/// A DASHDOT line or arc with the text of a subpath, on a layer that is not a path layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProxyLine {
-    /// The line or arc. Its number is no path's: see `position`.
+    /// The line or arc. Its number belongs to no path; use `position`.
     pub origin: Origin,
-    /// Where it is in the file.
+    /// Its position in the file.
     pub position: Position,
-    /// What is drawn.
+    /// The drawn curve.
     pub curve: Curve,
-    /// The text, which has a `>`.
+    /// The text, which contains a `>`.
     text: ParameterTexts,
 }
 
@@ -36,13 +36,13 @@ impl ProxyLine {
         self.text.first().unwrap_or_default()
     }
 
-    /// The path that it stands for; `None` when there is no path name after `>`.
+    /// The path that it represents; `None` if `>` is not followed by a path name.
     pub fn name(&self, language: &Language) -> Option<PathName> {
         let (value, _) = self.value(Letter::Embed)?;
         language.path_pattern.find(value).map(|(name, _)| name).filter(|name| !name.is_part_of_word(value))
     }
 
-    /// What it says of a letter. A value that refers to variables of whoever copies it says nothing.
+    /// The value of a letter. `None` if it refers to variables, which belong to the project it is copied into.
     pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
         self.known(self.text().piece(letter)?)
     }
@@ -62,7 +62,7 @@ impl ProxyLine {
     }
 }
 
-/// The proxy lines of a drawing, of which all layers are there, in file order. Other texts and lines beside them are not looked at.
+/// The proxy lines of a drawing in file order. The drawing must contain all layers; other texts and lines are ignored.
 pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
     let is_path: Vec<bool> =
         drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();

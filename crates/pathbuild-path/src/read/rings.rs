@@ -1,4 +1,4 @@
-//! Closed rings of lines and arcs: the outlines of clamps. (book: language/keep-outs)
+//! Finds closed rings of lines and arcs, the outlines of clamps. (book: language/keep-outs)
 
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -6,27 +6,27 @@ use rstar::primitives::GeomWithData;
 use crate::approx::coincide;
 use crate::geometry::{Arc, Curve, Xy};
 
-/// A curve that may be a part of a ring.
+/// A curve that may be part of a ring.
 #[derive(Clone, Copy)]
 pub(crate) struct Part {
     pub(crate) curve: Curve,
-    /// Parts of one polyline follow each other and have the same number.
+    /// Number of its polyline; the parts of a polyline are consecutive.
     pub(crate) group: Option<u32>,
-    /// Which entity it is.
+    /// The index of its entity.
     pub(crate) entity: usize,
 }
 
-/// What curves make.
+/// The result of joining curves.
 pub(crate) enum Ring {
-    /// Curves that meet, end to start, all around.
+    /// A closed sequence of curves.
     Closed(Vec<Part>),
-    /// Curves that meet, but not all around; both ends.
+    /// An open sequence of curves, with both ends.
     Open { part: Part, end: Xy, other: Xy },
-    /// A point in which the ends of more than two curves meet.
+    /// A point where more than two curves end.
     Branch { part: Part, at: Xy },
 }
 
-/// The rings that curves make: polylines that are closed by themselves, and what else closes.
+/// The rings formed by curves: first polylines that are closed themselves, then everything else.
 pub(crate) fn rings(parts: &[Part]) -> Vec<Ring> {
     let (mut rings, mut loose) = (Vec::new(), Vec::new());
     for polyline in parts.chunk_by(|one, other| one.group.is_some() && one.group == other.group) {
@@ -40,7 +40,7 @@ pub(crate) fn rings(parts: &[Part]) -> Vec<Ring> {
     rings
 }
 
-/// Whether curves meet, end to start, all around. A line without length goes round nothing.
+/// Whether the curves form a closed sequence. A line without length encloses nothing.
 fn is_closed(parts: &[Part]) -> bool {
     let next = parts.iter().cycle().skip(1);
     let is_whole = |part: &Part| matches!(part.curve, Curve::Arc(Arc { degrees: 360.0, .. }));
@@ -48,10 +48,10 @@ fn is_closed(parts: &[Part]) -> bool {
         && parts.iter().zip(next).all(|(one, next)| coincide(one.curve.end(), next.curve.start()))
 }
 
-/// Which end of which curve: twice its number, and one more where it ends.
+/// The end of a curve: twice the index of the curve, plus one for its second end.
 type End = usize;
 
-/// What an end meets.
+/// The other ends that an end coincides with.
 #[derive(Clone, Copy, PartialEq)]
 enum Meets {
     Nothing,
@@ -59,15 +59,15 @@ enum Meets {
     Several,
 }
 
-/// Curves while those that meet are joined.
+/// State of joining curves.
 struct Joining<'p> {
     parts: &'p [Part],
-    /// By end.
+    /// What each end meets.
     meets: Vec<Meets>,
     is_done: Vec<bool>,
 }
 
-/// So near in mm are ends looked for that may coincide.
+/// Search radius in mm for ends that may coincide.
 const NEAR: f64 = 1e-3;
 
 impl<'p> Joining<'p> {
@@ -96,7 +96,7 @@ impl<'p> Joining<'p> {
         rings
     }
 
-    /// Goes along from a curve's end until that is where it starts, or until nothing more, or too much, meets.
+    /// Follows curves from an end until the ring closes, or until no curve or several curves continue.
     fn ring(&mut self, first: usize) -> Ring {
         let start = 2 * first;
         let (ring, last) = self.follow(start + 1);
@@ -104,7 +104,7 @@ impl<'p> Joining<'p> {
             Some(next) if next == start => return Ring::Closed(ring),
             _ => {}
         }
-        // The other way as well: all of it is one fault.
+        // Follow the other direction as well, since all of it is a single problem.
         let (_, other) = self.follow(start);
         let several = [last, other].into_iter().find(|end| self.meets[*end] != Meets::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
@@ -114,7 +114,7 @@ impl<'p> Joining<'p> {
         }
     }
 
-    /// The curves from an end on, each run away from it, and the end of the last.
+    /// The curves that continue from an end, in that direction, and the final end.
     fn follow(&mut self, from: End) -> (Vec<Part>, End) {
         let mut ring = vec![self.run_to(from)];
         let mut end = from;
@@ -125,13 +125,13 @@ impl<'p> Joining<'p> {
         (ring, end)
     }
 
-    /// The end that one meets, where each meets no other.
+    /// The only end that this end meets, if that meets no other.
     fn next(&self, end: End) -> Option<End> {
         let Meets::One(next) = self.meets[end] else { return None };
         (self.meets[next] == Meets::One(end)).then_some(next)
     }
 
-    /// A curve, run to that end.
+    /// A curve in the direction that ends there.
     fn run_to(&mut self, end: End) -> Part {
         let part = self.parts[end / 2];
         self.is_done[end / 2] = true;

@@ -1,5 +1,5 @@
-//! What is drawn for a path and does not reach it: parameter texts on layers that are no path's (PB119), and layers whose names are
-//! nearly those of paths (PB120). (book: language/layers-and-names, book: language/parameter-texts)
+//! Finds things that were drawn for a path but do not reach it: parameter texts on other layers (PB119), and layers whose names resemble
+//! those of paths (PB120). (book: language/layers-and-names, book: language/parameter-texts)
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -20,40 +20,40 @@ use crate::name::PathName;
 use crate::raw::Language;
 use crate::text::{ParameterText, ParameterTexts, Written};
 
-/// The letters of which a stray text has at least one: those that spoil a part when they are missing.
+/// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
 const WEIGHTY: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
 
-/// Largest number of candidates examined for the stray texts of a drawing.
+/// Maximum number of candidates examined for the stray texts of a drawing.
 const MOST_LOOKS: usize = 1_000_000;
 
-/// Largest number of characters behind a path's name that may be a slip of the pen.
+/// Maximum number of characters after a path name that count as a typing error.
 const LONGEST_SLIP: usize = 2;
 
-/// Whether the bytes of a text, not yet decoded, may be a parameter text of which [`stray_findings`] speaks: `false` is certain.
+/// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. `false` is definitive.
 pub fn may_be_stray_text(text: &[u8]) -> bool {
     let is_weighty = |byte: u8| matches!(byte, b'B' | b'D' | b'F' | b'I' | b'W');
     let is_value = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=');
-    // A colon begins a variable, as in `:D0.5`, which no stray text has; a backslash begins a format of MTEXT, as in `\\W0.8;`, or a new
-    // line: `\\P`.
+    // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
+    // line break: `\\P`.
     let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':');
     let is_begin = |before: &[u8]| !before.last().is_some_and(is_inside) || before.ends_with(b"\\P");
     let mut pairs = text.windows(2).enumerate();
     pairs.any(|(at, pair)| is_weighty(pair[0]) && is_value(pair[1]) && is_begin(&text[..at]))
 }
 
-/// Names of paths for comparison with those of other layers.
+/// Path names, for comparison with the names of other layers.
 pub struct NearNames {
     by_folded: HashMap<String, PathName>,
 }
 
 impl NearNames {
-    /// The names of a drawing's paths.
+    /// Collects the names of a drawing's paths.
     pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
         Self { by_folded: paths.map(|path| (folded(path.as_str()), path.clone())).collect() }
     }
 
-    /// The path whose name a layer's is nearly, where the layer is no path's: the name with a tilde and anything behind it, or with at
-    /// most two more characters, blanks and case aside.
+    /// The path whose name the name of another layer resembles: followed by a tilde and anything else, or by at most two more characters.
+    /// Spaces and case are ignored.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
@@ -63,7 +63,7 @@ impl NearNames {
     }
 }
 
-/// A name without blanks, in upper case, with points for `_` and `,`, and `~` for the signs that look like it.
+/// A name in upper case without spaces, with points for `_` and `,`, and `~` for similar characters.
 fn folded(name: &str) -> String {
     let visible = name.chars().filter(|letter| !letter.is_whitespace());
     let letters = visible.flat_map(char::to_uppercase).map(|letter| match letter {
@@ -74,7 +74,7 @@ fn folded(name: &str) -> String {
     letters.collect()
 }
 
-/// PB119 and PB120 for a drawing of which all layers were read.
+/// PB119 and PB120 for a drawing with all its layers.
 pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths = collect::paths(drawing, language);
@@ -115,7 +115,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
     findings
 }
 
-/// PB119 where a text would have an effect on a path's layer.
+/// PB119 if a text would have an effect on the layer of a path.
 fn stray_text(
     drawing: &Drawing,
     entity: usize,
@@ -141,7 +141,7 @@ fn stray_text(
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 
-/// Whether a text consists of letters with numbers, among them one that spoils a part when it is missing. Variables count as numbers.
+/// Whether a text consists of letters with numbers or variables, including a letter that spoils a part if it is missing.
 fn is_weighty(text: ParameterText<'_>) -> bool {
     let is_number = |written: Written| matches!(written, Written::Number(_) | Written::Reference);
     text.letters.has_any(WEIGHTY)
@@ -152,7 +152,7 @@ fn is_weighty(text: ParameterText<'_>) -> bool {
 }
 
 impl Collected<'_> {
-    /// Whether all letters of a text would have an effect on an element that has no text.
+    /// Whether all letters of a text would have an effect on an element without a text.
     fn would_heed(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
         let Owner::Element(element) = candidate.owner else { return false };
         let element = &self.elements[element];
@@ -161,7 +161,7 @@ impl Collected<'_> {
         element.text.is_none() && letters.all(|letter| class.use_of(letter).counts())
     }
 
-    /// The cutter's diameter, where the start text gives it.
+    /// The cutter's diameter, if the start text gives it.
     fn tool(&self) -> Option<f64> {
         let text = self.given.get(self.start.as_ref()?.text?)?;
         match text.piece(Letter::O)?.written {
@@ -187,7 +187,7 @@ fn near_layer(drawing: &Drawing, path: &PathName, layer: u32, entities: &[usize]
     Some(at_entity(drawing, first, begin(&drawing.entities[first]), problem))
 }
 
-/// Where an entity begins, or has its centre or anchor.
+/// The start, centre or anchor of an entity.
 fn begin(entity: &Entity) -> Xy {
     match &entity.geometry {
         Geometry::Line(line) => xy(line.start),

@@ -1,4 +1,4 @@
-//! The texts of a path's layers, and the elements they are given to.
+//! The texts on the layers of a path, and their assignment to elements.
 
 use std::borrow::Cow;
 use std::mem::discriminant;
@@ -20,35 +20,36 @@ use crate::matrix::Use;
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 use crate::text_circle::TextCircle;
 
-/// Texts and candidates of the layers of one path. Tilde layers are layers of their own: what is on them find only each other.
+/// Texts and candidates on the layers of a path. Tilde layers are separate: their texts and elements only match each other.
 #[derive(Default)]
 pub(crate) struct Texts<'d> {
     layers: Vec<LayerTexts<'d>>,
 }
 
-/// Those of one layer.
+/// Texts and candidates of one layer.
 #[derive(Default)]
 struct LayerTexts<'d> {
     name: SmolStr,
     candidates: Vec<Candidate>,
-    /// Where they lie, once that is asked for.
+    /// The spatial index of the candidates, built on demand.
     boxes: Boxes,
     texts: Vec<FoundText<'d>>,
 }
 
-/// So many layers are named on which a text would find its element.
+/// Maximum number of layers to list on which a text would find an element.
 const MOST_NAMED: usize = 3;
 
-/// So many other layers are asked for that. A path of a person has a few; with thousands of them each lost text would ask each.
+/// Maximum number of other layers to search for an element. A usual path has a few; with thousands, each stray text would search all of
+/// them.
 const MOST_ASKED: usize = 100;
 
-/// So many elements are looked at for the texts of a path: thousands for each of thousands of texts.
+/// Maximum number of elements examined for the texts of a path: enough for thousands of texts that each overlap thousands of elements.
 const MOST_LOOKS: usize = 50_000_000;
 
-/// So many more for hints at where texts without an element might belong.
+/// Further elements examined for hints about texts without an element.
 const MOST_LOOKS_FOR_HINTS: usize = 1_000_000;
 
-/// A text and what it belongs to.
+/// A text with the candidates it belongs to.
 pub(crate) struct Match<'d> {
     pub(crate) string: Cow<'d, str>,
     pub(crate) circle: TextCircle,
@@ -57,7 +58,7 @@ pub(crate) struct Match<'d> {
 }
 
 impl<'d> Texts<'d> {
-    /// The next layer.
+    /// Adds the next layer.
     pub(super) fn add_layer(&mut self, name: &str) {
         self.layers.push(LayerTexts { name: name.into(), ..LayerTexts::default() });
     }
@@ -67,7 +68,7 @@ impl<'d> Texts<'d> {
         self.layers.into_iter().map(|layer| layer.name).collect()
     }
 
-    /// Where an entity is that begins, or has its centre, at a point.
+    /// The location of an entity that starts, or has its centre, at a point.
     pub(crate) fn origin(&self, source: Source, point: Xy) -> Origin {
         self.layers[source.layer as usize].origin(source, point)
     }
@@ -84,7 +85,7 @@ impl<'d> Texts<'d> {
         self.layer(layer).candidates.push(candidate);
     }
 
-    /// Lets a marker take the path's text, on its own layer.
+    /// Lets a marker take the path's text from its own layer.
     pub(super) fn give_to_start(&mut self, start: &Marker) {
         let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == start.origin.layer) else {
             return;
@@ -99,7 +100,7 @@ impl<'d> Texts<'d> {
         layer.candidates.push(candidate);
     }
 
-    /// Whether a text with O and T lies on a circle.
+    /// Whether a text with O and T overlaps a circle.
     pub(super) fn has_path_text(&self, marker: &Marker, radius: f64) -> bool {
         let on_layer = self.layers.iter().filter(|layer| layer.name == marker.origin.layer);
         on_layer.flat_map(|layer| &layer.texts).any(|text| {
@@ -116,7 +117,7 @@ impl<'d> Texts<'d> {
         &mut self.layers[layer as usize]
     }
 
-    /// Each text with its circle and the candidates that it belongs to, layer by layer.
+    /// Each text with its circle and its candidates, layer by layer.
     pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
         let mut matched = Vec::new();
         let looks = Looks::new(MOST_LOOKS);
@@ -132,14 +133,14 @@ impl<'d> Texts<'d> {
         matched
     }
 
-    /// Makes all layers ready to be asked for takers.
+    /// Builds the spatial indexes of all layers for [`takers`](Self::takers).
     pub(crate) fn prepare(&mut self) {
         for layer in &mut self.layers {
             layer.boxes = Boxes::new(&layer.candidates);
         }
     }
 
-    /// The candidates without a text that would get one with this circle, each with the name of its layer.
+    /// The candidates without a text that a text with this circle would belong to, each with its layer name.
     pub(super) fn takers<'t>(
         &'t self,
         circle: &'t TextCircle,
@@ -152,13 +153,13 @@ impl<'d> Texts<'d> {
         self.layers.iter().take(MOST_ASKED).filter_map(taker)
     }
 
-    /// Gives each text to its element; what finds none is PB107.
-    /// `margin`: by how much it must be nearer to it than to another, in mm, else PB116.
+    /// Assigns each text to its element; PB107 if there is none. `margin`: minimum difference in mm between the distances from this element
+    /// and from another one; PB116 if it is less.
     pub(crate) fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
         let looks = Looks::new(MOST_LOOKS);
         for layer in &mut self.layers {
             if let Some(problem) = layer.assign(path, margin, &looks) {
-                // Which of the other texts have no element is not known.
+                // The elements of the remaining texts are unknown.
                 path.diagnostics.push(problem);
                 path.faults.stray_letters = Letters::ALL;
                 return;
@@ -187,7 +188,7 @@ impl<'d> LayerTexts<'d> {
         Origin::new(source, &self.name, point)
     }
 
-    /// Gives each text to its element. What finds no element stays in `texts`. PB005 at the text at which the looks are over.
+    /// Assigns each text to its element. Texts without an element stay in `texts`. PB005 if the budget is exhausted.
     fn assign(&mut self, path: &mut Collected<'_>, margin: f64, looks: &Looks) -> Option<Diagnostic> {
         let last = self.each_match(looks, |layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
@@ -202,8 +203,8 @@ impl<'d> LayerTexts<'d> {
         last.map(|last| self.origin(last.source, last.anchor()).at(problem))
     }
 
-    /// Goes through all TEXT in file order, then all MTEXT, each with the candidate that it belongs to; of a polyline with all its parts.
-    /// What is not taken stays. Ends at the text at which the looks are over, and returns it.
+    /// Calls the closure for each TEXT in file order, then for each MTEXT, with its candidate; for a polyline, with all its parts. Texts
+    /// that are not taken stay. Stops at the text that exhausts the budget, and returns it.
     fn each_match(
         &mut self,
         looks: &Looks,
@@ -233,7 +234,7 @@ impl<'d> LayerTexts<'d> {
         last
     }
 
-    /// A candidate, and what is part of the same polyline: they were read one after the other.
+    /// A candidate, and the other parts of its polyline, which are consecutive.
     fn parts(&self, index: usize) -> Range<usize> {
         let group = self.candidates[index].group;
         if group.is_none() {
@@ -259,8 +260,8 @@ impl<'d> LayerTexts<'d> {
         }
     }
 
-    /// PB116 where another element of the same kind is as near as the one that was found, or nearly, or one of another kind is nearer. Not where the text would be an error
-    /// there: between markers and elements, and where the other element knows one of its letters not.
+    /// PB116 if another element of the same kind is about as near, or one of another kind is nearer. Not if the text would be an error
+    /// there: between markers and elements, and if the other element does not know one of its letters.
     fn doubt(
         &self,
         text: &FoundText<'_>,
@@ -332,7 +333,7 @@ impl<'d> LayerTexts<'d> {
         self.origin(text.source, text.anchor()).at(diagnostic)
     }
 
-    /// What a text with this circle would have found, had it been on this layer.
+    /// The element that a text with this circle would belong to on this layer.
     fn would_take(&self, circle: &TextCircle, looks: &Looks) -> Option<Vec<(&'static str, Value)>> {
         let found = find(circle, &self.candidates, &self.boxes, looks)?;
         let candidate = &self.candidates[found.candidate];
@@ -344,7 +345,7 @@ impl<'d> LayerTexts<'d> {
     }
 }
 
-/// Whether an element does not know a letter of a text (PB202).
+/// Whether a letter of a text is unknown to an element (PB202).
 fn refuses(owner: Owner, text: ParameterText<'_>, elements: &[Element]) -> bool {
     let Owner::Element(element) = owner else { return false };
     let class = elements[element].class(None);

@@ -1,4 +1,4 @@
-//! Which segments have an end at a point.
+//! Finds the segments that end at a point.
 
 #[cfg(test)]
 mod tests;
@@ -9,54 +9,54 @@ use crate::approx::coincide;
 use crate::geometry::Xy;
 use crate::path::Path;
 
-/// The ends of a path's segments, sorted into squares, so that a step of the walk looks at its neighbourhood only.
+/// The ends of a path's segments in a grid of squares, so that each step of the walk examines only its neighbourhood.
 #[derive(Default)]
 pub(super) struct Ends {
     segments: Vec<SegmentEnds>,
-    /// The first end in the squares of a bucket, see [`bucket_of`]; their number is a power of two.
+    /// The first end in each bucket of squares, see [`bucket_of`]. The number of buckets is a power of two.
     buckets: Vec<u32>,
 }
 
-/// Start and end of a segment, twice.
+/// The ends of a segment, with links to further ends.
 struct SegmentEnds {
-    /// As drawn.
+    /// Start and end as drawn.
     drawn: [Xy; 2],
-    /// The next end in the same bucket. Ends are numbered by twice their segment's number, the second with one more.
+    /// The next end in the same bucket for each end. An end is numbered by twice its segment's number, plus one for the second end.
     next: [u32; 2],
 }
 
-/// Its column and row, see [`strip`].
+/// A square as column and row, see [`strip`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Square(u64, u64);
 
-/// The squares around a point: one, or up to four where they meet.
+/// The squares around a point: one, or up to four near their borders.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Squares {
     first: Square,
-    /// Behind the last.
+    /// The exclusive upper limit.
     end: Square,
 }
 
-/// Segments that meet at a point, and at every other point that coincides with both corners around their ends.
+/// Segments that meet at a point. They also meet at every other point that coincides with both corners of the bounding box of their ends.
 pub(super) struct Crowd {
     pub(super) corners: [Xy; 2],
     pub(super) segments: Vec<usize>,
 }
 
-/// There is no further end in a bucket.
+/// Marks the last end in a bucket.
 const NONE: u32 = u32::MAX;
-/// Buckets for each segment: with half as many, more than a few would hold what is elsewhere.
+/// Number of buckets per segment. With half as many, more than a few buckets would contain ends from elsewhere.
 const BUCKETS: usize = 4;
-/// Squares in a mm. In one there is room for few points that do not coincide: a step of the walk looks at no more.
+/// Number of squares per mm. A square has room for only a few points that do not coincide, which bounds the work of a step.
 const SQUARES: f64 = 5000.0;
-/// How far squares are shifted, in squares: people draw at round numbers, of up to four decimals, and where squares meet is looked into two of
-/// them.
+/// Offset of the grid in squares: drawings mostly use round numbers with up to four decimals, and points on a border between squares need
+/// two lookups.
 const SHIFT: f64 = 0.25;
-/// Around a point is looked so far, in squares: somewhat farther than points coincide (0.16).
+/// Search distance around a point in squares: slightly more than the distance at which points coincide (0.16).
 const REACH: f64 = 0.22;
-/// The same for what may coincide with a third point that coincides with a second one: somewhat more than three times as far.
+/// Search distance for points that may coincide with a third point via a second one: slightly more than three times as far.
 const WIDE_REACH: f64 = 0.5;
-/// So large that a sum with it has no fraction: its last bits count whole numbers. (1.5 * 2^52)
+/// So large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl Ends {
@@ -78,12 +78,12 @@ impl Ends {
         Self { segments, buckets }
     }
 
-    /// Where a segment starts and where it ends, as drawn.
+    /// The start and end of a segment as drawn.
     pub(super) fn of(&self, segment: usize) -> [Xy; 2] {
         self.segments[segment].drawn
     }
 
-    /// Finds the wanted segments that have an end at a point, in any order; one may be named several times.
+    /// Finds the wanted segments with an end at a point, in any order and possibly with duplicates.
     pub(super) fn find_near(&self, point: Xy, is_wanted: impl Fn(usize) -> bool, found: &mut Vec<usize>) {
         found.clear();
         for square in Squares::around(point).each() {
@@ -95,7 +95,8 @@ impl Ends {
         }
     }
 
-    /// The wanted segments with an end at a point; `None` where others end so close by that another point here may have others.
+    /// The wanted segments with an end at a point; `None` if there are other ends so close that another nearby point may have different
+    /// segments.
     pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
         let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
         for square in Squares::within(WIDE_REACH, point).each() {
@@ -114,7 +115,7 @@ impl Ends {
         (is_alone && coincide(low, high)).then_some(Crowd { corners: [low, high], segments })
     }
 
-    /// Takes the ends in a square, and those of others that share its bucket.
+    /// Calls `take` for the ends in a square and for others in the same bucket.
     fn each_in(&self, square: Square, mut take: impl FnMut(usize, usize)) {
         let mut at = self.buckets[bucket_of(square, self.buckets.len())];
         while at != NONE {
@@ -141,12 +142,12 @@ impl Squares {
     }
 }
 
-/// The square that a point is in.
+/// The square of a point.
 pub(super) fn square(point: Xy) -> Square {
     Square(strip(in_squares(point.x)), strip(in_squares(point.y)))
 }
 
-/// The columns, or rows, of what is close to a coordinate: one, or two where they meet.
+/// The columns or rows near a coordinate: one, or two near a border.
 fn around(coordinate: f64, reach: f64) -> Range<u64> {
     let place = in_squares(coordinate);
     let from_middle = place - (place + WHOLE - WHOLE);
@@ -159,13 +160,13 @@ fn in_squares(coordinate: f64) -> f64 {
     coordinate * SQUARES + SHIFT
 }
 
-/// The column, or row, whose middle is nearest, as a number whose neighbours are one more and one less. Very far off strips are wider;
-/// there points are so far apart that only equal ones coincide.
+/// The number of the nearest column or row; neighbours differ by one. Very far away the strips are wider, but there only equal points
+/// coincide.
 fn strip(place: f64) -> u64 {
     (place + WHOLE).to_bits()
 }
 
-/// The bucket of a square among so many. The upper bits of a product depend on all bits of its factors.
+/// The bucket of a square. The upper bits of a product depend on all bits of its factors.
 fn bucket_of(Square(column, row): Square, count: usize) -> usize {
     const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
     let mixed = column.wrapping_mul(ODD).rotate_left(32) ^ row;

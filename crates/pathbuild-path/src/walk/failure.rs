@@ -1,4 +1,4 @@
-//! Why a walk does not arrive, and what helps to see it.
+//! Explains why a walk cannot continue, with hints for finding the cause.
 
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Diagnostic, Word, words};
@@ -11,7 +11,7 @@ use crate::geometry::{Curve, Xy};
 use crate::path::SegmentKind;
 use crate::text_circle::TextCircle;
 
-/// So near, in mm, a point is on a curve: nobody sees it beside it.
+/// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
 const ON_CURVE: f64 = 0.001;
 
 impl Walk<'_> {
@@ -35,7 +35,7 @@ impl Walk<'_> {
         self.with_hints(problem)
     }
 
-    /// Whether what is left begins on the way to here.
+    /// Whether the remaining segments branch off earlier on the way here.
     fn is_dead_end(&self) -> bool {
         let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
         let mut passed = Vec::new();
@@ -64,7 +64,7 @@ impl Walk<'_> {
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
-    /// A segment on which a point lies, where it has no end.
+    /// A segment that passes through a point without ending there.
     fn passing_by(&self, point: Xy) -> Option<usize> {
         let at = TextCircle { centre: point, radius: 0.0 };
         let is_on = |curve: Curve| {
@@ -101,7 +101,7 @@ impl Walk<'_> {
         self.with_left_out(self.with_duplicate(problem), point)
     }
 
-    /// The nearest end of what is left, and how far that is.
+    /// The nearest end of a remaining segment, with its distance.
     fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
         let ends = self.open().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
         let distances = ends.map(|(segment, end)| (segment, end, (end - point).norm()));
@@ -120,13 +120,13 @@ impl Walk<'_> {
         )
     }
 
-    /// Whether a segment runs as a traversed one does.
+    /// Whether a segment coincides with a traversed one.
     fn is_drawn_twice(&self, segment: usize) -> bool {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         Curves::new(self.path, &self.ends, traversed).have_another(segment)
     }
 
-    /// A segment that is drawn twice, as one that was traversed. It is left over, or the walk went there and back.
+    /// A segment that is drawn twice, where one of the two was traversed: either the other is left over, or the walk went along both.
     fn duplicate(&self) -> Option<usize> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         let curves = Curves::new(self.path, &self.ends, traversed.clone());

@@ -1,4 +1,4 @@
-//! Ends that do not quite meet, joined within a tolerance. (book: reference/configuration, `join-tolerance`)
+//! Joins ends that do not quite meet, within a tolerance. (book: reference/configuration, `join-tolerance`)
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,11 +13,11 @@ use crate::approx::{above, at_least};
 use crate::element::Origin;
 use crate::geometry::Xy;
 
-/// The ends of the segments that are left, found by where they are.
+/// A spatial index of the ends of remaining segments.
 pub(super) struct OpenEnds {
-    /// Each point once: among many equal ones a tree finds the one to take out by looking at all.
+    /// Each point once: a tree removes one of many equal points by scanning all of them.
     points: RTree<[f64; 2]>,
-    /// Those that end there.
+    /// The segments that end at each point.
     segments: BTreeMap<[u64; 2], BTreeSet<usize>>,
 }
 
@@ -34,7 +34,7 @@ impl OpenEnds {
         Self { points: RTree::bulk_load(points), segments }
     }
 
-    /// Takes the ends of a segment out.
+    /// Removes the ends of a segment.
     pub(super) fn remove(&mut self, segment: usize, ends: &Ends) {
         for end in of(segment, ends) {
             let Some(at_end) = self.segments.get_mut(&bits(end)) else { continue };
@@ -46,7 +46,7 @@ impl OpenEnds {
         }
     }
 
-    /// The segment whose end is nearest to a point, and how far that is; the first of several.
+    /// The segment with the end nearest to a point, and its distance; the first of several.
     fn nearest(&self, point: Xy) -> Option<(usize, f64)> {
         let by_distance = self.points.nearest_neighbor_iter([point.x, point.y]);
         let mut points = by_distance.map(|end| (end, (Xy::from(*end) - point).norm())).peekable();
@@ -57,7 +57,7 @@ impl OpenEnds {
     }
 }
 
-/// Where a segment ends; 0 without a sign, for points are told apart by their bits.
+/// The ends of a segment as keys; zeros get a positive sign, since points are compared by their bits.
 fn of(segment: usize, ends: &Ends) -> [[f64; 2]; 2] {
     ends.of(segment).map(|end| [end.x + 0.0, end.y + 0.0])
 }
@@ -67,7 +67,7 @@ fn bits(point: [f64; 2]) -> [u64; 2] {
 }
 
 impl Walk<'_> {
-    /// The segment with the nearest end, if that is within the tolerance; joining it is reported.
+    /// The segment with the nearest end, if that is within the tolerance. Reports the join.
     pub(super) fn next_within_tolerance(&mut self) -> Option<usize> {
         if self.join_tolerance <= 0.0 {
             return None;
@@ -84,7 +84,7 @@ impl Walk<'_> {
         Some(nearest)
     }
 
-    /// Whether the end marker is within the tolerance; the last end is then taken for it, with a warning.
+    /// Whether the end marker is within the tolerance, so that the walk ends there with a warning.
     pub(super) fn joins_end(&mut self) -> bool {
         let distance = (self.path.end - self.at).norm();
         let is_known = self.path.faults.as_ref().is_none_or(|faults| !faults.ends.is_empty());

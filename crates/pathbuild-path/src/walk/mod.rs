@@ -1,4 +1,4 @@
-//! The walk: from loose segments to one order from the start to the end. (book: language/chains-and-passes)
+//! The walk: orders the segments of a path from its start to its end. (book: language/chains-and-passes)
 
 mod ends;
 mod failure;
@@ -25,25 +25,25 @@ use turns::Turns;
 
 pub(crate) use passage::{Passage, curve};
 
-/// A path in the order of milling.
+/// A path in milling order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Walked {
-    /// What is done, in order. Complete only when no diagnostic is an error.
+    /// The operations in order. Complete only if no diagnostic is an error.
     pub items: Vec<Item>,
-    /// Those of all chains, in walking order.
+    /// The members of all chains, in walking order.
     pub(crate) members: Vec<ChainSegment>,
-    /// One of PB401 to PB404, PB201 for each chain without I; PB114 and PB210.
+    /// One of PB401 to PB404, PB201 for each chain without I, and PB114 and PB210.
     pub diagnostics: Vec<Diagnostic>,
-    /// Where a path without an end marker ends.
+    /// The last point of a path without an end marker.
     pub open_end: Option<Xy>,
 }
 
-/// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning each, where none coincide.
+/// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
     walk_watched(path, join_tolerance, &|| {})
 }
 
-/// The same; calls `checkpoint` now and then: the place to unwind from when the result is no longer wanted.
+/// Like [`walk`], and calls `checkpoint` regularly, from where callers can unwind if the result is no longer needed.
 pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> Walked {
     let mut walk = Walk::new(path, join_tolerance, checkpoint);
     let result = walk.run();
@@ -55,43 +55,42 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
 }
 
 impl Walked {
-    /// A walk that does not arrive.
+    /// A walk that failed.
     pub fn failed(problem: Diagnostic) -> Self {
         Self { diagnostics: vec![problem], ..Self::default() }
     }
 
-    /// The members of a chain that is one of the items: at least one, each from where the tool comes from.
+    /// The members of a chain in the items: at least one, each in walking direction.
     pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
         &self.members[chain.members.clone()]
     }
 }
 
-/// Why a walk does not arrive; `None` where that may follow from other errors.
+/// The reason why a walk failed; `None` if it may follow from other errors.
 type Failure = Option<Box<Diagnostic>>;
 
-/// With so many segments at a point they are put in order at once.
+/// Number of segments at a point from which on they are sorted at once.
 const CROWDED: usize = 16;
 
-/// After so many segments it is asked whether the walk is still wanted.
+/// Number of segments between calls of the checkpoint.
 const STRETCH: usize = 256;
 
 struct Walk<'a> {
     path: &'a Path,
     ends: Ends,
     stars: Stars,
-    /// The ends of segments that are not traversed, once one is looked for within the tolerance.
+    /// The ends of segments that are not traversed, once joining is needed.
     open_ends: Option<OpenEnds>,
     is_traversed: Vec<bool>,
-    /// Segments at the current point; only room.
+    /// Scratch buffer for the segments at the current point, kept to avoid reallocating.
     found: Vec<usize>,
     left: usize,
     at: Xy,
-    /// The segment that was gone along last.
+    /// The last traversed segment.
     last: Option<usize>,
-    /// What was gone along.
+    /// The traversed segments, grouped into items.
     grouped: Grouped<'a>,
-    /// Segments gone along forwards and not yet back over. They always lead from the start to `at`. Nothing goes back where there is no
-    /// turn marker.
+    /// Segments traversed forwards and not yet retraced. They always lead from the start to `at`. Unused without turn markers.
     way_back: Vec<(usize, Passage)>,
     turns: Turns,
     join_tolerance: f64,
@@ -125,7 +124,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What came of it.
+    /// The result of the walk.
     fn finish(self, result: Result<(), Failure>) -> Walked {
         let idle = self.idle_markers();
         let Self { path, grouped, mut joined, open_end, .. } = self;
@@ -184,7 +183,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// A failure, unless a circle here means nothing as it is: the walk may turn or end at it.
+    /// A failure, unless there is a circle without a meaning here, where the walk may turn or end.
     fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
         let circles = self.path.faults.as_ref().map_or(&[][..], |faults| &faults.unclear_circles);
         let is_unclear =
@@ -192,19 +191,19 @@ impl<'a> Walk<'a> {
         (!is_unclear).then(|| problem(self).into())
     }
 
-    /// Where it is not known which of several end markers is right, it is not known either what lies behind the end.
+    /// Whether there are several end markers, so that the segments beyond the end are unknown.
     fn has_several_ends(&self) -> bool {
         self.path.faults.as_ref().is_some_and(|faults| faults.ends.len() > 1)
     }
 
-    /// The segment that is next at the current point: the least by order, preference and length.
+    /// The next segment at the current point: the minimum by order, preference and length.
     fn next(&mut self) -> Option<usize> {
         if let Some(star) = self.stars.at(self.at) {
             return star.next(self.path, &self.ends, &self.is_traversed);
         }
         let mut found = std::mem::take(&mut self.found);
         self.ends.find_near(self.at, |segment| !self.is_traversed[segment], &mut found);
-        // One scan in segment order: lengths are compared approximately, which is not transitive.
+        // A single scan in segment order: approximate comparison of lengths is not transitive.
         found.sort_unstable();
         let (path, ends) = (self.path, &self.ends);
         let before = |best, other| if comes_before(path, ends, other, best) { other } else { best };
@@ -225,7 +224,7 @@ impl<'a> Walk<'a> {
             open_ends.remove(segment, &self.ends);
         }
         let passage = self.as_met_here(segment, Passage::drawn(self.ends.of(segment)), false);
-        // An arc keeps its centre and its radius: the gap before it becomes a short line.
+        // An arc keeps its centre and radius: the gap before it becomes a short line.
         if self.is_milled_arc(segment) && !coincide(passage.start, self.at) {
             self.go(segment, passage.lead_in(self.at));
         }
@@ -251,7 +250,7 @@ impl<'a> Walk<'a> {
         self.grouped.add(segment, passage, is_return);
     }
 
-    /// A segment is turned round when its end is where the tool is, and begins exactly there where it is joined.
+    /// Reverses a segment if its end is at the current point. A joined segment is made to begin exactly there.
     #[inline]
     fn as_met_here(&self, segment: usize, passage: Passage, is_return: bool) -> Passage {
         let is_end_here = coincide(passage.end, self.at);
@@ -262,7 +261,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The same of one that is near. Holes, circles and arcs stay where they are.
+    /// The passage along a segment whose end is near the current point. Holes, circles and arcs stay in place.
     fn as_joined_here(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
         let segment = &self.path.segments[number];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();
@@ -278,7 +277,7 @@ impl<'a> Walk<'a> {
         self.turns.act(self.path, self.at)
     }
 
-    /// Goes back over the way until something is found; an error when the way back is used up. (book: language/order-and-turns)
+    /// Retraces the way until `is_found` succeeds; an error if the way is used up. (book: language/order-and-turns)
     fn go_back(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;

@@ -1,10 +1,11 @@
-//! What comes first where several segments meet. (book: language/chains-and-passes)
+//! The order of segments that meet at a point. (book: language/chains-and-passes)
 
 use super::ends::Ends;
 use crate::approx::near;
 use crate::path::Path;
 
-/// Whether a segment is taken before another one. Lengths compare approximately, which is not transitive: for one scan in segment order.
+/// Whether a segment is taken before another one. Lengths are compared approximately, which is not transitive, so use this for a single
+/// scan in segment order.
 pub(super) fn comes_before(path: &Path, ends: &Ends, a: usize, b: usize) -> bool {
     let (ranked, other) = (rank(path, a), rank(path, b));
     if ranked != other {
@@ -14,13 +15,13 @@ pub(super) fn comes_before(path: &Path, ends: &Ends, a: usize, b: usize) -> bool
     if near(length, other) { a < b } else { length < other }
 }
 
-/// Order and preference.
+/// The order and preference of a segment.
 pub(super) fn rank(path: &Path, segment: usize) -> (f64, u8) {
     let segment = &path.segments[segment];
     (segment.order, segment.preference())
 }
 
-/// The length that counts at a star.
+/// The length of a segment for the order at a star.
 pub(super) fn length(ends: &Ends, segment: usize) -> f64 {
     let [start, end] = ends.of(segment);
     (end - start).norm()

@@ -1,31 +1,32 @@
-//! A segment as it is gone along.
+//! The passage of the tool along a segment.
 
 use crate::geometry::{Curve, Line, Xy};
 use crate::path::{Path, Segment, SegmentKind};
 
-/// From where the tool is to where it comes.
+/// A segment in walking direction.
 #[derive(Clone, Debug)]
 pub(crate) struct Passage {
     pub(crate) start: Xy,
     pub(crate) end: Xy,
-    /// Whether it is gone along against the direction in which it is drawn.
+    /// Whether it runs against the drawn direction.
     pub(crate) is_turned: bool,
-    /// What is milled, where that is not what is drawn: a gap before it is closed by moving its start.
+    /// The milled curve if it differs from the drawn one, because the start was moved to close a gap.
     pub(crate) moved: Option<Box<Curve>>,
 }
 
 impl Passage {
-    /// From start to end as drawn.
+    /// The passage in the drawn direction.
     pub(super) fn drawn([start, end]: [Xy; 2]) -> Self {
         Self { start, end, is_turned: false, moved: None }
     }
 
-    /// The other way. A subpath is then embedded the other way round: its start comes to lie where the walk comes from.
+    /// The passage in the opposite direction. A subpath is then embedded the other way round, so that its start is where the walk comes
+    /// from.
     pub(super) fn turned_round(self) -> Self {
         self.turned_if(true)
     }
 
-    /// The other way if so. Ends are chosen by number: which way segments are drawn can not be foreseen.
+    /// The passage in the opposite direction if `is_turned`. Ends are selected by index, since the direction is unpredictable for a branch.
     #[inline]
     pub(super) fn turned_if(mut self, is_turned: bool) -> Self {
         let (ends, first) = ([self.start, self.end], usize::from(is_turned));
@@ -37,21 +38,21 @@ impl Passage {
         self
     }
 
-    /// The same from a point close to its start: the end of a line is moved there.
+    /// The passage from a point close to its start, for which the end of a line is moved.
     pub(super) fn starting_at(self, start: Xy, segment: &Segment) -> Self {
         let line = Curve::Line(Line { start, end: self.end });
         let moved = matches!(segment.kind, SegmentKind::Cut(_)).then(|| Box::new(line));
         Self { start, moved, ..self }
     }
 
-    /// A short line from a point close to its start to its start.
+    /// A short line from a nearby point to the start of the passage.
     pub(super) fn lead_in(&self, from: Xy) -> Self {
         let line = Curve::Line(Line { start: from, end: self.start });
         Self { start: from, end: self.start, is_turned: false, moved: Some(Box::new(line)) }
     }
 }
 
-/// The curve of a segment in the direction in which it is gone along; `None` for circles.
+/// The curve of a segment in walking direction; `None` for circles.
 pub(crate) fn curve(path: &Path, segment: &Segment, is_turned: bool, moved: Option<&Curve>) -> Option<Curve> {
     if let Some(moved) = moved {
         return Some(*moved);

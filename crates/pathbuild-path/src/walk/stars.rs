@@ -1,4 +1,4 @@
-//! Crowded points: the order of their segments is found once, so that the work of a walk grows as the number of segments does.
+//! Crowded points: their segments are sorted once, so that the work of a walk is linear in the number of segments.
 
 use std::collections::BTreeMap;
 
@@ -8,30 +8,30 @@ use crate::approx::{coincide, near};
 use crate::geometry::Xy;
 use crate::path::Path;
 
-/// The crowded points that the walk has come to.
+/// The crowded points visited so far.
 #[derive(Default)]
 pub(super) struct Stars(BTreeMap<Squares, Star>);
 
 /// A crowded point.
 pub(super) struct Star {
-    /// Around the ends that meet here.
+    /// The corners of the bounding box of the ends that meet here.
     corners: [Xy; 2],
-    /// In the order in which their segments are taken, the next one last.
+    /// Groups in reverse order, so that the next one is last.
     groups: Vec<Group>,
 }
 
-/// Segments of the same order and preference whose lengths are near each other.
+/// Segments with the same order and preference and with similar lengths.
 struct Group {
-    /// In segment order.
+    /// The segments in file order.
     segments: Vec<usize>,
-    /// How many of the first of them are traversed at least.
+    /// Number of leading segments that are known to be traversed.
     traversed: usize,
-    /// Whether the lengths of each two of them are near.
+    /// Whether all pairs of lengths are near each other.
     is_level: bool,
 }
 
 impl Stars {
-    /// The star at a point, if that is known to be crowded.
+    /// The star at a point, if it is known to be crowded.
     pub(super) fn at(&mut self, point: Xy) -> Option<&mut Star> {
         if self.0.is_empty() {
             return None;
@@ -40,7 +40,7 @@ impl Stars {
         star.corners.iter().all(|corner| coincide(*corner, point)).then_some(star)
     }
 
-    /// Notes that these segments meet at a point.
+    /// Records that these segments meet at a point.
     pub(super) fn insert(&mut self, point: Xy, crowd: Crowd, path: &Path, ends: &Ends) {
         self.0.insert(Squares::around(point), Star::new(crowd, path, ends));
     }
@@ -51,7 +51,7 @@ impl Star {
         let Crowd { corners, mut segments } = crowd;
         let key = |segment: &usize| {
             let (order, preference) = rank(path, *segment);
-            // Without the sign of 0.
+            // Adding 0 removes the sign of a negative zero.
             (order + 0.0, preference, length(ends, *segment))
         };
         segments.sort_by(|a, b| {
@@ -72,8 +72,8 @@ impl Star {
         Self { corners, groups: groups.collect() }
     }
 
-    /// The next segment. Lengths of different groups are not near: one scan of all segments finds the one that a scan of the first group
-    /// finds.
+    /// The next segment. Since lengths in different groups are not near each other, scanning the first group gives the same result as
+    /// scanning all segments.
     pub(super) fn next(&mut self, path: &Path, ends: &Ends, is_traversed: &[bool]) -> Option<usize> {
         while let Some(group) = self.groups.last_mut() {
             group.pass(is_traversed);

@@ -1,4 +1,4 @@
-//! Turn markers, found by where they are.
+//! Finds turn markers by position.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use crate::path::Path;
 
 /// The turn markers of a path, as indices into [`Path::turns`].
 pub(super) struct Turns {
-    /// By square; of several at exactly one point the first.
+    /// The markers in each square; of several at exactly the same point only the first.
     squares: BTreeMap<Square, Vec<usize>>,
-    /// Of each marker the first at exactly its point.
+    /// For each marker, the first one at exactly the same point.
     first: Vec<usize>,
     has_acted: Vec<bool>,
 }
@@ -29,7 +29,7 @@ impl Turns {
         Self { squares, first, has_acted: vec![false; path.turns.len()] }
     }
 
-    /// The first marker at a point. Several at one point are one: all of them act.
+    /// The first marker at a point. Markers at the same point count as one: all of them are marked as used.
     pub(super) fn act(&mut self, path: &Path, at: Xy) -> Option<usize> {
         let mut found: Option<usize> = None;
         for square in Squares::around(at).each() {
@@ -43,7 +43,7 @@ impl Turns {
         found
     }
 
-    /// The markers that never acted.
+    /// The markers that were never used.
     pub(super) fn idle(&self) -> impl Iterator<Item = usize> {
         (0..self.first.len()).filter(|turn| !self.has_acted[self.first[*turn]])
     }

@@ -1,4 +1,4 @@
-//! Segments that are drawn twice.
+//! Finds segments that are drawn twice.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::ends::{Ends, Square, Squares, square};
 use crate::approx::{coincide, near};
 use crate::path::{Path, SegmentKind};
 
-/// Milled curves by where their ends are.
+/// Milled curves, indexed by their ends.
 pub(super) struct Curves<'a> {
     path: &'a Path,
     ends: &'a Ends,
@@ -14,7 +14,7 @@ pub(super) struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    /// These segments, as far as they are milled.
+    /// Collects the milled curves among these segments.
     pub(super) fn new(path: &'a Path, ends: &'a Ends, segments: impl Iterator<Item = usize>) -> Self {
         let mut known: BTreeMap<_, Vec<(f64, usize)>> = BTreeMap::new();
         for segment in segments {
@@ -28,7 +28,7 @@ impl<'a> Curves<'a> {
         Self { path, ends, known }
     }
 
-    /// Whether another one of them runs as a segment does, in either direction.
+    /// Whether another one of the curves coincides with a segment, in either direction.
     pub(super) fn have_another(&self, segment: usize) -> bool {
         let [start, end] = self.ends.of(segment);
         length(self.path, segment).is_some_and(|length| {
@@ -45,7 +45,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Those of a length, among curves in order of length.
+/// The curves of a given length in a list sorted by length.
 fn near_in(curves: &[(f64, usize)], length: f64) -> impl Iterator<Item = usize> {
     let first = curves.partition_point(|(other, _)| *other < length && !near(*other, length));
     curves[first..].iter().take_while(move |(other, _)| near(*other, length)).map(|(_, segment)| *segment)

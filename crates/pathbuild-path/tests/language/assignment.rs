@@ -1,4 +1,4 @@
-//! Which element a text belongs to. (book: language/parameter-texts)
+//! Which element each text belongs to. (book: language/parameter-texts)
 
 use pathbuild_path::{Curve, RawPath, Shape};
 
@@ -9,7 +9,7 @@ fn drawing(statements: &str) -> RawPath {
     raw(&format!("layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\n{statements}"))
 }
 
-/// The elements in the order of segments with their texts.
+/// The elements in the order of segments, with their texts.
 fn owners(statements: &str) -> Vec<String> {
     let raw = drawing(statements);
     let found = codes(&raw.diagnostics).into_iter().filter(|code| code != "PB116");
@@ -26,18 +26,18 @@ fn owners(statements: &str) -> Vec<String> {
     raw.drawn.elements.iter().map(owner).collect()
 }
 
-/// Whether a text at a point finds an element.
+/// Whether a text finds an element.
 fn finds(statements: &str, text: &str) -> bool {
     !codes(&drawing(&format!("{statements}\n{text}")).diagnostics).contains(&"PB107".to_owned())
 }
 
-/// A text of four characters of 2 mm, whose circle has its centre there and a radius of 2.6 mm.
+/// A text of four characters with a height of 2 mm, whose circle is centred at this point and has a radius of 2.6 mm.
 fn text(at: &str, string: &str) -> String {
     assert_eq!(string.len(), 4);
     format!("text {at} \"{string}\" height 2 align centre middle")
 }
 
-/// A text whose circle has its centre there and a radius of exactly 1.4 mm.
+/// A text whose circle is centred at this point and has a radius of exactly 1.4 mm.
 fn mtext(at: &str, string: &str) -> String {
     assert!(string.len() >= 2);
     format!("mtext {at} \"{string}\" height 2 align middle centre")
@@ -54,7 +54,7 @@ fn a_circle_comes_before_an_arc_and_an_arc_before_a_line() {
     assert_eq!(owners(&format!("{near_the_line}\n{at}")), ["line F100"]);
 }
 
-/// By centres: the larger circle may be overlapped by more.
+/// The distance to the centre decides, even if a larger circle is overlapped more.
 #[test]
 fn the_nearest_circle_is_that_of_the_nearest_centre() {
     let circles = "circle 0,0 d 20\ncircle 16,0 d 12";
@@ -72,7 +72,7 @@ fn the_nearest_arc_or_line_is_that_of_the_least_distance() {
     assert_eq!(owners(&format!("{arcs}\n{}", text("0,11.6", "F100"))), ["arc -", "arc F100"]);
 }
 
-/// The true distance decides, however long the line is.
+/// The true distance decides, regardless of the lengths of the lines.
 #[test]
 fn long_lines_are_as_near_as_short_ones() {
     let lines = "mill 0,0 400,0\nmill 190,3 210,3";
@@ -85,7 +85,7 @@ fn a_tie_goes_to_the_first_in_the_file() {
     assert_eq!(owners(&format!("mill 0,0 40,0\nmark 0,2 40,2\n{between}")), ["line F100", "line -"]);
     assert_eq!(owners(&format!("mark 0,2 40,2\nmill 0,0 40,0\n{between}")), ["line F100", "line -"]);
     assert_eq!(owners(&format!("circle 16,1 d 8\ncircle 24,1 d 8\n{between}")), ["circle F100", "circle -"]);
-    // Segments come in the order circles, lines, arcs; texts are given away before that.
+    // Segments are ordered as circles, lines, arcs; texts are assigned before that.
     assert_eq!(
         owners(&format!("mill 0,0 40,0\ncircle 20,90 d 8\nmark 0,2 40,2\n{between}"))[1..],
         ["line F100", "line -"]
@@ -122,7 +122,7 @@ fn an_arc_may_be_as_far_as_the_texts_radius() {
     let arc = "mill arc centre 0,0 r 1 from 0 to 180";
     assert!(finds(arc, &mtext("0,2.4", "F100")));
     assert!(!finds(arc, &mtext("0,2.400001", "F100")));
-    // From inside of the arc, too.
+    // The inside of the arc counts as well.
     let arc = "mill arc centre 0,0 r 20 from 0 to 180";
     assert!(finds(arc, &mtext("0,18.600001", "F100")));
     assert!(!finds(arc, &mtext("0,18.599999", "F100")));
@@ -158,7 +158,7 @@ fn an_element_takes_one_text() {
     assert_eq!(codes(&drawing(&format!("mill 0,0 40,0\n{texts}")).diagnostics), ["PB107"]);
 }
 
-/// In file order, but one-line texts before all others.
+/// In file order, but single-line texts come first.
 #[test]
 fn all_text_comes_before_all_mtext() {
     let (one, other) = (text("20,0.5", "F100"), mtext("20,0.5", "F200"));
@@ -186,14 +186,14 @@ fn markers_of_the_end_and_turns_and_hidden_lines_take_no_text() {
     assert_eq!(codes(&raw.diagnostics), ["PB107"]);
 }
 
-/// A DOT line's text is kept, unread, so that it can be switched back; a DOT probe's likewise.
+/// The text of a DOT line is kept but ignored, so that it can be enabled again; likewise for a DOT probe.
 #[test]
 fn skipped_elements_take_their_text() {
     assert_eq!(owners(&format!("skip 0,0 40,0\n{}", text("20,0.5", "%x9="))), ["line %x9="]);
     assert!(finds("mill 0,90 40,90\nprobe DOT 20,0", &text("20,0.5", "%x9=")));
 }
 
-/// Elements that are themselves at fault take their text, which is not reported on top.
+/// Faulty elements take their text, which is not reported additionally.
 #[test]
 fn faulty_elements_take_their_text() {
     for faulty in ["line PHANTOM 0,0 40,0", "circle PHANTOM 20,0 d 9", "circle DASHED 20,0 d 9", "start 20,0"]
@@ -228,11 +228,11 @@ fn text_and_element_are_on_exactly_the_same_layer() {
     assert_eq!(on("1234.1P", "1234.1P~A"), ["PB107"]);
     assert_eq!(on("1234.1P~A", "1234.1P"), ["PB107"]);
     assert_eq!(on("1234.1P~A", "1234.1P~B"), ["PB107"]);
-    // Layer names are the same without regard to case.
+    // Layer names ignore case.
     assert_eq!(on("1234.1P~A", "1234.1P~a"), [""; 0]);
 }
 
-/// A text near two elements takes the one of its tilde layer, though the other is nearer.
+/// A text near two elements belongs to the one on its own tilde layer, even if the other is nearer.
 #[test]
 fn tilde_layers_keep_texts_apart() {
     let raw = drawing(&format!("mill 0,0 40,0\nlayer 1234.1P~A\nmill 0,2 40,2\n{}", text("20,0.1", "F100")));
@@ -276,7 +276,7 @@ fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     );
 }
 
-/// A layer's number in letters: names of layers have no digits behind the tilde.
+/// A number in letters, since names of layers have no digits after the tilde.
 fn letters(number: usize) -> String {
     [number / 676, number / 26 % 26, number % 26]
         .map(|digit| (b'A'..=b'Z').nth(digit).map_or('A', char::from))
@@ -284,7 +284,7 @@ fn letters(number: usize) -> String {
         .collect()
 }
 
-/// Three are named, the first; and a hundred are asked.
+/// The first three are listed, and a hundred are searched.
 #[test]
 fn a_text_without_element_names_a_few_layers() {
     let layers = |empty: usize, full: usize| {
@@ -307,7 +307,7 @@ fn a_text_without_element_names_a_few_layers() {
     assert_eq!(layers(100, 2), [""; 0]);
 }
 
-/// A layer that holds texts alone is no path: the texts are lost, which is said.
+/// A layer with texts alone is not a path: the texts are reported as lost.
 #[test]
 fn a_text_on_a_layer_without_elements_belongs_to_nothing() {
     let file = read(

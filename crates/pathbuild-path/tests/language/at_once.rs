@@ -1,8 +1,8 @@
-//! Which messages appear where a drawing has two mistakes. (book: reference/diagnostics)
+//! The messages for drawings with two mistakes. (book: reference/diagnostics)
 
 use crate::support::wrong;
 
-/// The lines of a drawing without mistakes, by what mistakes change.
+/// The lines of a correct drawing, which mistakes replace.
 #[derive(Clone)]
 struct Lines {
     start: String,
@@ -45,20 +45,20 @@ const MISTAKES: [Mistake; 14] = [
     },
 ];
 
-/// Pairs of which one hides the other, or that are another mistake together.
+/// Pairs of mistakes where one hides the other, or that form another mistake together.
 const TOGETHER: [([&str; 2], &[&str]); 9] = [
-    // Without O it is not known which circle is too small.
+    // Without O, it is unknown which circle is too small.
     (["O missing", "hole too small"], &["PB201 O"]),
-    // Behind a gap nothing is known of the end and of what is left.
+    // Beyond a gap, the end and the remaining segments are unknown.
     (["gap", "end elsewhere"], &["PB401"]),
     (["gap", "left over"], &["PB401"]),
-    // Of the two one is left: the only end, which is not where the path ends, or none.
+    // Only one end is left, which is not where the path ends, or none.
     (["no end", "second end"], &["PB403"]),
     (["no end", "end elsewhere"], &["PB102"]),
-    // Without an end the path breaks off where something is left.
+    // Without an end, the path breaks off at the remaining segments.
     (["no end", "left over"], &["PB102", "PB401"]),
     (["end elsewhere", "left over"], &["PB401"]),
-    // Which end is right is not known.
+    // The correct end is unknown.
     (["end elsewhere", "second end"], &["PB104"]),
     (["second end", "left over"], &["PB104"]),
 ];

@@ -41,7 +41,7 @@ fn every_other_segment_ends_a_chain() {
     }
 }
 
-/// In walking order, not in that of the file.
+/// In walking order, not in file order.
 #[test]
 fn infeed_and_first_depth_are_those_of_the_first_segment() {
     let own = |statements: &str| {
@@ -77,7 +77,7 @@ fn each_chain_needs_an_infeed() {
     assert_eq!(two("", ""), ["PB201 I", "PB201 I"]);
 }
 
-/// A chain that begins with a way back has that segment's own I and W.
+/// A chain that begins by retracing a segment uses I and W of that segment.
 #[test]
 fn a_chain_that_begins_with_a_return_has_its_values() {
     let statements = "mill 0,0 20,0 \"I2\"\nmill 20,0 20,10 \"I3\"\ncircle 20,10 d 3\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0";
@@ -85,7 +85,7 @@ fn a_chain_that_begins_with_a_return_has_its_values() {
     assert_eq!(infeeds, [2.0, 3.0]);
 }
 
-/// It counts there, so it is not said to have no effect there; but in the chain before it had none.
+/// The letter has an effect in the chain that retraces the segment, so it is not reported there, even though it had none before.
 #[test]
 fn a_letter_without_effect_is_not_reported_for_a_return() {
     let statements = "mill 0,0 20,0\nmill 20,0 20,10 \"N1\"\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0";

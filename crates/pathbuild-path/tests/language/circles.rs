@@ -1,10 +1,10 @@
-//! Special circles, holes and helical circles; what belongs to no plane. (book: language/markers)
+//! Special circles, holes and helical circles, and elements outside the plane. (book: language/markers)
 
 use pathbuild_path::SegmentKind;
 
 use crate::support::{compile, path, raw, read, wrong};
 
-/// What a PHANTOM circle of a diameter is.
+/// The meaning of a PHANTOM circle with a diameter.
 fn special(diameter: &str) -> String {
     let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
     let is = [
@@ -26,7 +26,7 @@ fn special_circles_are_told_apart_by_their_diameters() {
     }
 }
 
-/// `near()` on the radius: 1e-6 of the radius and 0.001 mm.
+/// The radius is compared by `near()`: within 1e-6 of the radius and 0.001 mm.
 #[test]
 fn diameters_compare_approximately() {
     let edges = [
@@ -56,7 +56,7 @@ fn a_path_has_one_start_and_one_end() {
     assert_eq!(wrong("layer 1234.1P\nmill 0,0 20,0 \"B0\"\nend 20,0"), ["PB101"]);
 }
 
-/// Enough digits to see what is wrong.
+/// The message shows enough digits to explain the problem.
 #[test]
 fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
     let said = |diameter: &str| {
@@ -67,7 +67,7 @@ fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
     assert_eq!(said("1.25"), "a PHANTOM circle of 1.25 mm diameter means nothing");
 }
 
-/// Two starts belong to one path also where they are on different layers of it.
+/// Two starts belong to one path even on different layers of it.
 #[test]
 fn markers_are_counted_over_all_layers_of_a_path() {
     let tilde = path("T5 O3 I1 B0", "mill 0,0 20,0\nend 20,0\nlayer 1234.1P~A\nstart 50,50");
@@ -93,7 +93,7 @@ fn elements_lie_in_the_plane() {
     assert_eq!(wrong(&path("T5 O3 I1 B0", "mill 0,0 20,0\nend 20,0 z 1")), ["PB110"]);
 }
 
-/// With O3: what a circle of a diameter is.
+/// The meaning of a circle with a diameter for O3.
 fn drilled_or_milled(diameter: &str) -> String {
     let statements = format!("sweep 0,0 20,0\ncircle 20,0 d {diameter}\nend 20,0");
     let compiled = compile(&path("T5 O3 I1 B0", &statements));
@@ -138,13 +138,13 @@ fn a_helical_circle_is_no_larger_than_a() {
     assert_eq!(helix("A7", "8"), ["PB405"]);
 }
 
-/// O is the path's own literal, and a subpath's O is no matter to its circles.
+/// O is the literal of the path itself; O of a subpath does not affect its circles.
 #[test]
 fn holes_are_of_the_paths_o() {
     assert_eq!(wrong(&path("T5 O=X I1 B0 :X1~3", "sweep 0,0 20,0\ncircle 20,0 d 3\nend 20,0")), ["PB206 O"]);
 }
 
-/// A row of three holes and a milled line, each with its text.
+/// Three holes in a row and a milled line, each with its text.
 fn row(texts: [&str; 4]) -> String {
     let [first, second, third, line] = texts.map(|text| format!("\"{text}\""));
     let statements = format!(

@@ -1,4 +1,4 @@
-//! Crowded points, against a walk that looks at all segments in each step. (book: language/chains-and-passes)
+//! Crowded points, compared with a walk that examines all segments in each step. (book: language/chains-and-passes)
 
 use pathbuild_path::{Curve, Item, Xy};
 use proptest::prelude::*;
@@ -20,7 +20,7 @@ fn coincide(a: Xy, b: Xy) -> bool {
     near((b - a).norm_squared(), 0.0)
 }
 
-/// The points that the walk comes to, by the specification's words.
+/// The points of the walk, computed literally by the specification.
 fn plain_walk(lines: &[Drawn]) -> Vec<Xy> {
     let (mut left, mut at, mut points) = ((0..lines.len()).collect::<Vec<_>>(), Xy::origin(), Vec::new());
     let length = |line: usize| (lines[line].end - lines[line].start).norm();
@@ -39,7 +39,7 @@ fn plain_walk(lines: &[Drawn]) -> Vec<Xy> {
     }
 }
 
-/// Two lines between the middle and each of some tips, with lengths that are the same, near each other, or neither.
+/// Pairs of lines between the centre and several tips, with lengths that are equal, near each other, or different.
 fn petals() -> impl Strategy<Value = Vec<Drawn>> {
     let noise = || prop_oneof![Just(0.0), -1e-9..1e-9, -1e-5..1e-5];
     let rest = move || (noise(), any::<bool>());
@@ -56,7 +56,7 @@ fn petals() -> impl Strategy<Value = Vec<Drawn>> {
     })
 }
 
-/// What is left of a number in a drawing.
+/// A number as it is rounded in a drawing.
 fn written(number: f64) -> f64 {
     (number * 1e9).round() / 1e9
 }
@@ -86,7 +86,7 @@ fn check(lines: &[Drawn], expected: &[Xy]) {
     assert!(ends.len() == expected.len() && ends.iter().zip(expected).all(is_same), "{ends:?}\n{expected:?}");
 }
 
-/// An even number of lines of the same length between the middle and one tip: all are walked, in the order drawn.
+/// An even number of equal lines between the centre and one tip: all are traversed, in the order drawn.
 #[test]
 fn lines_that_lie_on_each_other_are_taken_in_the_order_drawn() {
     let line = Drawn { start: Xy::origin(), end: Xy::new(10.0, 0.0) };

@@ -1,17 +1,17 @@
-//! The default patterns are read by hand: they say what the regular expressions say. (book: language/layers-and-names)
+//! The handwritten matchers of the default patterns agree with the regular expressions. (book: language/layers-and-names)
 
 use std::sync::LazyLock;
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern};
 use proptest::prelude::*;
 
-/// Patterns that mean the same and are not known as the defaults, so that they are compiled.
+/// Equivalent patterns that are not recognised as the defaults, so that they are compiled.
 static FILE: LazyLock<FilePattern> =
     LazyLock::new(|| FilePattern::new(&format!("(?:{})", FilePattern::DEFAULT)).unwrap());
 static PATH: LazyLock<PathPattern> =
     LazyLock::new(|| PathPattern::new(&format!("(?:{})", PathPattern::DEFAULT)).unwrap());
 
-/// What such names consist of, and what is close to that: ſ and K are letters of A-Z to whoever disregards case.
+/// Parts of names and similar characters: ſ and K count as letters of A-Z if case is ignored.
 fn text() -> impl Strategy<Value = String> {
     let piece = prop_oneof![
         4 => "[0-9]{4}",
@@ -48,7 +48,7 @@ proptest! {
     }
 }
 
-/// The texts of the property tests do match now and then.
+/// The texts of the property tests match sometimes.
 #[test]
 fn letters_that_are_s_and_k_without_case_are_letters_of_paths() {
     for name in ["1234.5ſ", "1234.5\u{212a}", "1234.5k"] {

@@ -1,4 +1,4 @@
-//! Whether a path may stand where a subpath segment names it. (book: language/embedding)
+//! Whether a path fits the subpath segment that names it. (book: language/embedding)
 
 use std::sync::LazyLock;
 
@@ -27,7 +27,7 @@ fn signature(drawing: &str) -> PathSignature {
     PathSignature::of(&compile(drawing).path.expect("the path is right"))
 }
 
-/// What a judge says of the only segment of a path.
+/// The verdict on the only segment of a path.
 fn judged<R>(
     outer: &PathSignature,
     restrictions: &[Restriction],
@@ -36,12 +36,12 @@ fn judged<R>(
     judge(Judge::new(outer, restrictions, &COMMON, false), &outer.subpaths[0])
 }
 
-/// What does not fit, with the letters.
+/// The mismatches with their letters.
 fn misfits(outer: &PathSignature, inner: &PathSignature) -> Vec<String> {
     judged(outer, &[], |judge, call| codes(&judge.misfits(call, inner)))
 }
 
-/// The code that keeps a path from embedding what its segment names.
+/// The code that prevents a path from embedding the one named by its segment.
 fn refused(outer: &PathSignature, restrictions: &[Restriction]) -> Option<String> {
     judged(outer, restrictions, |judge, call| {
         judge.name(call).err().map(|problem| problem.code().to_string())
@@ -79,7 +79,7 @@ fn t_and_o_are_those_of_the_path() {
     assert_eq!(with("T5 O3.00001"), ["PB506 O"]);
 }
 
-/// A program has one cutter, whatever a segment's text says.
+/// A program has a single cutter, regardless of the text of a segment.
 #[test]
 fn o_is_that_of_the_embedding_path() {
     let with = |outer: &str, segment: &str, inner: &str, is_compatible| {
@@ -96,13 +96,13 @@ fn o_is_that_of_the_embedding_path() {
     assert_eq!(with("3", "O3.000003", "3.000003", false), []);
     assert_eq!(with("3", "", "3", false), []);
     assert_eq!(with("3", "O2", "2", true), warning);
-    // The segment does not even say what the path says: an error as before, and only one.
+    // The segment contradicts even its own path: an error as before, and only one.
     assert_eq!(with("3", "O2", "3", false), error);
     assert_eq!(with("3", "O2", "3", true), error);
     assert_eq!(with("3", "O2", "1", false), error);
 }
 
-/// What is embedded lies in the material of the path that embeds it.
+/// An embedded path lies in the material of the embedding path.
 #[test]
 fn t_of_a_segment_is_no_more_than_that_of_its_path() {
     let with = |own: &str, segment: &str| {
@@ -129,7 +129,7 @@ fn m_is_that_of_the_path_and_both_say_it() {
     assert_eq!(with("", "", ""), ["PB201"]);
 }
 
-/// E is found anywhere in the name, and counts instead of all restrictions.
+/// E is matched anywhere in the name, and replaces all restrictions.
 #[test]
 fn e_says_what_may_be_embedded() {
     let with = |rule: &str| project(&format!("T5 O3 I1 B0 Mx E{rule}"), ">1111.1P");
@@ -139,7 +139,7 @@ fn e_says_what_may_be_embedded() {
     assert_eq!(refused(&with("^1"), &[restriction("", "^2")]), None);
 }
 
-/// The first restriction that concerns a path counts.
+/// The first restriction that applies to a path decides.
 #[test]
 fn restrictions_say_what_may_be_embedded() {
     let outer = project("T5 O3 I1 B0 Mx", ">1111.1P");
@@ -167,7 +167,7 @@ fn a_segment_names_a_path_and_no_more() {
     assert_eq!(named("Mx"), ["PB501"]);
 }
 
-/// Letters and digits directly at a name belong to it; the original tool leaves them out.
+/// Letters and digits that directly adjoin a name belong to it; the original tool ignores them.
 #[test]
 fn a_name_that_goes_on_is_another() {
     let named = |segment: &str, is_compatible| {

@@ -1,9 +1,9 @@
-//! What a file's name says of the paths in it. (book: language/layers-and-names)
+//! Compares the name of a file with the paths in it. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{FilePattern, PathName, PathPattern, judge_file_name};
 
-/// The codes and names of what is said of a file of that name which holds these paths.
+/// The codes and names of the findings for a file with this name and these paths.
 fn said(stem: &str, held: &[&str]) -> Vec<String> {
     said_with(FilePattern::DEFAULT, PathPattern::DEFAULT, stem, held)
 }

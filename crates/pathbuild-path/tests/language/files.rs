@@ -1,4 +1,4 @@
-//! Which files may hold a path. (book: language/embedding)
+//! The files that may define a path. (book: language/embedding)
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern};
 
@@ -11,7 +11,7 @@ fn holds(stem: &str, name: &str) -> bool {
     holds_with(FilePattern::DEFAULT, PathPattern::DEFAULT, stem, name)
 }
 
-/// Which of some paths a file of this name may hold.
+/// Those of the given paths that a file of this name may define.
 fn held<'a>(stem: &str, names: &[&'a str]) -> Vec<&'a str> {
     names.iter().copied().filter(|name| holds(stem, name)).collect()
 }
@@ -63,7 +63,7 @@ fn a_range_may_have_blanks_an_en_dash_and_a_letter_behind_either_end() {
     assert!(!holds_with(pattern, "([A-Z]+)([0-9]+)", "AB1PQ \u{2013} AB5", "AB3"));
 }
 
-/// A group that takes no part ends the comparison: with groups left, the name in the file's name is greater.
+/// A group that does not participate ends the comparison: the name with further groups is greater.
 #[test]
 fn optional_groups_of_a_custom_pattern_end_the_comparison() {
     let pattern = "([A-Z]+)(?:-([0-9]+))?(?:[.]([0-9]+))?";
@@ -78,14 +78,14 @@ fn optional_groups_of_a_custom_pattern_end_the_comparison() {
     assert!(holds("AB-1", "AB.2"), "the same");
 }
 
-/// Leftmost first and not overlapping: the middle name belongs to the first range, and no second one begins with it.
+/// Leftmost first and without overlap: the middle name belongs to the first range, so no second range begins with it.
 #[test]
 fn ranges_do_not_overlap() {
     let names = ["1001.1A", "1002.1A", "1003.1A", "1004.1A", "1005.1A"];
     assert_eq!(held("1001-1003-1005", &names), ["1001.1A", "1002.1A", "1003.1A", "1005.1A"]);
 }
 
-/// A range that is written the wrong way round is none, but its ends are names.
+/// A range in the wrong order is not a range, but its ends are names.
 #[test]
 fn the_ends_of_a_range_are_names_too() {
     assert_eq!(held("8002-8000", &["8000.1A", "8001.1A", "8002.1A"]), ["8000.1A", "8002.1A"]);
@@ -99,7 +99,7 @@ fn a_name_with_more_groups_than_the_file_is_in_it_and_not_the_other_way_round() 
     assert!(holds("1234.3", "1234.3.A"));
     assert!(holds("1234.3", "1234.3"));
     assert!(!holds("1234.3", "1234"));
-    // A file part that is greater ends a range behind the path.
+    // A greater file part ends a range after the path.
     assert!(holds("1233-1234.3", "1234"));
     assert!(!holds("1234.3-1235", "1234"));
 }
@@ -122,7 +122,7 @@ fn texts_compare_without_case() {
     assert!(!holds("axle-gear", "HUB.1"));
 }
 
-/// "10" and "9" are compared as texts where the other group is no integer.
+/// "10" and "9" are compared as texts if the other group is not an integer.
 #[test]
 fn a_number_and_a_text_compare_as_texts() {
     let holds = |stem, name| holds_with("([A-Z0-9]+)", "([A-Z0-9]+)", stem, name);

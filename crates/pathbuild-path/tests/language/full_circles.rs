@@ -1,4 +1,4 @@
-//! Arcs that go round once. (book: language/markers)
+//! Arcs that form full circles. (book: language/markers)
 
 use pathbuild_dxf::{Options, Units, read};
 use pathbuild_path::{Arc, Curve, Xy, raw_file};

@@ -1,4 +1,4 @@
-//! Clamps: what is read of a drawing, and what is in their way. (book: language/keep-outs)
+//! Reading clamps, and finding the moves that hit them. (book: language/keep-outs)
 
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Options, Units};
@@ -25,7 +25,7 @@ fn clamps_of(drawing: &str) -> KeepOuts {
     keep_outs(&pathbuild_dxf::read(&sheet.to_dxf(), &options), &language)
 }
 
-/// The clamps of a drawing with nothing wrong.
+/// The clamps of a drawing without findings.
 #[track_caller]
 fn right(drawing: &str) -> Vec<KeepOut> {
     let KeepOuts { all, problems } = clamps_of(drawing);
@@ -33,7 +33,7 @@ fn right(drawing: &str) -> Vec<KeepOut> {
     all
 }
 
-/// What is said of a drawing, in short.
+/// The findings about the clamps of a drawing, in short form.
 fn wrong(drawing: &str) -> Vec<(Code, String)> {
     let KeepOuts { problems, .. } = clamps_of(drawing);
     problems.iter().map(|problem| (problem.code(), problem.text(Lang::En))).collect()
@@ -60,7 +60,7 @@ fn map(clamps: &[KeepOut]) -> KeepOutMap {
     KeepOutMap::new(clamps.iter().map(|clamp| (clamp.height, &*clamp.outline)))
 }
 
-/// Whether a tool of 2 mm comes into a clamp.
+/// Whether a tool of 2 mm hits a clamp.
 fn enters(clamps: &[KeepOut], way: &Way) -> bool {
     !map(clamps).entered(way, 1.0, 0.0).is_empty()
 }
@@ -74,7 +74,7 @@ fn closed_outlines_are_clamps() {
         // In any order and direction.
         "line 10,0 20,0\nline 10,10 20,10\nline 20,10 20,0\nline 10,10 10,0",
         "polyline 10,0 20,0 20,10 10,10 closed",
-        // Closed by its last corner, or by a line.
+        // Closed by its last vertex, or by a line.
         "polyline 10,0 20,0 20,10 10,10 10,0",
         "polyline 20,0 20,10 10,10 10,0\nline 10,0 20,0",
         "circle 15,5 d 10",
@@ -112,7 +112,7 @@ fn heights_are_numbers_greater_than_0() {
 fn each_outline_has_one_text_inside_or_overlapping_it() {
     assert_wrong("layer clamps\ncircle 0,0 d 10\n", &["no text says how high"]);
     assert_wrong(&format!("{SQUARE}text 12,7 \"Z30\"\n"), &["several texts"]);
-    // Three are named, and a fourth is counted.
+    // Three are listed, the others are counted.
     let texts = |count: usize| format!("{SQUARE}{}", "text 12,7 \"Z30\"\n".repeat(count - 1));
     assert_wrong(
         &texts(3),
@@ -122,11 +122,11 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
         &texts(4),
         &["4 texts are inside the outline of this clamp or overlap it, the first are Z25, Z30, Z30"],
     );
-    // The circle of the text, of 2.57 mm, touches the outline from outside, or not quite.
+    // The circle of the text, of 2.57 mm, touches the outline from outside, or just not.
     let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
     assert_eq!(right(&beside(10.0 - 2.25 - 2.57)).len(), 1);
     assert_wrong(&beside(10.0 - 2.25 - 2.58), &["inside the outline of none", "no text says how high"]);
-    // A text that two outlines share counts for both.
+    // A text shared by two outlines counts for both.
     let neighbour = "line 20.5,0 30,0 30,10 20.5,10 20.5,0\n";
     let shared =
         right(&format!("layer clamps\nline 10,0 20,0 20,10 10,10 10,0\n{neighbour}text 18,4 \"Z25\"\n"));
@@ -172,7 +172,7 @@ fn a_hidden_layer_counts() {
     assert!(matches!(&problems[..], [problem] if problem.code() == Code::LayerNotVisible));
 }
 
-/// Half of O away from the outline is far enough, at each height below that of the clamp.
+/// The tool clears the outline by half of O, at each height below that of the clamp.
 #[test]
 fn the_tool_keeps_out_by_its_radius() {
     let clamps = right(SQUARE);
@@ -187,7 +187,7 @@ fn the_tool_keeps_out_by_its_radius() {
         assert!(!enters(&clamps, &flat(curve(9.0), 24.0)));
         assert!(!enters(&clamps, &flat(curve(8.999), 24.0)));
     }
-    // Past a corner, and through the middle without coming near the outline's ends.
+    // Past a corner, and through the middle without coming near the ends of the outline.
     assert!(!enters(&clamps, &flat(line([9.2, -0.61], [9.2, -9.0]), 24.0)));
     assert!(enters(&clamps, &flat(line([9.2, -0.59], [9.2, -9.0]), 24.0)));
     assert!(enters(&clamps, &flat(line([14.0, 5.0], [16.0, 5.0]), 24.0)));
@@ -199,18 +199,18 @@ fn the_tool_may_go_over_a_clamp() {
     let over = line([0.0, 5.0], [30.0, 5.0]);
     assert!(!enters(&clamps, &flat(over, 25.0)));
     assert!(enters(&clamps, &flat(over, 24.999)));
-    // Down beside it, and down into it.
+    // Down beside the clamp, and down into it.
     let down = |x: f64| Way { curve: line([x, 5.0], [x, 5.0]), from_z: 30.0, to_z: 0.0 };
     assert!(!enters(&clamps, &down(5.0)));
     assert!(enters(&clamps, &down(15.0)));
 }
 
-/// A ramp or a helix counts where it is lower than the clamp.
+/// Ramps and helices only count where they are lower than the clamp.
 #[test]
 fn a_slope_counts_below_the_height() {
     let clamps = right(SQUARE);
     let ramp = |to_z| Way { curve: line([15.0, 5.0], [35.0, 5.0]), from_z: 35.0, to_z };
-    // At 21 mm, where the tool leaves the clamp, it is 6 mm farther: 35 - 6 / 20 * 32 = 25.4 mm high, and then 24.5 mm.
+    // The tool leaves the clamp at 21 mm, 6 mm past its start: there it is 35 - 6 / 20 * 32 = 25.4 mm high, or 24.5 mm.
     assert!(!enters(&clamps, &ramp(3.0)));
     assert!(enters(&clamps, &ramp(0.0)));
     let helix = |from_z: f64, to_z: f64| {
@@ -219,7 +219,7 @@ fn a_slope_counts_below_the_height() {
             Arc { centre, radius: 10.0, start, end: Xy::new(10.0, 5.0), clockwise: false, degrees: 180.0 };
         Way { curve: Curve::Arc(arc), from_z, to_z }
     };
-    // It comes to the clamp after 150 degrees or so.
+    // It reaches the clamp after about 150 degrees.
     assert!(!enters(&clamps, &helix(20.0, 26.5)));
     assert!(enters(&clamps, &helix(26.0, 20.0)));
 }
@@ -237,7 +237,7 @@ fn clamps_are_found_among_many() {
     let entered = |curve| map.entered(&flat(curve, 5.0), 1.0, 0.0);
     assert_eq!(entered(line([100.0, 5.0], [200.0, 5.0])), [4, 5, 6]);
     assert_eq!(entered(line([105.0, -5.0], [105.0, 5.0])), [] as [usize; 0]);
-    // What rounding may do is allowed for.
+    // Rounding errors are tolerated.
     let touching = flat(line([0.0, 10.9995], [5.0, 10.9995]), 5.0);
     assert_eq!((map.entered(&touching, 1.0, 0.0).len(), map.entered(&touching, 1.0, 0.001).len()), (1, 0));
     let grazing = |z| map.entered(&flat(line([0.0, 5.0], [5.0, 5.0]), z), 1.0, 0.001).len();
@@ -255,7 +255,7 @@ fn curve() -> impl Strategy<Value = Curve> {
     prop_oneof![straight, round]
 }
 
-/// Points along a curve, near to each other.
+/// Closely spaced points along a curve.
 fn points(curve: &Curve) -> Vec<Xy> {
     let length = curve.length();
     let point = |step: i32| match length {
@@ -268,7 +268,7 @@ fn points(curve: &Curve) -> Vec<Xy> {
 const STEPS: i32 = 240;
 
 proptest! {
-    /// The distance of two curves is that of their nearest points, as far as points along them can tell.
+    /// The distance between two curves equals that between their nearest points, up to the precision of the sampled points.
     #[test]
     fn distances_are_exact(one in curve(), other in curve()) {
         let (ones, others) = (points(&one), points(&other));
@@ -279,7 +279,7 @@ proptest! {
         prop_assert!((exact - other.distance(&one)).abs() < 1e-9);
     }
 
-    /// What is inside a ring of lines and arcs, turned anyhow: as a polygon of many corners has it.
+    /// The inside of a rotated ring of lines and arcs equals that of a polygon with many vertices.
     #[test]
     fn insides_are_those_of_polygons(
         corners in prop::collection::vec((5_u32..20, any::<bool>()), 3..9),
@@ -298,7 +298,7 @@ proptest! {
             if !corners[number].1 {
                 return Curve::Line(Line { start, end });
             }
-            // A half circle outwards.
+            // A half circle bulging outwards.
             let centre = middle(start, end);
             Curve::Arc(Arc { centre, radius: (end - start).norm() / 2.0, start, end, clockwise: false, degrees: 180.0 })
         };
@@ -317,7 +317,7 @@ fn middle(start: Xy, end: Xy) -> Xy {
     start + (end - start) / 2.0
 }
 
-/// Whether a polygon goes round a point: by the angles under which its sides are seen.
+/// Whether a polygon winds around a point, by the sum of the angles of its sides.
 fn winds(polygon: &[Xy], point: Xy) -> bool {
     let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
     let angle = |(a, b): (&Xy, &Xy)| {

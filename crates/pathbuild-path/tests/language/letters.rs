@@ -1,8 +1,8 @@
-//! Where each letter is allowed: every cell of the table of book: language/letters.
+//! Where each letter is permitted: every cell of the table of book: language/letters.
 
 use crate::support::{path, wrong};
 
-/// All letters, each with a value that is right wherever the letter is allowed.
+/// All letters, each with a value that is valid wherever the letter is permitted.
 const LETTERS: [(char, &str); 23] = [
     ('A', "20"),
     ('B', "0.5"),
@@ -29,26 +29,27 @@ const LETTERS: [(char, &str); 23] = [
     (':', "a1~2"),
 ];
 
-/// What a path gives so that nothing is missing on any element.
+/// Path parameters such that nothing is missing on any element.
 const PATH: &str = "T5 O3 Mx F200 B1 D3 I1 P1 U4";
 
 /// A cell of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cell {
-    /// `!`: own or the path's.
+    /// `!`: from the element or the path.
     Needed,
     /// `o`.
     Allowed,
-    /// `c!` and `c`: what the chain's first segment says.
+    /// `c!` and `c`: given by the first segment of the chain.
     ChainNeeded,
     Chain,
     /// `-`: without effect.
     Ignored,
-    /// `p` and empty: not known in the element's own text.
+    /// `p` and empty: unknown in the element's own text.
     Unknown,
 }
 
-/// A row: cells as `LETTER:CELL`, those that are not known left out. `p` is not written: it is no matter of the element's text.
+/// The cell of a letter in a row. Rows are written as `LETTER:CELL`, without the unknown letters. `p` is left out, since it does not
+/// concern the element's text.
 fn cell(row: &str, letter: char) -> Cell {
     let cell = row.split(' ').find(|cell| cell.starts_with(letter)).map(|cell| &cell[2..]);
     match cell {
@@ -62,7 +63,7 @@ fn cell(row: &str, letter: char) -> Cell {
     }
 }
 
-/// Goes through a row. `element` draws the element with a text, and all that makes a path of it.
+/// Checks a row. `element` draws the element with a text, and everything else that the path needs.
 fn check_row(row: &str, element: impl Fn(&str) -> String) {
     for (letter, value) in LETTERS {
         let (cell, own) = (cell(row, letter), format!("{letter}{value}"));
@@ -82,7 +83,7 @@ fn check_row(row: &str, element: impl Fn(&str) -> String) {
     }
 }
 
-/// The same, and that a letter of a chain has no effect on a segment that is not the first.
+/// Checks a row, and that the letters of a chain have no effect on segments other than the first.
 fn check_chain_row(row: &str, statement: &str) {
     check_row(row, |text| format!("{statement} 0,0 40,0{}\nend 40,0", note(text)));
     for (letter, value) in LETTERS {
@@ -155,7 +156,7 @@ fn drilled_hole() {
     check_row("F:o B:! D:- C:o Q:o", circle("40,0 d 3"));
 }
 
-/// There is nothing to leave standing in a hole.
+/// Nothing can be left standing in a drilled hole.
 #[test]
 fn a_drilled_hole_has_no_bars() {
     for line_type in ["BORDER", "CENTER"] {
@@ -187,7 +188,7 @@ fn helical_circle_with_bars() {
     check_row("F:o B:! D:! I:! P:! U:! Q:o", circle("BORDER 40,0 d 10"));
 }
 
-/// T and O are needed, and always there: the path has them.
+/// T and O are required but never missing, since the path gives them.
 #[test]
 fn subpath() {
     check_row("N:o T:o O:o M:o H:o >:o ::o", |text| {
@@ -201,7 +202,7 @@ fn probe() {
     check_row("T:o H:o Z:o L:o", |text| format!("mill 0,0 40,0\nprobe 20,40{}\nend 40,0", note(text)));
 }
 
-/// The text of a DOT line is not read, and a HIDDEN line takes none.
+/// The text of a DOT line is ignored, and a HIDDEN line takes none.
 #[test]
 fn silent_sweeps() {
     for (letter, value) in LETTERS {

@@ -1,11 +1,11 @@
-//! Values against their limits: PB203. (book: language/letters)
+//! Checks values against their limits: PB203. (book: language/letters)
 
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_path::{Path, SweepLimits};
 
 use crate::support::{codes, compile, path, wrong};
 
-/// A path with a milled line, and the text of its start.
+/// A path with a milled line and this text at its start.
 fn start(text: &str) -> Vec<String> {
     wrong(&path(text, "mill 0,0 40,0\nend 40,0"))
 }
@@ -16,7 +16,7 @@ fn on(statement: &str, parameters: &str) -> Vec<String> {
     errors.into_iter().filter(|found| !found.starts_with("PB210")).collect()
 }
 
-/// Nothing is greater than 0 by less than 0.000000001.
+/// The smallest numbers that count as positive begin above 0.000000001.
 const INSIDE: &str = "0.0000000011";
 const OUTSIDE: &str = "0.0000000009";
 
@@ -37,7 +37,7 @@ fn a_paths_values_are_greater_than_0() {
     assert_eq!(start(&format!("T{OUTSIDE} O3 I1 B-1")), ["PB203 T"]);
 }
 
-/// The help gives a usual value of the letter.
+/// The help contains a usual value for the letter.
 #[test]
 fn a_value_that_must_be_greater_than_0_has_an_example() {
     let compiled = compile(&path("T0 O0 F0 I0 C0 A0 W0 Z0 P0 U0 B-1", "mill 0,0 40,0\nend 40,0"));
@@ -57,14 +57,14 @@ fn a_value_that_must_be_greater_than_0_has_an_example() {
     assert_eq!(letters.concat(), "ACFIOPTUWZ");
 }
 
-/// Parts of a polyline share its text; another polyline, or a line, may have one that says the same.
+/// Parts of a polyline share its text; another polyline or line may have an equal text of its own.
 #[test]
 fn what_a_text_says_wrong_is_said_once_of_each_text() {
     for (text, fault) in [("B9", "PB203 B"), ("BX", "PB205 B"), ("G1", "PB202 G")] {
         let polyline =
             |x: u32| format!("mill polyline {x},0 {},0 bulge 0.5 {},0 \"{text}\"\n", x + 20, x + 40);
         let (first, second) = (polyline(0), polyline(40));
-        // Where the path ends is no matter here.
+        // The end of the path is irrelevant here.
         let is_of_text = |found: &String| !found.starts_with("PB4");
         let with = |drawn: &str| -> Vec<String> {
             let found = wrong(&path("T5 O3 I1 B0", &format!("{drawn}end 99,0")));
@@ -96,7 +96,7 @@ fn an_elements_values_are_greater_than_0() {
             assert_eq!(with(OUTSIDE), [format!("PB203 {letter}")], "{letter} {statement}");
         }
     }
-    // More than 0, but then bars without end: that is another rule.
+    // It is positive, but leads to endless bars, which is another rule.
     assert_eq!(on(&format!("bars 0,0 40,0 \"U{OUTSIDE}\""), parameters)[0], "PB203 U");
     assert!(!on(&format!("bars 0,0 40,0 \"U{INSIDE}\""), parameters).contains(&"PB203 U".to_owned()));
 }
@@ -129,7 +129,7 @@ fn b_and_d_are_below_t() {
     assert_eq!(on("mark 0,0 40,0 \"D5\"", "T5 O3 I1"), ["PB203 D"]);
 }
 
-/// Also a letter that has no effect there says something impossible.
+/// A letter without effect is checked too, since an impossible value is always a mistake.
 #[test]
 fn letters_without_effect_are_checked_too() {
     assert_eq!(on("mark 0,0 40,0 \"B4.9\"", "T5 O3 I1 D2"), [""; 0]);
@@ -138,7 +138,7 @@ fn letters_without_effect_are_checked_too() {
     assert_eq!(on("mill 0,0 40,0 \"S5\"", "T5 O3 I1 B0"), ["PB203 S"]);
 }
 
-/// The T of a probe or a subpath is the material there: it must be below the path's S, and may be below depths that the element does not have.
+/// T of a probe or a subpath is the thickness there: it must be below the path's S, and may be below depths that the element does not have.
 #[test]
 fn an_elements_own_t_is_compared_with_the_paths_s_alone() {
     let probe =
@@ -155,7 +155,7 @@ fn an_elements_own_t_is_compared_with_the_paths_s_alone() {
     assert_eq!(subpath("T10", "T5 O3 I1 B1 S10"), ["PB203 S"]);
 }
 
-/// What is wrong with the path's values alone is reported there, not on every element again.
+/// Problems with the path's values are reported there, not again at every element.
 #[test]
 fn the_paths_own_faults_are_reported_once() {
     assert_eq!(on("mill 0,0 40,0 \"F100\"", "T5 O3 I1 B6"), ["PB203 B"]);
@@ -173,7 +173,7 @@ fn d_is_above_b_on_paths_and_where_there_are_bars() {
     assert_eq!(on("bars 0,0 40,0 \"D1\"", parameters), ["PB203 D"]);
     assert_eq!(on("bars 0,0 40,0 \"B2\"", "T5 O3 I1 D2 P1 U4"), ["PB203 D"]);
     assert_eq!(on("sweep 0,0 40,0\ncircle BORDER 40,0 d 10 \"D1\"", parameters), ["PB203 D"]);
-    // Elsewhere they have nothing to do with each other.
+    // Elsewhere they are unrelated.
     assert_eq!(on("mill 0,0 40,0 \"B3\"", "T5 O3 I1 D2"), [""; 0]);
     assert_eq!(on("mark 0,0 40,0 \"D0.5\"", "T5 O3 I1 B1"), [""; 0]);
 }
@@ -184,7 +184,7 @@ fn p_and_u_are_greater_than_0_on_paths_and_where_there_are_bars() {
     assert_eq!(start("T5 O3 I1 B0 U-1"), ["PB203 U"]);
 }
 
-/// The S that a path without S gets from its role must be above everything that has a T of its own, too.
+/// The S that follows from the role of a path without S must also exceed every T of an element.
 #[test]
 fn the_default_sweep_height_is_above_every_t() {
     let path_of = |text: &str| -> Path {
@@ -199,23 +199,23 @@ fn the_default_sweep_height_is_above_every_t() {
     let subpath = compile(&path("T5 O3 I1 B0", "subpath 0,0 40,0 \">1111.1P T7\"\nend 40,0")).path.unwrap();
     assert_eq!(check(&subpath, 7.1), [""; 0]);
     assert_eq!(check(&subpath, 7.0), ["PB203"]);
-    // An S of its own was checked with the other values.
+    // An explicit S was checked with the other values.
     let with = compile(&path("T5 O3 I1 B0 S20", "mill 0,0 40,0\nend 40,0")).path.unwrap();
     assert_eq!(check(&with, 1.0), [""; 0]);
 }
 
 #[test]
 fn there_is_room_for_the_cutter_between_bars() {
-    // Two bars on 10 mm: 10 / 2 - P between them.
+    // Two bars on 10 mm: the distance between them is 10 / 2 - P.
     let bars = |p: &str, u: &str| on("bars 0,0 10,0\nsweep 10,0 40,0", &format!("T5 O3 I1 B0 D2 P{p} U{u}"));
     assert_eq!(bars("2", "3"), [""; 0]);
     assert_eq!(bars("2.00001", "2.9"), ["PB406"]);
     let polyline = on("bars polyline 0,0 10,0 10,10 \"P2.00001\"\nsweep 10,10 40,0", "T5 O3 I1 B0 D2 U2.9");
     assert_eq!(polyline, ["PB406", "PB406"], "of each part, as they are drawn");
-    // No gap at all where there is no room for a bar and its distance.
+    // There is no gap if there is no room for a bar and its distance.
     assert_eq!(bars("5", "5"), [""; 0]);
     assert_eq!(bars("5.001", "5"), ["PB408"]);
-    // A short edge stands between longer ones; where none has a gap, that is said once.
+    // A short edge may stand between longer ones; if none has a gap, that is reported once.
     let edges = |length: u32| {
         let elements = format!(
             "bars 0,0 {length},0\nbars {length},0 {length},4\nbars {length},4 {length},8\nsweep {length},8 40,0"
@@ -225,7 +225,7 @@ fn there_is_room_for_the_cutter_between_bars() {
     assert_eq!(edges(5), [""; 0]);
     assert_eq!(edges(4), ["PB408"]);
     let circle = |u: &str| on("sweep 0,0 40,0\ncircle BORDER 40,0 d 11", &format!("T5 O3 I1 B0 D2 P1 U{u}"));
-    // The cutter's centre runs on a circle of 8 mm: 25.13 mm.
+    // The cutter's centre runs along a circle of 8 mm: 25.13 mm.
     assert_eq!(circle("4"), [""; 0]);
     assert_eq!(circle("2.5"), ["PB406"]);
     assert_eq!(circle("24.1"), [""; 0]);

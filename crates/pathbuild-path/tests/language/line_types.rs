@@ -1,4 +1,4 @@
-//! Line types: their names, and what they mean on lines, arcs and circles. (book: language/line-types)
+//! Line types: their names, and their meanings on lines, arcs and circles. (book: language/line-types)
 
 use pathbuild_path::{Cut, LineType, LineTypeAliases, Role, SegmentKind};
 
@@ -20,7 +20,7 @@ fn every_line_type_is_known_exactly_and_with_its_suffixes() {
     }
 }
 
-/// DASHED2 and HIDDEN have the same dashes, and mean different things.
+/// DASHED2 and HIDDEN have the same dashes but different meanings.
 #[test]
 fn names_decide_not_dashes() {
     assert_eq!(named("DASHED2"), Some(LineType::Dashed));
@@ -70,7 +70,7 @@ fn an_alias_holds_in_a_drawing() {
     assert_eq!((codes(&raw.diagnostics), raw.drawn.elements[0].role), (vec![], Role::Cut(Cut::Mill)));
 }
 
-/// What a drawn entity means: its role, or the code of what is wrong.
+/// The meaning of a drawn entity: its role, or the code of the finding.
 fn meaning(statement: &str) -> String {
     let raw = raw(&path("T5 O3 I1 B0 D2 P1 U1", &format!("{statement}\nend 40,0")));
     match (raw.diagnostics.first(), raw.drawn.elements.first(), raw.probes.len()) {
@@ -128,7 +128,7 @@ fn a_line_takes_its_layers_line_type() {
     assert_eq!(raw(drawing).drawn.elements[0].role, Role::Cut(Cut::Mark));
 }
 
-/// What is written at a skipped subpath is for people: neither a name nor a letter of it counts, nor the path's own sweep height.
+/// The text at a skipped subpath is for humans: neither its name nor its letters count, nor does its sweep height.
 #[test]
 fn the_text_of_a_skipped_subpath_is_not_read() {
     let skipped = "line DOT 0,0 20,0 \">9999.9P S4 N9 XY\"\nmill 20,0 40,0\nend 40,0";
@@ -146,7 +146,7 @@ fn unknown_names_suggest_a_line_type() {
         ("CONTINOUS", Some(LineType::Continuous)),
         ("PHANT", Some(LineType::Phantom)),
         ("STRICHPUNKTLINIE", Some(LineType::Dashdot)),
-        // A digit tells numbered types apart.
+        // Digits distinguish numbered types.
         ("ACAD_ISO06W100", None),
         ("ZIGZAG", None),
     ];

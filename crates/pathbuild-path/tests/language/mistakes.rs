@@ -1,4 +1,4 @@
-//! What a draughtsman got wrong, and one error that says how it should be.
+//! Typical mistakes, each reported as a single error with a correction.
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::{ElementClass, ParameterTexts};
@@ -126,7 +126,7 @@ fn a_dead_end_wants_a_turn_marker() {
         "PB401 the path breaks off here;",
         "the path's layer",
     );
-    // A line drawn twice leads back to where it began.
+    // A line drawn twice leads back to its start.
     let twice = "mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 40,0\nmill 40,0 60,0 \"N9999\"\nend 60,0";
     assert_one(&found(twice), "PB401 a milling segment at (20, 0) is drawn twice", "delete one of the two");
 }
@@ -153,7 +153,7 @@ fn a_hole_along_a_line_wants_the_line_split() {
     assert_one(&found(arc), "PB402 ", "split the line or arc at (20, 20)");
 }
 
-/// The second of two bars too close is said as well: each place is to be mended.
+/// The second of two bars that are too close is reported as well, since each place must be corrected.
 #[test]
 fn the_same_fault_is_said_of_each_element() {
     let bars = "bars 0,0 8,0 \"D2 P2 U2\"\nbars 8,0 16,0 \"D2 P2 U2\"\nend 16,0";

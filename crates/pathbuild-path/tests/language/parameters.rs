@@ -1,4 +1,4 @@
-//! Which value holds: the element's own, else the path's. (book: language/letters)
+//! Inheritance of values: the element's own, or else the path's. (book: language/letters)
 
 use pathbuild_path::{CutParameters, Path, PathOptions, PathRole, SegmentKind};
 
@@ -20,7 +20,7 @@ const PATH: [(char, &str); 13] = [
     ('A', "20"),
 ];
 
-/// Another value for each letter.
+/// A different value for each letter.
 fn other(letter: char) -> &'static str {
     match letter {
         'T' => "4.5",
@@ -44,7 +44,7 @@ fn parameters(changed: Option<char>) -> String {
     PATH.iter().map(piece).collect::<Vec<_>>().join(" ")
 }
 
-/// What a path knows of its first segment and its probe, without where it is written.
+/// The parameters of a path's first segment and its probe, without their origins.
 fn known(parameters: &str, statements: &str) -> String {
     let compiled = compile(&path(parameters, statements));
     let errors: Vec<_> = compiled.found.iter().filter(|found| found.is_error()).collect();
@@ -65,7 +65,7 @@ fn known(parameters: &str, statements: &str) -> String {
     format!("{segment} {probe:?}")
 }
 
-/// That these letters hold from the element where it gives them, else from the path.
+/// Checks that these letters come from the element if it gives them, and otherwise from the path.
 fn check(letters: &str, statement: impl Fn(&str) -> String) {
     for letter in letters.chars() {
         let own = format!("{letter}{}", other(letter));
@@ -150,7 +150,7 @@ fn the_default_s_of_an_embedded_or_checked_path_is_t_and_o() {
     assert_eq!(with.sweep_height(&options, PathRole::Emitted), Some(20.0));
 }
 
-/// Everything that is milled or drilled needs a feed, but only a chain needs the path's even where all its segments have their own.
+/// Everything that is milled or drilled needs a feed, but only a chain needs the path's feed even if all its segments have their own.
 #[test]
 fn a_path_needs_the_option_for_a_feed_where_it_gives_none() {
     let needs = |parameters: &str, statements: &str| {
@@ -169,7 +169,7 @@ fn a_path_needs_the_option_for_a_feed_where_it_gives_none() {
 
 const GIVER: &str = "layer 1234.2P\nstart 0,100 \"T5 O3 I1 B1\"\nmill 0,100 40,100\nend 40,100";
 
-/// What is wrong with a path that uses @ beside one that gives.
+/// The findings about a path that borrows by @, next to one that lends.
 fn at(text: &str, giver: &str) -> Vec<String> {
     wrong(&format!("{}\n{giver}", path(text, "mill 0,0 40,0\nend 40,0")))
 }
@@ -209,7 +209,7 @@ fn at_takes_everything_that_the_other_start_says() {
     assert_eq!(show(own), show(borrowed));
 }
 
-/// What is wrong with borrowed parameters is the other path's fault, and reported as such.
+/// Problems with borrowed parameters are reported at the lending path.
 #[test]
 fn faults_of_borrowed_parameters_are_reported_with_the_path_they_belong_to() {
     let file =

@@ -1,4 +1,4 @@
-//! The table of name ranges says what looking at every range says.
+//! The table of name ranges gives the same results as scanning all ranges.
 
 use pathbuild_path::{FilePattern, NameRange, PathKey, PathPattern, RangeTable};
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ fn check(file: &str, path: &str, stems: &[String], names: &[String]) -> Result<(
     Ok(())
 }
 
-/// A part of a file's name by the default pattern: few numbers, so that ranges meet.
+/// A part of a file name by the default pattern. The numbers are few, so that ranges meet.
 fn number() -> impl Strategy<Value = String> {
     prop_oneof![
         (1000..1006_u32).prop_map(|group| group.to_string()),
@@ -63,12 +63,12 @@ fn unusual() -> impl Strategy<Value = String> {
     })
 }
 
-/// A group of a pattern whose groups are integers, texts, or nothing.
+/// A group of a pattern whose groups are integers, texts, or empty.
 fn mixed() -> impl Strategy<Value = String> + Clone {
     "([0-9]{1,2}|[A-C]{1,2})?([.]([0-9]|[A-B]))?"
 }
 
-/// Digits and letters in any order: integers, and texts that lie between them as texts do.
+/// Digits and letters in any order: integers, and texts that are sorted between them.
 fn spelt() -> impl Strategy<Value = String> + Clone {
     "[0-2][0-2A]{0,2}"
 }
@@ -85,7 +85,7 @@ proptest! {
         check(FilePattern::DEFAULT, PathPattern::DEFAULT, &stems, &names)?;
     }
 
-    /// Numbers that are too large for the fast way, and paths that have no second group or a text in its place.
+    /// Numbers that are too large for the fast representation, and paths whose second group is missing or a text.
     #[test]
     fn the_table_says_what_the_scan_says_of_unusual_numbers(
         stems in prop::collection::vec(stem(unusual().boxed()), 0..6),
@@ -97,7 +97,7 @@ proptest! {
         check("([0-9]+)(?:[.]([0-9]+))?", path, &stems, &texts)?;
     }
 
-    /// Groups that are sometimes integers and sometimes texts have no order, and groups can be missing anywhere.
+    /// Groups that are sometimes integers and sometimes texts have no order, and may be missing anywhere.
     #[test]
     fn the_table_says_what_the_scan_says_where_there_is_no_order(
         stems in prop::collection::vec(stem(mixed()), 0..8),
@@ -116,7 +116,7 @@ proptest! {
     }
 }
 
-/// A file is named once, however many of its ranges hold the path, and files are in order.
+/// A file is listed once, even if several of its ranges contain the path, and files are in order.
 #[test]
 fn each_file_is_found_once_and_in_order() {
     let stems = ["1001-1003,1002".to_owned(), "1002".to_owned(), "1000-1009".to_owned()];

@@ -1,4 +1,4 @@
-//! What comes first where several segments meet. (book: language/chains-and-passes)
+//! The order of segments that meet at a point. (book: language/chains-and-passes)
 
 use crate::support::{items, path, wrong};
 
@@ -8,7 +8,7 @@ fn walked(statements: &str) -> Vec<String> {
     items(&path(P, statements))
 }
 
-/// At (40, 0) begin loops of two segments. Which loop is gone first?
+/// Loops of two segments begin at (40, 0); which loop comes first?
 #[test]
 fn holes_come_before_helical_circles_and_those_from_the_inside_out() {
     let statements =
@@ -16,7 +16,7 @@ fn holes_come_before_helical_circles_and_those_from_the_inside_out() {
     assert_eq!(walked(statements)[1..], ["hole 40,0", "helix 40,0 r4", "helix 40,0 r5", "[40,0 60,0]"]);
 }
 
-/// The order -1000000 of a hole is below any N that a person writes; a smaller one wins.
+/// The order -1000000 of a hole is below any practical N; a smaller N wins.
 #[test]
 fn orders_decide_first() {
     let star = |first: &str, second: &str| {
@@ -31,7 +31,7 @@ fn orders_decide_first() {
     assert_eq!(star("\"N3\"", "\">1111.1P N2\""), "subpath");
 }
 
-/// Unnumbered is 9998: before 9999, after 9997.
+/// The default order is 9998: before 9999, after 9997.
 #[test]
 fn unnumbered_segments_have_the_order_9998() {
     let star = |number: &str| {
@@ -50,7 +50,7 @@ fn subpaths_come_before_what_is_milled_and_that_before_sweeps() {
     assert_eq!(walked[0], "subpath 0,0 30,0");
     assert!(walked[2].starts_with("[0,0 10,0"), "{walked:?}");
     assert!(walked[3].starts_with("sweep 0,0 0,10"), "{walked:?}");
-    // Marks and bars are milled just so.
+    // Marks and bars are milled like other segments.
     let marks = "line DASHED 0,0 0,10 0,0\nmark 0,0 10,0 0,0\nend 0,0";
     assert!(self::walked(marks)[0].starts_with("[0,0 10,0"));
 }
@@ -62,19 +62,19 @@ fn the_shorter_comes_first_and_the_first_on_a_tie() {
     };
     assert_eq!(first("mill 0,0 20,0 0,0\nmill 0,0 0,19.9 0,0"), "[0,0 0,19.9");
     assert_eq!(first("mill 0,0 20,0 0,0\nmill 0,0 0,20.1 0,0"), "[0,0 20,0");
-    // Lengths within one part in a million are equal.
+    // Lengths that differ by at most one part in a million are equal.
     assert_eq!(first("mill 0,0 20,0 0,0\nmill 0,0 0,19.99999 0,0"), "[0,0 20,0");
     assert_eq!(first("mill 0,0 20,0 0,0\nmill 0,0 0,19.9999 0,0"), "[0,0 0,19.9999");
 }
 
-/// An arc is as long as its chord.
+/// The length of an arc is that of its chord.
 #[test]
 fn the_length_of_an_arc_is_its_chord() {
     let statements = "mill arc 0,0 20,0 r 10\nmill 20,0 0,0\nmill 0,0 0,25 0,0\nend 0,0";
     assert!(walked(statements)[0].starts_with("[0,0 20,0"));
 }
 
-/// Circles, then lines, then arcs: the order of segments, which decides ties, is not that of the file.
+/// Circles, lines, arcs: the order of segments, which breaks ties, is not the file order.
 #[test]
 fn lines_come_before_arcs_on_a_tie() {
     let statements = "mill arc 0,0 20,0 r 10 cw\nmill 20,0 0,0 \"F7\"\nend 0,0";
@@ -83,14 +83,14 @@ fn lines_come_before_arcs_on_a_tie() {
     assert_eq!(compiled.walked.members(chain)[0].cut(compiled.path.as_ref().unwrap()).feed, Some(7.0));
 }
 
-/// Where there is only one candidate there is nothing to choose: its number does not matter.
+/// A single candidate is always taken, regardless of its number.
 #[test]
 fn a_number_matters_only_at_a_star() {
     assert_eq!(walked("mill 0,0 20,0 \"N9\"\nmill 20,0 40,0 \"N1\"\nend 40,0"), ["[0,0 20,0, 20,0 40,0]"]);
     assert_eq!(wrong(&path(P, "mill 0,0 20,0 \"N9\"\nmill 20,0 40,0 \"N1\"\nend 40,0")), [""; 0]);
 }
 
-/// Infinitely far orders would be equal: N is exact.
+/// Orders at the limit of precision would be near each other: N is compared exactly.
 #[test]
 fn orders_compare_exactly() {
     let star = |number: &str| {

@@ -1,4 +1,4 @@
-//! What is drawn for a path and does not reach it: PB119 and PB120.
+//! Things drawn for a path that do not reach it: PB119 and PB120.
 
 use pathbuild_dxf::{Drawing, Options, Units};
 use pathbuild_path::{KeepOutPattern, Language, may_be_stray_text, stray_findings};
@@ -20,7 +20,7 @@ fn drawn(drawing: &str) -> Drawing {
     pathbuild_dxf::read(&sheet.to_dxf(), &options)
 }
 
-/// The codes of a path with a groove and a hole, and of something on other layers.
+/// The codes for a path with a groove and a hole, and elements on other layers.
 fn strays(others: &str) -> Vec<String> {
     strays_with("mill 0,0 40,0\nsweep 40,0 60,0\nmark 60,0 80,0 \"D4\"\nend 80,0", others)
 }
@@ -97,7 +97,7 @@ fn a_layer_is_named_once_however_much_is_on_it() {
     assert_eq!(strays(other), ["PB120"]);
 }
 
-/// What the first reading must not miss.
+/// Texts that the preliminary test must not miss.
 #[test]
 fn the_first_look_at_bytes_is_certain() {
     for text in ["B2", "F120 B-0.3", " B2", "B=D", "N1 B.5", "{\\fArial|b0|i0;B2}", "N1\\PB2"] {

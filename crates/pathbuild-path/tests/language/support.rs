@@ -1,4 +1,4 @@
-//! Drawings in text form, taken through the language.
+//! Compiles drawings in text form.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_dxf::{Options, Units};
@@ -8,16 +8,16 @@ use pathbuild_path::{
 };
 use pathbuild_testkit::sheet;
 
-/// What became of a path.
+/// The compiled form of a path.
 pub(crate) struct Compiled {
     pub(crate) path: Option<Path>,
     pub(crate) walked: Walked,
-    /// What was found, stage by stage.
+    /// The findings, stage by stage.
     pub(crate) found: Vec<Diagnostic>,
 }
 
 impl Compiled {
-    /// The curves of the chain that the path begins with.
+    /// The curves of the path's first chain.
     #[track_caller]
     pub(crate) fn first_chain(&self) -> Vec<Curve> {
         let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.walked.items.first()) else {
@@ -27,7 +27,7 @@ impl Compiled {
     }
 }
 
-/// Odd values are no matter of tests of other rules.
+/// Disables doubts, since odd values are irrelevant to tests of other rules.
 const NO_DOUBTS: Doubts = Doubts {
     below_plate: f64::INFINITY,
     infeed: f64::INFINITY,
@@ -67,20 +67,20 @@ pub(crate) fn read_as(drawing: &str, language: &Language) -> RawFile {
     raw_file(&pathbuild_dxf::read(&sheet.to_dxf(), &options), language)
 }
 
-/// The only path of a drawing, without its values.
+/// The only path of a drawing, unbound.
 pub(crate) fn raw(drawing: &str) -> RawPath {
     let mut paths = read(drawing).paths;
     assert_eq!(paths.len(), 1, "paths in\n{drawing}");
     paths.remove(0).0
 }
 
-/// The first path of a drawing, with check values.
+/// The first path of a drawing with example values.
 pub(crate) fn compile(drawing: &str) -> Compiled {
     let (raw, _) = read(drawing).paths.into_iter().next().expect("there is a path");
     compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language())
 }
 
-/// A path stage by stage. Each finds what does not follow from what the ones before found.
+/// Compiles a path stage by stage. Each stage skips findings that follow from earlier ones.
 pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
     let mut compiled = Compiled { path: None, walked: Walked::default(), found: raw.diagnostics.clone() };
     let Examined { path, problems } = examine(raw, bindings, language);
@@ -93,7 +93,7 @@ pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Languag
     compiled
 }
 
-/// The codes of findings with the letters they are about.
+/// The codes of findings with their letters.
 pub(crate) fn codes(found: &[Diagnostic]) -> Vec<String> {
     let code = |found: &Diagnostic| {
         let letter = found.arguments.iter().find(|(name, _)| *name == "letter");
@@ -103,17 +103,17 @@ pub(crate) fn codes(found: &[Diagnostic]) -> Vec<String> {
     found.iter().map(code).collect()
 }
 
-/// The codes of what is wrong with the first path of a drawing.
+/// The codes of the findings about the first path of a drawing.
 pub(crate) fn wrong(drawing: &str) -> Vec<String> {
     codes(&compile(drawing).found)
 }
 
-/// A drawing of one path: the text of its start at (0, 0), and further statements.
+/// A drawing of one path, with the text of its start at (0, 0) and further statements.
 pub(crate) fn path(parameters: &str, statements: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
 }
 
-/// What is done along the first path of a drawing, in order: a line for each item, chains in brackets.
+/// The operations along the first path of a drawing, one line for each item, with chains in brackets.
 #[track_caller]
 pub(crate) fn items(drawing: &str) -> Vec<String> {
     let compiled = compile(drawing);

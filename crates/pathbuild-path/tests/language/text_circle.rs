@@ -1,11 +1,11 @@
-//! The circle by which a text finds its element. (book: language/parameter-texts)
+//! The circle by which a text is matched with its element. (book: language/parameter-texts)
 
 use pathbuild_dxf::{HorizontalAlign, MText, Point3, Text, VerticalAlign};
 use pathbuild_path::TextCircle;
 
 const ANCHOR: Point3 = Point3 { x: 100.0, y: 200.0, z: 0.0 };
 
-/// Ten characters of 2 mm: w = 12.
+/// Ten characters with a height of 2 mm: w = 12.
 fn text() -> Text {
     Text {
         string: "0123456789".into(),
@@ -19,7 +19,7 @@ fn text() -> Text {
     }
 }
 
-/// Two lines of at most ten characters of 2 mm: w = 12, H = 4.
+/// Two lines of at most ten characters with a height of 2 mm: w = 12, H = 4.
 fn mtext() -> MText {
     MText {
         plain: "0123456789\n012".into(),
@@ -32,7 +32,7 @@ fn mtext() -> MText {
     }
 }
 
-/// Where a text's circle is, from its anchor.
+/// The centre of a text's circle relative to the anchor.
 fn offset(circle: TextCircle) -> (f64, f64) {
     let round = |number: f64| (number * 1e9).round() / 1e9;
     (round(circle.centre.x - ANCHOR.x), round(circle.centre.y - ANCHOR.y))
@@ -63,7 +63,7 @@ fn rows_longer_than_the_width_are_broken_at_blanks() {
         let unbroken = |plain: &str| TextCircle::of_mtext(&MText { plain: plain.into(), ..mtext() });
         move |rows: &str| TextCircle::of_mtext(&text) == unbroken(rows)
     };
-    // A letter is 1.2 mm wide: nine of them have 10.8 mm.
+    // A character is 1.2 mm wide: nine of them take 10.8 mm.
     assert!(size("B4.5 F50 QTeil-Eins", 10.8)("B4.5 F50\nQTeil-Eins"));
     assert!(size("B4.5 F50 Q", 9.6)("B4.5 F50\nQ"), "just room for eight");
     assert!(size("B4.5 F50 Q", 9.5)("B4.5\nF50 Q"), "just none");
@@ -109,12 +109,12 @@ fn mirrored_texts_mirror_the_offset() {
     assert_eq!(drawn(true, false), (-6.0, 1.0));
     assert_eq!(drawn(false, true), (6.0, -1.0));
     assert_eq!(drawn(true, true), (-6.0, -1.0));
-    // The mirrored text is turned, not the other way round.
+    // The mirrored text is rotated, not the other way round.
     let turned = Text { backwards: true, rotation: 90.0, ..text() };
     assert_eq!(offset(TextCircle::of_text(&turned)), (-1.0, -6.0));
 }
 
-/// `%%d` is one character to the eye and three to the circle.
+/// `%%d` is displayed as one character but counts as three.
 #[test]
 fn lengths_are_those_of_the_raw_string() {
     let with_code = Text { string: "1234567%%d".into(), ..text() };
@@ -123,7 +123,7 @@ fn lengths_are_those_of_the_raw_string() {
     assert_eq!(offset(TextCircle::of_mtext(&with_code)), (6.0, -2.0));
 }
 
-/// Characters, not bytes.
+/// Counts characters, not bytes.
 #[test]
 fn every_character_counts_once() {
     let umlauts = Text { string: "äöüß€äöüß€".into(), ..text() };

@@ -1,10 +1,10 @@
-//! What stands in a parameter text. (book: language/parameter-texts)
+//! The content of parameter texts. (book: language/parameter-texts)
 
 use pathbuild_path::{ElementClass, Letter, ParameterTexts, parse_integer, parse_number};
 
 use crate::support::{codes, compile, path, raw, wrong};
 
-/// The pieces of a text: letters with their values, `?` for what is no letter.
+/// The pieces of a text: letters with their values, and `?` for other characters.
 fn pieces(text: &str) -> Vec<String> {
     let texts = ParameterTexts::from(text);
     let text = texts.first().unwrap();
@@ -37,7 +37,7 @@ fn pieces_are_separated_by_blanks_and_line_breaks() {
     assert_eq!(pieces(""), [""; 0]);
 }
 
-/// A comment with a gap in it is written with non-breaking spaces.
+/// Comments with spaces are written with non-breaking spaces.
 #[test]
 fn a_non_breaking_space_separates_nothing() {
     assert_eq!(pieces("Qa\u{a0}b B1"), ["Q=a\u{a0}b", "B=1"]);
@@ -49,12 +49,12 @@ fn a_tilde_at_a_lines_end_continues_the_value() {
     assert_eq!(pieces("Qlong~\r\n \t value B1"), ["Q=longvalue", "B=1"]);
     assert_eq!(pieces("Qlong~\n\n\nvalue"), ["Q=longvalue"]);
     assert_eq!(pieces("Qone~\ntwo~\nthree"), ["Q=onetwothree"]);
-    // Elsewhere a tilde is itself.
+    // Elsewhere, a tilde is an ordinary character.
     assert_eq!(pieces(":a1~2 Qx~"), [":=a1~2", "Q=x~"]);
     assert_eq!(pieces("Qlong~ B1"), ["Q=long~", "B=1"]);
 }
 
-/// Blanks behind a tilde cannot be seen in a CAD.
+/// Spaces after a tilde are invisible in a CAD program.
 #[test]
 fn a_tilde_and_blanks_at_a_lines_end_continue_the_value() {
     for blanks in [" ", "  ", "\t", " \t ", "\u{a0}", "\u{2003}"] {
@@ -64,7 +64,7 @@ fn a_tilde_and_blanks_at_a_lines_end_continue_the_value() {
     assert_eq!(pieces(":a1,~  2"), [":=a1,~", "?="]);
     assert_eq!(pieces(":a1,~  "), [":=a1,~"]);
     assert_eq!(pieces("Qa~ ~\nb"), ["Q=a~", "?="]);
-    // What the next line begins with belongs to the value.
+    // The beginning of the next line belongs to the value.
     assert_eq!(pieces("Qa~ \n\u{a0}b"), ["Q=a\u{a0}b"]);
 }
 
@@ -86,7 +86,7 @@ fn percent_codes_are_replaced() {
     assert_eq!(text("%%u%%"), "Q%%u%%");
 }
 
-/// Of long and short ones, of the last few and of those before them, in a path of more elements than are looked at together.
+/// For long and short texts, for recent and earlier ones, in a path with more elements than are compared.
 #[test]
 fn each_element_has_the_text_that_is_drawn_beside_it() {
     let same = |length: usize| "a".repeat(length);
@@ -184,7 +184,7 @@ fn n_is_a_whole_number() {
     assert_eq!(mill("N1.5"), ["PB205 N"]);
 }
 
-/// What is there and no number is not missing besides.
+/// A value that is not a number is not reported as missing as well.
 #[test]
 fn what_is_no_number_is_reported_alone() {
     let mill = |text: &str| wrong(&path("T5 O3 I1", &format!("mill 0,0 40,0 \"{text}\"\nend 40,0")));
@@ -192,7 +192,7 @@ fn what_is_no_number_is_reported_alone() {
     assert_eq!(mill("Bx"), ["PB205 B"]);
     assert_eq!(mill("F1"), ["PB201 B"]);
     assert_eq!(wrong(&path("Tx O3 I1 B0", "mill 0,0 40,0\nend 40,0")), ["PB205 T"]);
-    // Nor is a value that nothing can be said about compared with its limits.
+    // An invalid value is not compared with its limits either.
     assert_eq!(wrong(&path("T5 O3 I1 Bx S4", "mill 0,0 40,0\nend 40,0")), ["PB205 B", "PB203 S"]);
 }
 

@@ -8,7 +8,7 @@ fn definition(text: &str) -> Definition {
     Definition::parse(text).unwrap_or_else(|problem| panic!("{text}: {problem:?}"))
 }
 
-/// Which of some values a definition allows.
+/// The values that a definition permits.
 fn allowed<'a>(text: &str, values: &[&'a str]) -> Vec<&'a str> {
     let definition = definition(text);
     values.iter().copied().filter(|value| definition.allows(value)).collect()
@@ -23,7 +23,7 @@ fn a_range_allows_both_ends_and_what_is_between() {
     let values = ["-0.5", "-0,5", "0", "1.2", "1.1999999", "-0.51", "1.21", "x", ""];
     assert_eq!(allowed("x-0.5~1,2", &values), ["-0.5", "-0,5", "0", "1.2", "1.1999999"]);
     assert_eq!(allowed("x2~2", &["2", "2.1"]), ["2"]);
-    // Approximately, as everywhere.
+    // Compared approximately, as everywhere.
     assert_eq!(allowed("x1~2", &["2.000001", "2.00001"]), ["2.000001"]);
 }
 
@@ -34,7 +34,7 @@ fn a_range_is_the_right_way_round() {
     assert!(is_wrong("x2~1,9"));
 }
 
-/// With decimal commas it would be a list as well: the range is tried first.
+/// With decimal commas it could also be a list: the range is tried first.
 #[test]
 fn a_range_comes_before_a_list() {
     assert_eq!(allowed("x-0,5~0,4", &["0", "-0,5", "5~0"]), ["0", "-0,5"]);
@@ -76,7 +76,7 @@ fn a_wrong_definition_is_reported_at_the_start() {
     assert_eq!(with(":"), ["PB301"]);
 }
 
-/// k counts from 0 over all variables as they are written.
+/// k counts all variables from 0 as written.
 #[test]
 fn check_values_are_examples_of_each_definition() {
     let values = |definitions: &str| {
@@ -100,7 +100,7 @@ fn corner_values_are_all_of_a_list_and_the_ends_of_a_range() {
     assert_eq!(definition("a?xy").corner_values(), ["x", "y"]);
 }
 
-/// A path with a text on its line, and values for its variables.
+/// A path with a text on its line and values for its variables.
 fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
     let definitions: Vec<String> = values.iter().map(|(name, _)| format!(":{name}1~2")).collect();
     let raw = raw(&path(
@@ -111,7 +111,7 @@ fn bound(text: &str, values: &[(char, &str)]) -> crate::support::Compiled {
     compile_raw(&raw, &bindings, &language())
 }
 
-/// What Q comes to, or the codes of what is wrong.
+/// The value of Q, or the codes of the findings.
 fn filled(text: &str, values: &[(char, &str)]) -> String {
     let compiled = bound(&format!("Q{text}"), values);
     match compiled.path {
@@ -141,7 +141,7 @@ fn a_value_that_leads_back_to_itself_is_an_error() {
     assert_eq!(filled("=a", &[('a', "=b"), ('b', "=c"), ('c', "x")]), "x");
 }
 
-/// A chain of that many variables, each the value of the one before; the last is `x`.
+/// A chain of variables, each defined by the next; the last one is `x`.
 fn chained(count: u32) -> String {
     let names: Vec<char> = (0..count).filter_map(|index| char::from_u32(0x4e00 + index)).collect();
     let mut values: Vec<(char, String)> =
@@ -151,7 +151,7 @@ fn chained(count: u32) -> String {
     filled(&format!("={}", names[0]), &values)
 }
 
-/// Thousands of variables would make a round each.
+/// Thousands of variables would require a pass each.
 #[test]
 fn values_refer_to_others_up_to_a_depth() {
     assert_eq!((chained(65), chained(66)), ("x".to_owned(), "PB305".to_owned()));
@@ -165,7 +165,7 @@ fn a_reference_to_nothing_is_an_error() {
     assert_eq!(filled("=A", &[('a', "1")]), "PB303");
 }
 
-/// Variables that double: each round would make the text twice as long.
+/// Variables that double the text in each pass.
 #[test]
 fn a_text_does_not_grow_beyond_the_limit() {
     let double: Vec<(char, String)> =
@@ -173,7 +173,7 @@ fn a_text_does_not_grow_beyond_the_limit() {
     let mut values: Vec<(char, &str)> = double.iter().map(|(name, value)| (*name, value.as_str())).collect();
     values.push(('z', "x"));
     assert_eq!(filled("=a", &values), "PB005");
-    // Ten levels are 512 letters.
+    // Ten levels give 512 letters.
     assert_eq!(filled("=q", &values).len(), 512);
 }
 
@@ -185,7 +185,7 @@ fn a_filled_value_is_checked_like_any_other() {
     assert_eq!(codes_of("B=a", "5"), ["PB203 B"]);
 }
 
-/// A definition is no text with references, though it may have "=" in it: `:a=b,=c` is a list of two references.
+/// References are not substituted in definitions, although they may contain "=": `:a=b,=c` is a list of two references.
 #[test]
 fn definitions_are_not_filled_in() {
     assert_eq!(definition("a=b,=c").corner_values(), ["=b", "=c"]);
@@ -205,7 +205,7 @@ fn a_path_is_not_emitted_without_values_of_its_variables() {
     assert_eq!(missing(&[]), ["PB302", "PB302"]);
 }
 
-/// Bindings are the same however they were written.
+/// Bindings are equal regardless of their order.
 #[test]
 fn bindings_compare_without_order() {
     let bindings =

@@ -7,7 +7,7 @@ use pathbuild_path::{Bindings, Curve, Xy};
 
 const P: &str = "T5 O3 I1 B0 D2";
 
-/// What is wrong with a path of these statements, and the help's sentences.
+/// The findings about a path with these statements, and the sentences of their help.
 fn found(statements: &str) -> (Vec<String>, Vec<String>) {
     let compiled = compile(&path(P, statements));
     let notes = compiled.found.iter().flat_map(|found| &found.notes);
@@ -35,7 +35,7 @@ fn an_arc_is_turned_round_with_its_direction() {
     assert_eq!(arc("mill arc centre 10,0 r 10 from 0 to 180"), (true, 180.0));
 }
 
-/// Points coincide where the square of their distance is near 0: within 0.0000316 mm.
+/// Points coincide if the square of their distance is near 0: within 0.0000316 mm.
 #[test]
 fn ends_that_nearly_meet_do() {
     assert_eq!(codes_of("mill 0,0 20,0\nmill 20.000031,0 40,0\nend 40,0"), [""; 0]);
@@ -49,7 +49,7 @@ fn ends_that_nearly_meet_do() {
     assert_eq!(codes_of("mill 0,0 20,0\nmill 20.00003,0.00002 40,0\nend 40,0"), ["PB401"]);
 }
 
-/// Ends are looked for in squares: no two of these squares may keep them apart.
+/// The grid of squares must not separate two ends that nearly meet.
 #[test]
 fn ends_that_nearly_meet_do_wherever_they_are() {
     for step in 0..510 {
@@ -74,7 +74,7 @@ fn a_duplicate_is_named() {
     assert_eq!((codes, notes), (vec!["PB402".to_owned()], Vec::<String>::new()));
     let [problem] = &compile(&path("T5 O3 I1 B0", twice)).found[..] else { panic!() };
     assert!(problem.text(Lang::En).starts_with("a milling segment at (20, 0) is drawn twice"));
-    // An arc between the same points is another way.
+    // An arc between the same points is a different way.
     let (codes, notes) =
         found("mill 0,0 20,0\nmill 20,0 40,0\nmill arc 40,0 60,0 r 10\nmill 60,0 80,0\nend 40,0");
     assert_eq!((codes.len(), notes.len()), (1, 0));
@@ -95,14 +95,14 @@ fn segments_that_are_left_over_at_the_end_are_counted() {
 fn the_end_must_be_reached() {
     assert_eq!(codes_of("mill 0,0 20,0\nend 20,0"), [""; 0]);
     assert_eq!(codes_of("mill 0,0 20,0\nend 30,0"), ["PB403"]);
-    // Not after PB401, which is the same fault.
+    // Not after PB401, which has the same cause.
     assert_eq!(codes_of("mill 0,0 20,0\nmill 30,0 40,0\nend 50,0"), ["PB401"]);
 }
 
 #[test]
 fn the_walk_passes_the_end_as_long_as_something_continues() {
     let lines = "mill 0,0 20,0\nmill 20,0 20,20\nmill 20,20 0,0\nmill 0,0 20,20 \"N9999\"\nend 20,20";
-    // Two of the lines lie on each other.
+    // Two of the lines coincide.
     assert_eq!(codes_of(lines), ["PB116"]);
     assert_eq!(items(&path(P, "mill 0,0 20,0\nmill 20,0 40,0\nmill 40,0 20,0.0\nend 20,0")).len(), 1);
 }
@@ -119,7 +119,7 @@ fn a_closed_path_ends_where_it_starts() {
     assert_eq!(codes_of("mill 0,0 20,0 20,20 0,0\nend 0,0"), [""; 0]);
 }
 
-/// Without tolerance nothing is joined; with it what is nearest, with a warning each.
+/// Without a tolerance nothing is joined; with one, the nearest ends are, each with a warning.
 #[test]
 fn ends_within_the_tolerance_are_joined() {
     let raw = raw(&path(P, "mill 0,0 20,0\nmill 20.01,0 40,0\nend 40.01,0"));
@@ -136,7 +136,7 @@ fn ends_within_the_tolerance_are_joined() {
     assert_eq!(found(0.011), ["PB115", "PB115"]);
 }
 
-/// An arc's centre and radius stay: a short line leads to it. Lines are drawn out.
+/// An arc keeps its centre and radius and gets a short line that leads to it. Lines are extended.
 #[test]
 fn a_joined_arc_stays_where_it_is() {
     let joined = |drawn: &str| {
@@ -152,7 +152,7 @@ fn a_joined_arc_stays_where_it_is() {
     };
     assert_eq!((line.end, lead.start, lead.end), (Xy::new(20.0, 0.0), Xy::new(20.0, 0.0), arc.start));
     assert_eq!((arc.centre, arc.radius, arc.end), (Xy::new(25.01, 0.0), 5.0, Xy::new(25.01, 5.0)));
-    // Back over it from a dead end.
+    // Retraced from a dead end.
     let compiled = joined("mill 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180\nturn 25.01,5\nend 0,0");
     let ends: Vec<Xy> = compiled.first_chain().iter().map(Curve::end).collect();
     let tip = Xy::new(25.01, 5.0);
@@ -162,7 +162,7 @@ fn a_joined_arc_stays_where_it_is() {
     assert_eq!([ends[4], ends[5]], [Xy::new(20.0, 0.0), Xy::new(0.0, 0.0)]);
 }
 
-/// The line that leads into an arc is no segment of its own: letters of the arc are those of the chain's first segment.
+/// The line that leads into an arc is not a segment of its own: letters of the arc count as those of the chain's first segment.
 #[test]
 fn a_joined_arc_may_begin_a_chain() {
     let drawn = "sweep 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180 \"I1\"\nend 25.01,5";

@@ -1,4 +1,4 @@
-//! How much is looked at, and how far.
+//! The number of ends examined, and the search distance.
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use super::{Ends, Squares};
 use crate::approx::coincide;
 use crate::geometry::Xy;
 
-/// How many ends are looked at when it is asked for each of them what meets there.
+/// The number of ends examined when each end is queried for its neighbours.
 fn looked_at(points: &[Xy]) -> usize {
     let ends = Ends::of_segments(points.iter().map(|point| [*point; 2]));
     let mut count = 0;
@@ -19,7 +19,7 @@ fn looked_at(points: &[Xy]) -> usize {
     count
 }
 
-/// So many points in rows and columns, none of which meet, in a small part of a mm.
+/// Points in a grid in a tiny part of a mm, none of which coincide.
 fn crowd(side: u32) -> Vec<Xy> {
     const APART: f64 = 0.000_04;
     let at = |number: u32| APART * f64::from(number);
@@ -29,7 +29,7 @@ fn crowd(side: u32) -> Vec<Xy> {
     points
 }
 
-/// Four times as many points in as many times the room, all within the thousandth part of a mm² or less.
+/// Four times as many points in four times the area, all within a thousandth of a mm² or less.
 #[test]
 fn ends_that_lie_close_but_do_not_meet_are_not_looked_at() {
     let (one, four) = (looked_at(&crowd(50)), looked_at(&crowd(100)));
@@ -37,7 +37,7 @@ fn ends_that_lie_close_but_do_not_meet_are_not_looked_at() {
     assert!(one <= 100 * 2500, "{one}");
 }
 
-/// A point, and one so far from it in a direction.
+/// A point, and another one at this distance in a random direction.
 fn apart(distance: f64) -> impl Strategy<Value = [Xy; 2]> {
     let coordinate =
         || prop_oneof![-0.01..0.01, -9000.0..9000.0, (-90..90).prop_map(|it| f64::from(it) / 10.0)];
@@ -47,7 +47,7 @@ fn apart(distance: f64) -> impl Strategy<Value = [Xy; 2]> {
     })
 }
 
-/// Points coincide that are nearer than about this, in mm.
+/// Approximate distance in mm below which points coincide.
 const MEETING: f64 = 0.000_031_6;
 
 fn ends([one, other]: [Xy; 2]) -> Ends {

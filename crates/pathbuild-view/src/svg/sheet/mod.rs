@@ -1,6 +1,6 @@
 //! The setup sheet of a program: A4 pages, the first with a picture and a checklist. (book: program/sheet)
 //!
-//! [`Sheet`] is the data; it becomes blocks, which are laid out on [`Page`]s and drawn as SVG.
+//! [`Sheet`] is the data; it becomes blocks, which are laid out on pages and drawn as SVG.
 
 mod blocks;
 mod facts;
