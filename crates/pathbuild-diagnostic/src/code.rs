@@ -1,25 +1,25 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// How bad a diagnostic is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum Severity {
-    /// Nothing is written of the path it is in; the run exits with 1.
+    /// The path gets no program, and the exit status is 1.
     Error,
-    /// Worth a look; hides and stops nothing.
+    /// A warning, which does not prevent anything.
     Warning,
 }
 
 macro_rules! codes {
     ($($number:literal $variant:ident $name:literal $severity:ident $when:literal;)*) => {
-        /// The code of a diagnostic. Codes are stable: a number is never used again for something else. (book: reference/diagnostics)
+        /// The code of a diagnostic. Codes are stable: a number is never reused for anything else. (book: reference/diagnostics)
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Code {
             $(#[doc = $when] $variant,)*
         }
 
         impl Code {
-            /// Every code, in order of number.
+            /// All codes in order of their numbers.
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
             /// The number in `PB203`.
@@ -27,12 +27,12 @@ macro_rules! codes {
                 match self { $(Self::$variant => $number,)* }
             }
 
-            /// The readable name, such as `parameter-out-of-range`.
+            /// The readable name, for example `parameter-out-of-range`.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// The severity when the configuration says nothing.
+            /// The default severity.
             pub fn severity(self) -> Severity {
                 match self { $(Self::$variant => Severity::$severity,)* }
             }
@@ -197,20 +197,21 @@ codes! {
 }
 
 impl Code {
-    /// Whether the configuration may lower it: errors that stop a program from being right cannot be. (book: reference/configuration)
+    /// Whether the configuration may lower its severity. Errors that would make a program wrong cannot be lowered. (book:
+    /// reference/configuration)
     pub fn can_be_lowered(self) -> bool {
         self.severity() == Severity::Warning || self.number() >= 600
     }
 }
 
-/// Shown as `PB203`.
+/// Displays as `PB203`.
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "PB{:03}", self.number())
     }
 }
 
-/// Reads `PB203` (any case) or the readable name.
+/// Parses `PB203` in any case, or the readable name.
 impl FromStr for Code {
     type Err = ();
 

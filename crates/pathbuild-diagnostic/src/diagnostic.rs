@@ -9,35 +9,35 @@ use crate::{
 
 type Arguments = Vec<(&'static str, Value)>;
 
-/// One thing that is wrong, or doubtful: which message, with which values, where.
+/// A finding: its message, the values in it, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Diagnostic {
-    /// What is said.
+    /// The message.
     #[serde(deserialize_with = "kept::message")]
     pub message: &'static Message,
-    /// The catalogue's severity of the code; the configuration can change it when it is reported.
+    /// The default severity of the code. The configuration may change it when the diagnostic is reported.
     pub severity: Severity,
     /// The values in the message and its help, by name.
     #[serde(deserialize_with = "kept::arguments")]
     pub arguments: Arguments,
-    /// More that helps: the nearest open end, where a path was searched.
+    /// Further details, for example the nearest open end.
     pub notes: Vec<Note>,
-    /// The file it is in. Stages that know no files leave it empty; their caller fills it in.
+    /// The file. Stages that know no files leave it empty for their caller to fill in.
     pub file: Option<Utf8PathBuf>,
-    /// The path it is in, spelt as in the drawing.
+    /// The path, as spelt in the drawing.
     pub path: Option<Box<str>>,
-    /// Where in the file.
+    /// The place in the file.
     pub place: Place,
-    /// The text that is at fault.
+    /// The faulty text.
     pub text: Option<TextFault>,
-    /// The embeddings that led here, outermost first.
+    /// The embeddings that lead here, outermost first.
     pub trace: Vec<TraceStep>,
 }
 
-/// A further sentence under a diagnostic.
+/// An additional sentence about a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Note {
-    /// What is said.
+    /// The message.
     #[serde(deserialize_with = "kept::message")]
     pub message: &'static Message,
     /// The values in it.
@@ -45,19 +45,19 @@ pub struct Note {
     pub arguments: Arguments,
 }
 
-/// One embedding on the way to an erroneous path.
+/// An embedding on the way to an erroneous path.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TraceStep {
-    /// The drawing that embeds.
+    /// The embedding drawing.
     pub file: Utf8PathBuf,
-    /// The path that embeds.
+    /// The embedding path.
     pub path: Box<str>,
-    /// Where the subpath segment begins.
+    /// The start of the subpath segment.
     pub point: Point,
 }
 
 impl Diagnostic {
-    /// A diagnostic that knows no place yet.
+    /// Creates a diagnostic without a place.
     pub fn new(message: &'static Message) -> Self {
         Self {
             message,
@@ -72,34 +72,34 @@ impl Diagnostic {
         }
     }
 
-    /// The code it is reported under.
+    /// The code under which it is reported.
     pub fn code(&self) -> Code {
         self.message.code
     }
 
-    /// Whether it stops the path or file it is in.
+    /// Whether it is an error, which prevents a program.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 
-    /// What is wrong, in one sentence.
+    /// The message as a sentence.
     pub fn text(&self, lang: Lang) -> String {
         fill(self.message.text.template(lang), &self.arguments, lang)
     }
 
-    /// What to do about it; `None` when the message says all.
+    /// Advice on how to solve the problem; `None` if the message says it all.
     pub fn help(&self, lang: Lang) -> Option<String> {
         let template = self.message.help.template(lang);
         (!template.is_empty()).then(|| fill(template, &self.arguments, lang))
     }
 
-    /// Sets a value of the message.
+    /// Sets a value in the message.
     pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
         self.arguments.push((name, value.into()));
         self
     }
 
-    /// Adds a further sentence.
+    /// Adds a note.
     pub fn note(mut self, message: &'static Message, arguments: Vec<(&'static str, Value)>) -> Self {
         self.notes.push(Note { message, arguments });
         self
@@ -117,14 +117,14 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the line, and the column where it is known (both from 1).
+    /// Sets the line and, if known, the column, both counted from 1.
     pub fn at_line(mut self, line: u32, column: Option<u32>) -> Self {
         self.place.line = Some(line);
         self.place.column = column;
         self
     }
 
-    /// Sets the element by number, with what is known of it without the source map.
+    /// Sets the element by its number, with everything that is known without the source map.
     pub fn at_element(mut self, element: ElementId, entity: EntityKind, layer: &str, point: Point) -> Self {
         self.place.element = Some(element);
         self.place.entity = Some(entity);
@@ -133,7 +133,7 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the place in the drawing.
+    /// Sets the point in the drawing.
     pub fn at_point(mut self, point: Point) -> Self {
         self.place.point = Some(point);
         self
@@ -145,13 +145,13 @@ impl Diagnostic {
         self
     }
 
-    /// Fills in the line and handle of the element, once it is known which.
+    /// Fills in the line and handle of the element from the source map.
     pub fn locate(&mut self, line: u32, handle: Option<Handle>) {
         self.place.line = Some(line);
         self.place.handle = handle;
     }
 
-    /// What diagnostics are ordered by wherever several are shown: file, path, place, code.
+    /// The key for sorting diagnostics wherever several are shown: file, path, place, code.
     pub fn sort_key(&self) -> impl Ord + '_ {
         (
             &self.file,
@@ -164,7 +164,7 @@ impl Diagnostic {
         )
     }
 
-    /// The line that the message names, of something that is no file.
+    /// The line named by the message, if that concerns something other than a file.
     fn named_line(&self) -> Option<u64> {
         let line = self.arguments.iter().find(|(name, _)| *name == "line").map(|(_, value)| value);
         match line {
@@ -175,7 +175,7 @@ impl Diagnostic {
 }
 
 impl Note {
-    /// The sentence.
+    /// The note as a sentence.
     pub fn text(&self, lang: Lang) -> String {
         fill(self.message.text.template(lang), &self.arguments, lang)
     }

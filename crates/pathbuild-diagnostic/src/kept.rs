@@ -1,5 +1,5 @@
-//! Statics of the program in what outlives a process: messages by their keys; names of arguments and words come back as one leaked copy each:
-//! there are a few dozen.
+//! Deserializes statics of the program from caches: messages by their keys, and names of arguments and words as one leaked copy each. There
+//! are only a few dozen.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::{LazyLock, Mutex, PoisonError};
@@ -17,7 +17,7 @@ impl Serialize for Message {
     }
 }
 
-/// The message of a key; an error where this program has none.
+/// The message with a key; an error if this version has no such message.
 pub(crate) fn message<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Message, D::Error> {
     static BY_KEY: LazyLock<HashMap<&str, &Message>> =
         LazyLock::new(|| messages::all().map(|message| (message.key, message)).collect());
@@ -25,7 +25,7 @@ pub(crate) fn message<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'st
     BY_KEY.get(key).copied().ok_or_else(|| D::Error::custom("no message of this program"))
 }
 
-/// The values of a message.
+/// The values in a message.
 pub(crate) fn arguments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arguments, D::Error> {
     let arguments = Vec::<(&str, Value)>::deserialize(deserializer)?;
     Ok(arguments.into_iter().map(|(name, value)| (name_of(name), value)).collect())
@@ -41,7 +41,7 @@ pub(crate) fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'stati
     Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Word { en, de }))))
 }
 
-/// One copy of a text for the rest of the run.
+/// A single copy of a text that lives until the process ends.
 fn name_of(text: &str) -> &'static str {
     static KEPT: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Mutex::default);
     let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);

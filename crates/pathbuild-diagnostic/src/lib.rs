@@ -1,9 +1,9 @@
 //! Diagnostics as plain values, and the catalogue of their codes, texts and pages in English and German.
 //!
-//! A [`Diagnostic`] is what a stage found wrong: which [`Message`], the values in it, and where. It holds no text of its own, so it
-//! is cheap to compare (query results are compared after every edit) and can be shown in any language and format. Everything that
-//! is *said* stands in [`messages`] and in the pages of `explain`; everything that is *shown* (colours, underlining, JSON) is the
-//! program's business. This crate prints nothing and does not know miette. (book: reference/diagnostics)
+//! A [`Diagnostic`] is a finding of a stage: a [`Message`], the values in it, and its place. It contains no text of its own, so it is cheap
+//! to compare (query results are compared after every edit) and can be rendered in any language and format. All wording is in [`messages`]
+//! and in the pages of `explain`; presentation (colours, underlining, JSON) is up to the program. This crate prints nothing and does not
+//! depend on miette. (book: reference/diagnostics)
 
 mod code;
 mod diagnostic;

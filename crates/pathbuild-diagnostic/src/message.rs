@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Code, Number, Point, in_prose, kept, shown};
 
-/// The languages that pathbuild speaks.
+/// The supported languages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Lang {
     /// English.
@@ -15,7 +15,7 @@ pub enum Lang {
     De,
 }
 
-/// One sentence in every language, with `{name}` where an argument goes.
+/// A sentence in every language, with `{name}` as placeholders for arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Text {
     /// English.
@@ -25,7 +25,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// The sentence in one language, its arguments not yet put in.
+    /// The sentence in one language, with placeholders.
     pub fn template(&self, lang: Lang) -> &'static str {
         match lang {
             Lang::En => self.en,
@@ -34,18 +34,18 @@ impl Text {
     }
 }
 
-/// What can be said under a code. A code has one message for each way in which it happens.
+/// A message of the catalogue. A code has one message for each way in which the problem occurs.
 ///
-/// Messages are statics made by the `messages!` macro in [`crate::messages`]; two are equal when they are the same static.
+/// Messages are statics declared by the `messages!` macro in [`crate::messages`]; two messages are equal if they are the same static.
 #[derive(Debug)]
 pub struct Message {
-    /// The code that it is said under. A note's is that of the diagnostics it usually goes with.
+    /// The code under which it is reported. A note has the code of the diagnostics that it usually accompanies.
     pub code: Code,
-    /// Unique name, the static's own with its module: stable within a version, for caches and tests.
+    /// A unique name, derived from that of the static and its module. It is stable within a version, for caches and tests.
     pub key: &'static str,
-    /// What is wrong.
+    /// The problem.
     pub text: Text,
-    /// What to do about it in the CAD (or in the file). Empty when the message says it.
+    /// Advice for the CAD program or the file. Empty if the message says it all.
     pub help: Text,
 }
 
@@ -68,15 +68,15 @@ impl Hash for Message {
 pub enum Value {
     /// A name or a piece of source text.
     Text(Box<str>),
-    /// Millimetres, or mm/min.
+    /// A number in mm or mm/min.
     Number(Number),
     /// A count.
     Count(u64),
-    /// A place in the drawing.
+    /// A point in the drawing.
     Point(Point),
-    /// Names, shown with commas between.
+    /// Names, displayed as a comma-separated list.
     List(Box<[Box<str>]>),
-    /// A word that itself has a translation.
+    /// A word with a translation of its own.
     Word(#[serde(deserialize_with = "kept::word")] &'static Word),
 }
 
@@ -90,7 +90,7 @@ pub struct Word {
 }
 
 impl Word {
-    /// The word in a language.
+    /// The word in one language.
     pub fn in_lang(&self, lang: Lang) -> &'static str {
         match lang {
             Lang::En => self.en,
@@ -107,7 +107,7 @@ impl Value {
         }
     }
 
-    /// The value as it is put into a message: on one line, and all that acts in it escaped.
+    /// Renders the value for a message: on one line, with special characters escaped.
     pub fn render(&self, lang: Lang) -> String {
         match self {
             Self::Text(text) => shown::line(text).into_owned(),
@@ -178,7 +178,7 @@ impl<S: AsRef<str>> FromIterator<S> for Value {
     }
 }
 
-/// Puts arguments into a template. A `{name}` without an argument stays as it is, which tests look for.
+/// Fills in the placeholders of a template. A `{name}` without an argument is left as it is, so that tests can find it.
 pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: Lang) -> String {
     let mut filled = String::with_capacity(template.len() + 32);
     let mut rest = template;
@@ -189,7 +189,7 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
         match arguments.iter().find(|(argument, _)| *argument == name) {
             Some((_, Value::Number(number))) => {
                 let text = number.apart_from(arguments.iter().filter_map(|(_, value)| value.number()));
-                // A number behind a letter is a parameter or a word of G-code: `O2.5`.
+                // A number directly after a letter is a parameter or a word of G-code, for example `O2.5`.
                 let is_word = filled.ends_with(|before: char| before.is_ascii_uppercase());
                 filled.push_str(&if is_word { text } else { in_prose(text, lang) });
             }

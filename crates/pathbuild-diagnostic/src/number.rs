@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::Lang;
 
-/// A finite or non-finite `f64` that can be compared exactly and hashed, so that values holding it are `Eq`.
+/// An `f64` that can be compared exactly and hashed, so that values containing it are `Eq`.
 ///
-/// Equality is that of the bits, except that -0 equals 0. It is exact on purpose: whether two coordinates of a drawing coincide is
-/// decided by the approximate comparisons of book: reference/glossary, never by this type.
+/// Equality is bitwise, except that -0 equals 0. It is deliberately exact: whether two coordinates of a drawing coincide is decided by the
+/// approximate comparisons of book: reference/glossary, never by this type.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Number(pub f64);
 
@@ -25,7 +25,7 @@ impl From<f64> for Number {
 }
 
 impl Number {
-    /// The number with as many decimals as tell it from other numbers of the same sentence: "8 mm is greater than 8" helps nobody.
+    /// The number with enough decimals to distinguish it from the other numbers in a sentence, to avoid "8 mm is greater than 8".
     pub(crate) fn apart_from(self, others: impl Iterator<Item = Self>) -> String {
         let shown = self.to_string();
         let equal: Vec<Self> = others.filter(|other| *other != self && other.to_string() == shown).collect();
@@ -36,21 +36,21 @@ impl Number {
         decimals.map_or(shown, |decimals| trimmed(&with(self, decimals)).to_owned())
     }
 
-    /// The number as it stands in a sentence of a language: `0.5`, in German `0,5`.
+    /// The number in a sentence: `0.5`, or `0,5` in German.
     pub fn prose(self, lang: Lang) -> String {
         in_prose(self.to_string(), lang)
     }
 }
 
-/// Numbers that differ by less are the same to everybody but to a computer.
+/// Maximum number of decimals; smaller differences have no practical meaning.
 const MOST_DECIMALS: usize = 9;
 
-/// Decimals without the zeros at their end.
+/// Decimals without trailing zeros.
 fn trimmed(decimals: &str) -> &str {
     decimals.trim_end_matches('0').trim_end_matches('.')
 }
 
-/// A number as it stands in a sentence or a table of a language. Coordinates, parameters and G-code, which people type back, keep their point.
+/// A number in a sentence or table. Coordinates, parameters and G-code keep their decimal point in any language, since they are typed back.
 pub fn in_prose(number: String, lang: Lang) -> String {
     match lang {
         Lang::En => number,
@@ -84,8 +84,8 @@ impl Ord for Number {
     }
 }
 
-/// Shows at most three decimals and no trailing zeros: what a person reads off a drawing. Very small values, which three decimals
-/// would show as 0 (a gap of half a micrometre), are shown with two significant digits instead.
+/// Displays at most three decimals without trailing zeros, the precision of a drawing. Very small values that would appear as 0, such as a
+/// gap of half a micrometre, are displayed with two significant digits.
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.0;

@@ -1,11 +1,11 @@
 use crate::{Code, Lang};
 
-/// Declares the pages: `PBnnn.en.md`, `PBnnn.de.md` and, where there is one, the example `PBnnn.draw`, which stands at the end of both as a
-/// table (tests/cli/book/examples.rs).
+/// Declares the pages: `PBnnn.en.md`, `PBnnn.de.md` and, if there is one, the example `PBnnn.draw`, which is rendered as a table at the end
+/// of both (tests/cli/book/examples.rs).
 macro_rules! pages {
     ($($code:ident $file:literal $($example:ident)?;)*) => {
-        /// The page that `pathbuild explain` prints for a code, as Markdown: what it means, usual causes, what to do in the
-        /// drawing, an example. `None` for a code that has no page.
+        /// The page that `pathbuild explain` prints for a code, as Markdown: meaning, usual causes, remedy, example. `None` for a code
+        /// without a page.
         pub fn page(code: Code, lang: Lang) -> Option<&'static str> {
             match (code, lang) {
                 $((Code::$code, Lang::En) => Some(include_str!(concat!("pages/", $file, ".en.md"))),
@@ -15,8 +15,8 @@ macro_rules! pages {
             }
         }
 
-        /// The example on a code's page: a fixture (crates/pathbuild-testkit) with commands that give exactly the diagnostics noted in
-        /// it. `None` where a few lines cannot show it.
+        /// The example on the page of a code: a fixture (crates/pathbuild-testkit) whose commands give exactly the noted diagnostics.
+        /// `None` if the problem cannot be shown in a few lines.
         pub fn example(code: Code) -> Option<&'static str> {
             match code {
                 $($(Code::$code => Some(drawn!($example $file)),)?)*

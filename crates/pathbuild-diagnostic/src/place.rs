@@ -5,23 +5,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::Number;
 
-/// A place in a drawing's plane, in millimetres of the drawing's own coordinates.
+/// A point in the plane of a drawing, in mm and in its own coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Point {
-    /// To the right.
+    /// The X coordinate.
     pub x: Number,
-    /// Upwards.
+    /// The Y coordinate.
     pub y: Number,
 }
 
 impl Point {
-    /// The point (x, y), in millimetres.
+    /// The point (x, y) in mm.
     pub fn new(x: f64, y: f64) -> Self {
         Self { x: Number(x), y: Number(y) }
     }
 }
 
-/// A DXF handle: the number that the CAD shows as an entity's identity, written in hexadecimal.
+/// A DXF handle: the identity of an entity, displayed in hexadecimal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Handle(pub u64);
 
@@ -31,14 +31,14 @@ impl fmt::Display for Handle {
     }
 }
 
-/// The index of an element in its file's source map, which knows the element's line and handle.
+/// The index of an element in the source map of its file, which contains the element's line and handle.
 ///
-/// Elements are counted within one path, so that an edit elsewhere in the drawing, which shifts lines and handles, leaves every
-/// value of later stages as it was.
+/// Elements are counted per path, so that edits elsewhere in the drawing, which shift lines and handles, do not change any value of later
+/// stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u32);
 
-/// The type of a DXF entity, as far as pathbuild names one.
+/// The types of DXF entities that pathbuild distinguishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the DXF names say it")]
 pub enum EntityKind {
@@ -56,7 +56,7 @@ pub enum EntityKind {
 }
 
 impl EntityKind {
-    /// The name in DXF files, as a CAD's user knows it.
+    /// The name in DXF files, known to users of CAD programs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Line => "LINE",
@@ -74,48 +74,48 @@ impl EntityKind {
     }
 }
 
-/// Where in a file something is. Every part may be unknown.
+/// A place in a file. Each part may be unknown.
 ///
-/// The stages behind the reader know elements only by number; `line` and `handle` are filled in when a diagnostic is reported
+/// Stages after the reader only know elements by number; `line` and `handle` are filled in when a diagnostic is reported
 /// ([`Diagnostic::locate`](crate::Diagnostic::locate)).
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Place {
-    /// 1-based line in the file. For ASCII DXF the line of the entity's `0` group code.
+    /// The line in the file, counted from 1. For ASCII DXF, the line of the entity's `0` group code.
     pub line: Option<u32>,
-    /// 1-based column (in characters) in that line, for text files such as the configuration and G-code.
+    /// The column in characters, counted from 1, for text files such as the configuration and G-code.
     pub column: Option<u32>,
-    /// The element, to be looked up in the source map of its file.
+    /// The element, for looking it up in the source map of its file.
     pub element: Option<ElementId>,
     /// The DXF handle.
     pub handle: Option<Handle>,
     /// The type of the DXF entity.
     pub entity: Option<EntityKind>,
-    /// The layer, as the drawing spells it.
+    /// The layer as spelt in the drawing.
     pub layer: Option<Box<str>>,
-    /// The place in the drawing.
+    /// The point in the drawing.
     pub point: Option<Point>,
 }
 
-/// A piece of source text with the faulty part of it: a parameter text of a drawing, a line of the configuration or of G-code.
+/// A source text with its faulty part: a parameter text of a drawing, or a line of the configuration or of G-code.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct TextFault {
-    /// The text; of a long one, what is around the fault.
+    /// The text; for a long one, an excerpt around the fault.
     pub text: Box<str>,
-    /// First byte of the fault in `text`.
+    /// Byte offset of the fault in `text`.
     pub start: u32,
-    /// The byte after the fault's last.
+    /// Byte offset of the end of the fault.
     pub end: u32,
 }
 
-/// Bytes of a text that is shown as a whole.
+/// Maximum length in bytes of a text that is kept in full.
 const LONGEST: usize = 4 * AROUND;
 
-/// Bytes of a longer one that are shown before a fault; twice as many from where it begins.
+/// Number of bytes of a longer text kept before a fault; twice as many are kept from its start.
 const AROUND: usize = 1000;
 
 impl TextFault {
-    /// The text with the faulty byte range; a range outside the text, or off its character borders, is cut to what there is. Of a long
-    /// text only what is around the fault is kept: a thousand faults of one text do not keep it a thousand times.
+    /// A text with a faulty byte range, which is clamped to the text and to character boundaries. Only an excerpt of a long text is kept,
+    /// so that a thousand faults do not keep a thousand copies.
     pub fn new(text: &str, span: Range<usize>) -> Self {
         if text.len() > LONGEST {
             let from = text.floor_char_boundary(span.start.min(text.len()).saturating_sub(AROUND));

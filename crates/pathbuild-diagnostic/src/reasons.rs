@@ -1,4 +1,4 @@
-//! Why a file cannot be read or written. The system's own words depend on platform and locale; those of the program do not.
+//! Reasons why a file cannot be read or written. The system's wording depends on platform and locale; ours does not.
 
 use std::io::{Error, ErrorKind};
 
@@ -6,74 +6,74 @@ use crate::message::{Value, Word};
 use crate::words::words;
 
 words! {
-    /// Nothing has that name.
+    /// The file does not exist.
     NO_FILE: "there is no such file", "es gibt sie nicht";
-    /// The directory that it should lie in is missing.
+    /// The directory of the file does not exist.
     NO_DIRECTORY: "there is no such directory", "das Verzeichnis gibt es nicht";
-    /// It would be overwritten.
+    /// The file would be overwritten.
     IS_THERE: "it is there already", "sie ist schon da";
-    /// A directory where a file was asked for.
+    /// A directory instead of a file to read.
     IS_DIRECTORY: "it is a directory", "es ist ein Verzeichnis";
-    /// A directory where a file should be written.
+    /// A directory instead of a file to write.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
-    /// R of a path is a part of its program's name.
+    /// R makes the name of a program invalid.
     NO_FILE_NAME: "the name, of which R is a part, holds a character that cannot be in a file's name", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
-    /// A pipe, a socket, a device.
+    /// A pipe, a socket or a device.
     NOT_REGULAR: "it is not a regular file", "es ist keine gewöhnliche Datei";
-    /// `--untrusted`.
+    /// A link out of an untrusted repository.
     LEADS_OUT: "it leads out of the repository, which is not trusted", "sie führt aus dem Repository hinaus, dem nicht getraut wird";
-    /// Files that posts insert.
+    /// A file outside of the post's directory that it tries to insert.
     LEADS_OUT_OF_POST: "it leads out of the post's directory", "sie führt aus dem Verzeichnis des Postprozessors hinaus";
-    /// Likewise: where control texts point to.
+    /// A file of a control text outside of the post's directory.
     NOT_BELOW_POST: "it does not lie below the post's directory", "sie liegt nicht unterhalb des Verzeichnisses des Postprozessors";
-    /// Built-in posts.
+    /// A file of a built-in post, which has no directory.
     NO_DIRECTORY_OF_POST: "this post has no directory", "dieser Postprozessor hat kein Verzeichnis";
-    /// Texts.
+    /// A text file that is not UTF-8.
     NOT_UTF_8: "it is not UTF-8", "sie ist nicht in UTF-8";
-    /// Files of kept results.
+    /// A cache file of another user.
     NO_OWN_FILE: "it is no file of this user", "es ist keine Datei dieses Benutzers";
-    /// Likewise.
+    /// A cache file that is too large.
     NEVER_SO_LARGE: "it is larger than what pathbuild keeps", "sie ist größer als alles, was pathbuild aufhebt";
-    /// Directories that are not used, of kept results.
+    /// A cache directory that is a link.
     IS_LINK: "it is a link", "es ist eine Verknüpfung";
-    /// Likewise.
+    /// A cache directory that is a file.
     NO_DIRECTORY_BUT_FILE: "it is no directory", "es ist kein Verzeichnis";
-    /// Likewise.
+    /// A cache directory of another user.
     SOMEBODY_ELSES: "it belongs to somebody else", "es gehört jemand anderem";
-    /// Likewise.
+    /// A cache directory with write access for everyone.
     OPEN_TO_ALL: "everybody may write into it", "alle dürfen hineinschreiben";
-    /// Likewise.
+    /// A cache directory that cannot be inspected.
     NOT_LOOKED_AT: "it cannot be looked at", "es lässt sich nicht einsehen";
-    /// Likewise.
+    /// A cache directory that contains foreign files.
     HOLDS_OTHERS: "it holds other things and no CACHEDIR.TAG of pathbuild", "es enthält anderes und keine CACHEDIR.TAG von pathbuild";
-    /// Likewise.
+    /// A cache directory in an untrusted repository.
     IN_STRANGERS_TREE: "it lies in a tree that is not trusted", "es liegt in einem Baum, dem nicht getraut wird";
-    /// Likewise.
+    /// A directory that is not a cache.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is no cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
-    /// As systems say it.
+    /// Error of the operating system.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
-    /// Likewise.
+    /// Error of the operating system.
     EXISTS: "file exists", "es gibt sie schon";
-    /// Likewise.
+    /// Error of the operating system.
     NOT_A_DIRECTORY: "not a directory", "ein Teil des Pfades ist kein Verzeichnis";
-    /// Likewise.
+    /// Error of the operating system.
     DISK_FULL: "no space left on device", "auf dem Datenträger ist kein Platz mehr";
-    /// Likewise.
+    /// Error of the operating system.
     QUOTA: "disk quota exceeded", "das Kontingent auf dem Datenträger ist erschöpft";
-    /// Likewise.
+    /// Error of the operating system.
     TOO_LARGE: "file too large", "sie wird für den Datenträger zu groß";
-    /// Likewise.
+    /// Error of the operating system.
     READ_ONLY: "read-only file system", "der Datenträger ist schreibgeschützt";
-    /// Likewise.
+    /// Error of the operating system.
     HELD: "another program has it open", "ein anderes Programm hat sie offen";
-    /// Likewise.
+    /// Error of the operating system.
     BAD_NAME: "the system allows no such file name", "das System lässt den Dateinamen nicht zu";
 }
 
-/// What a system's error says, in the program's words where it has some.
+/// The reason of an IO error, in our wording if there is one.
 pub fn reason(error: &Error) -> Value {
     match error.get_ref() {
-        // Somebody in the program said it.
+        // An error created by this program.
         Some(said) => said.to_string().into(),
         None if is_held(error) => Value::Word(&HELD),
         None if is_no_name(error) => Value::Word(&NO_FILE),
@@ -97,17 +97,17 @@ fn by_kind(kind: ErrorKind) -> Option<&'static Word> {
     })
 }
 
-/// `ERROR_SHARING_VIOLATION` and `ERROR_LOCK_VIOLATION`: another program has the file open for itself alone.
+/// `ERROR_SHARING_VIOLATION` and `ERROR_LOCK_VIOLATION`: another program has opened the file exclusively.
 pub fn is_held(error: &Error) -> bool {
     cfg!(windows) && matches!(error.raw_os_error(), Some(32 | 33))
 }
 
-/// `ERROR_INVALID_NAME`: Windows has no file of such a name, for one of that of a pattern that nothing matches.
+/// `ERROR_INVALID_NAME`: a name that Windows does not allow, for example that of a pattern without matches.
 fn is_no_name(error: &Error) -> bool {
     cfg!(windows) && error.raw_os_error() == Some(123)
 }
 
-/// The system's words without the number and the full stop that follow them.
+/// The system's wording without the number and the full stop at the end.
 fn of_system(error: &Error) -> String {
     let text = error.to_string();
     let end = text.find(" (os error").unwrap_or(text.len());
@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(said(denied(), Lang::De), "keine Berechtigung");
         assert_eq!(said(Error::new(ErrorKind::PermissionDenied, "Said by us."), Lang::De), "Said by us.");
         assert_eq!(said(ErrorKind::TimedOut.into(), Lang::De), "timed out");
-        // A number that no system has.
+        // An error number that no system uses.
         let unknown = said(Error::from_raw_os_error(54_321), Lang::En);
         assert!(!unknown.contains("os error") && !unknown.ends_with('.'), "{unknown}");
     }

@@ -1,20 +1,38 @@
-//! What may be shown. Names and texts come from strangers: a file name can hold escape sequences for the terminal, a line feed and
-//! behind it a command for a CI runner, or marks that turn the order of letters round. All such characters are shown escaped, and
-//! this is the only place that knows which they are.
+//! Escapes untrusted text for display. A file name may contain escape sequences for the terminal, a line feed followed by a command for a
+//! CI runner, or marks that reverse the direction of writing. All such characters are escaped when displayed; this is the only module that
+//! knows them.
 //!
-//! | function | for | line feeds | characters that act |
+//! | function
+//! for
+//! line feeds
+//! special characters |
 //! | --- | --- | --- | --- |
-//! | [`line()`] | a name or a text within a line | `\n` | `\u{1b}` |
-//! | [`framed`] | a text in a frame of ours | stay | `\u{1b}` |
-//! | [`lines`] | a whole output for people | stay | `\u{1b}` |
-//! | [`colored_lines`] | the same with colours of ours | stay | `\u{1b}`, but for colours |
-//! | [`json`] | a whole output in JSON | stay | `\u001b` |
+//! | [`line()`]
+//! a name or a text within a line
+//! `\n`
+//! `\u{1b}` |
+//! | [`framed`]
+//! a text in a frame
+//! kept
+//! `\u{1b}` |
+//! | [`lines`]
+//! a complete output for humans
+//! kept
+//! `\u{1b}` |
+//! | [`colored_lines`]
+//! a complete output with colours
+//! kept
+//! `\u{1b}`, except for colours |
+//! | [`json`]
+//! a complete output in JSON
+//! kept
+//! `\u001b` |
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Whether a character does something other than being seen: control characters, line and paragraph separators, marks for the
-/// direction of writing, characters without width, and tags.
+/// Whether a character has an effect besides being displayed: control characters, line and paragraph separators, direction marks,
+/// zero-width characters, and tags.
 pub fn acts(character: char) -> bool {
     // Most characters are decided by the first comparison.
     !matches!(character, ' '..='~')
@@ -29,22 +47,22 @@ pub fn acts(character: char) -> bool {
         )
 }
 
-/// A name or a text as it is shown within a line.
+/// Escapes a name or a text within a line.
 pub fn line(text: &str) -> Cow<'_, str> {
     escaped(text, acts, escape)
 }
 
-/// A text of several lines that is shown in a frame.
+/// Escapes a text of several lines that is displayed in a frame.
 pub fn framed(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c != '\n' && acts(c), escape)
 }
 
-/// An output of whole lines for people. No line of it is a command for a CI runner.
+/// Escapes an output of whole lines for humans. No line of the result is a command for a CI runner.
 pub fn lines(text: &str) -> Cow<'_, str> {
     harmless_lines(framed(text))
 }
 
-/// The same, with sequences that choose colours: whatever is not ours must have passed [`line()`] before.
+/// Like [`lines`], but keeps sequences that set colours. Untrusted parts must have passed [`line()`] before.
 pub fn colored_lines(text: &str) -> Cow<'_, str> {
     let acts = |c| !matches!(c, '\n' | '\u{1b}') && acts(c);
     let escaped = escaped(text, acts, escape);
@@ -67,7 +85,7 @@ pub fn colored_lines(text: &str) -> Cow<'_, str> {
     harmless_lines(all.into()).into_owned().into()
 }
 
-/// JSON that means the same. All characters that act stand in its strings, but for line feeds between values.
+/// Escapes JSON without changing its meaning. Special characters only occur in strings, apart from line feeds between values.
 pub fn json(text: &str) -> Cow<'_, str> {
     let escaped = escaped(
         text,
@@ -99,7 +117,7 @@ fn escaped(text: &str, acts: impl Fn(char) -> bool, escape: impl Fn(&mut String,
     escaped.into()
 }
 
-/// GitHub's runner takes a line that begins with `::`, or holds `##[`, for a command; Azure's one with `##vso[`.
+/// Defuses commands of CI runners: GitHub's runner obeys lines that begin with `::` or contain `##[`, Azure's those with `##vso[`.
 fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
     let text = broken_up(text, "\\u{23}");
     if !text.contains("::") {
@@ -116,7 +134,7 @@ fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
     all.into()
 }
 
-/// Where a line begins behind blanks and colours.
+/// The start of a line after spaces and colour sequences.
 fn start(line: &str) -> usize {
     let mut rest = line;
     loop {
@@ -128,7 +146,7 @@ fn start(line: &str) -> usize {
     }
 }
 
-/// Breaks up what CI runners look for anywhere in a line: `##[`, and letters between.
+/// Breaks up what CI runners search for anywhere in a line: `##`, optional letters, and `[`.
 fn broken_up<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
     let is_command =
         |rest: &str| rest[2..].trim_start_matches(|c: char| c.is_ascii_alphabetic()).starts_with('[');
@@ -146,7 +164,7 @@ fn broken_up<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
     all.into()
 }
 
-/// Where `##` begins that is followed by another character.
+/// The offsets of `##` followed by another character.
 fn hashes(text: &str) -> impl Iterator<Item = usize> {
     text.match_indices('#').map(|(at, _)| at).filter(|at| {
         let rest = &text.as_bytes()[at + 1..];

@@ -1,8 +1,8 @@
-//! Names of things that messages put in, in every language. (Glossary in book: reference/glossary)
+//! Names of things in messages, in every language. (Glossary in book: reference/glossary)
 
 use crate::message::Word;
 
-/// Declares words, each with its documentation.
+/// Declares documented words.
 macro_rules! words {
     ($($(#[$doc:meta])* $key:ident: $en:literal, $de:literal;)*) => {
         $($(#[$doc])* pub static $key: Word = Word { en: $en, de: $de };)*
@@ -13,7 +13,7 @@ pub(crate) use words;
 words! {
     /// An empty list.
     NONE: "none", "keine";
-    /// The start marker's text, which holds the path's own parameters.
+    /// The text of a start marker, with the path's own parameters.
     PATH_START: "a path start", "ein Pfadanfang";
     /// CONTINUOUS line or arc.
     MILLING_SEGMENT: "a milling segment", "ein Frässegment";
@@ -25,15 +25,15 @@ words! {
     SWEEP: "a sweep", "eine Leerfahrt";
     /// Circle of the cutter's diameter.
     DRILLED_HOLE: "a drilled hole", "ein Bohrloch";
-    /// The same, to marking depth.
+    /// A hole to marking depth.
     DRILLED_MARK: "a drilled mark", "eine Bohrmarkierung";
-    /// Larger circle.
+    /// A circle larger than the cutter.
     HELICAL_CIRCLE: "a helical circle", "ein Helixkreis";
-    /// The same, to marking depth.
+    /// A helical circle to marking depth.
     HELICAL_MARK: "a helical mark", "eine Helixmarkierung";
-    /// The same, with bars.
+    /// A helical circle with support bars.
     HELICAL_SUPPORT: "a helical circle with support bars", "ein Helixkreis mit Stützstegen";
-    /// Circle that may be a hole or a helical circle.
+    /// A circle that may be a hole or a helical circle.
     CIRCLE: "a circle", "ein Kreis";
     /// DASHDOT line or arc.
     SUBPATH: "a subpath", "ein Unterpfad";
@@ -41,9 +41,9 @@ words! {
     PROBE: "a Z-probe", "eine Z-Probe";
     /// Anything else.
     ELEMENT: "an element", "ein Element";
-    /// A line as such.
+    /// A line, whatever its meaning.
     LINE: "a line", "eine Linie";
-    /// An arc as such.
+    /// An arc, whatever its meaning.
     ARC: "an arc", "ein Bogen";
     /// G00.
     RAPID_MOVE: "rapid move", "Eilgang";
@@ -53,16 +53,16 @@ words! {
     CUT: "cut", "Schnitt";
     /// G38.2, G31.
     PROBING_MOVE: "probing move", "Messbewegung";
-    /// The element says it.
+    /// The value comes from the element.
     OWN_TEXT: "own text", "eigener Text";
-    /// The first segment of the chain says it.
+    /// The value comes from the first segment of the chain.
     CHAIN_TEXT: "first segment of the chain", "erstes Segment der Kette";
-    /// The path's start says it.
+    /// The value comes from the path's start.
     PATH_TEXT: "text of the path", "Text des Pfads";
-    /// The path that @ names says it.
+    /// The value comes from the path named by @.
     LENDER_TEXT: "text of the path that @ names", "Text des Pfads, den @ nennt";
-    /// An option or the configuration says it.
+    /// The value comes from an option or the configuration.
     OPTION: "option", "Option";
-    /// Nobody says it.
+    /// The value is the default.
     DEFAULT: "default", "Vorgabe";
 }

@@ -1,4 +1,4 @@
-//! Messages are told apart by their keys.
+//! Messages are identified by their keys.
 
 use std::collections::BTreeSet;
 
@@ -13,14 +13,14 @@ fn each_message_has_a_key_of_its_own() {
     assert!(keys.len() > 100, "all of them are looked at");
 }
 
-/// A file that is missing is not a parameter that is missing.
+/// A missing file and a missing parameter have different messages.
 #[test]
 fn messages_of_one_name_in_two_subjects_are_not_the_same() {
     assert_ne!(messages::files::MISSING, messages::parameters::MISSING);
     assert_ne!(messages::reading::NOT_POSITIVE, messages::parameters::NOT_POSITIVE);
 }
 
-/// Numbers that differ are shown so that they do.
+/// Different numbers are displayed differently.
 #[test]
 fn numbers_of_one_message_are_told_apart() {
     let said = |diameter: f64, limit: f64| {

@@ -1,8 +1,8 @@
-//! The pages of `explain`: there is one for every code, in both languages, of the same form.
+//! The pages of `explain`: there is one for every code in both languages, with a uniform structure.
 
 use pathbuild_diagnostic::{Code, Lang, example, page};
 
-/// Codes whose example would need a bug, files that were written earlier, or a judgement on measured values.
+/// Codes whose example would require a bug, earlier output, or measured values.
 const WITHOUT_EXAMPLE: [Code; 1] = [Code::InternalError];
 
 fn codes() -> impl Iterator<Item = Code> {

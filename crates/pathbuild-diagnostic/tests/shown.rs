@@ -1,8 +1,8 @@
-//! What may be shown: nothing that acts on who shows it.
+//! Displayed text contains nothing that affects the display.
 
 use pathbuild_diagnostic::{Lang, Value, shown};
 
-/// Every character that acts, and the first behind and before each range of them.
+/// All special characters, and the neighbours of each of their ranges.
 #[test]
 fn what_acts_is_known() {
     for acting in

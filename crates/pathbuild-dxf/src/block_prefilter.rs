@@ -8,8 +8,8 @@ use crate::encoding::Decoder;
 use crate::layers::Layers;
 use crate::pairs::{Pairs, line_length, without_cr};
 
-/// Whether these blocks may hold anything on a wanted layer other than the layers they are inserted on. `false` is certain, however codes
-/// are padded and however broken the section is, because every line after a possible code 8 is taken for a layer name.
+/// Whether these blocks may contain anything on a wanted layer, apart from the layers they are inserted on. `false` is definitive, however
+/// codes are padded and however broken the section is, because every line after a possible code 8 counts as a layer name.
 pub(crate) fn may_hold_wanted<'a>(
     blocks: &Pairs<'a>,
     layers: &mut Layers<'a, '_>,
@@ -17,7 +17,7 @@ pub(crate) fn may_hold_wanted<'a>(
 ) -> bool {
     let (line_end, begin) = (blocks.line_end(), blocks.consumed());
     let bytes = &blocks.bytes()[begin..];
-    // Line numbers are counted on from the previous query, since a file may name a million layers.
+    // Line numbers continue from the previous query, since a file may name a million layers.
     let mut counted = *blocks;
     any_digit(b'8', bytes, |eight| {
         let Some(at) = line_behind_code(bytes, eight, line_end) else { return false };
@@ -31,7 +31,7 @@ pub(crate) fn may_hold_wanted<'a>(
     })
 }
 
-/// Whether any text (code 1) in these blocks satisfies `is`, those of records aside that are on a wanted layer.
+/// Whether any text (code 1) in these blocks satisfies `is`, except for those of records on a wanted layer.
 pub(crate) fn has_text<'a>(
     blocks: &Pairs<'a>,
     is: &dyn Fn(&[u8]) -> bool,
@@ -53,7 +53,7 @@ pub(crate) fn has_text<'a>(
     })
 }
 
-/// The layer of the record that goes on in the line with which these bytes end, where that stands before.
+/// The layer of the record that contains the last of these bytes, if it precedes them.
 fn layer_before(bytes: &[u8], line_end: u8) -> Option<&[u8]> {
     let mut lines = bytes.rsplit(|byte| *byte == line_end).skip(1).map(without_cr);
     while let (Some(value), Some(code)) = (lines.next(), lines.next()) {

@@ -83,7 +83,7 @@ impl Role {
         Self::of_unusual_line(line, code_end.last)
     }
 
-    /// The same for codes of any width that fits, and for another kind of line end.
+    /// Like [`Self::of_line`], for codes of any width that fits, and for other line ends.
     #[inline(never)]
     fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
         let word = u64::from_le_bytes(line);
@@ -141,8 +141,8 @@ fn number(padded: u64) -> Option<i32> {
     if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
         return None;
     }
-    // Combines neighbours: digits to numbers of two, those to numbers of four, those to the whole. What belongs to no pair overflows at
-    // the top.
+    // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to
+    // no pair overflows at the top.
     let twos = (values.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
     let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
     i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()

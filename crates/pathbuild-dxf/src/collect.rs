@@ -40,7 +40,7 @@ pub(crate) struct Collector<'d> {
 const USUAL: usize = 64;
 
 /// Number of faults and left-out curves that count as one entity each. No real drawing has more, but a broken insertion repeats its fault
-/// on each layer of its block, and a few kilobytes of such insertions took gigabytes.
+/// on each layer of its block, so that a few kilobytes of such insertions could take gigabytes.
 const CHEAP: usize = 10_000;
 
 /// Weight of each fault beyond [`CHEAP`]: about that many entities take the same memory.

@@ -4,7 +4,8 @@
 //! The value is exactly that of a general parser: digits up to 2^53 and powers of ten up to 10^22 are exact, so a single division rounds
 //! correctly.
 
-/// Parses `[-]digits[.digits]` with at most 16 characters after the sign. `None` for any other form, also for a lone point beside one
+/// Parses `[-]digits[.digits]` with at most 16 characters after the sign. `None` for any other form, including a point next to a single
+/// digit.
 /// digit.
 #[inline]
 pub(crate) fn plain_decimal(value: &[u8]) -> Option<f64> {
@@ -112,7 +113,7 @@ impl Digits {
     #[inline]
     fn without_point(self) -> (Self, Option<usize>) {
         let zero_where_point = self.0 ^ (ONES * u64::from(b'.' ^ b'0'));
-        // The lowest bit is right, those above it may not be.
+        // The lowest bit is right; those above it may be wrong.
         let points = zero_where_point.wrapping_sub(ONES) & !zero_where_point & (ONES * 0x80);
         if points == 0 {
             return (self, None);
@@ -127,8 +128,8 @@ impl Digits {
     fn number(self) -> Option<u64> {
         let Self(digits) = self;
         let beyond_nine = (digits | digits.wrapping_add(ONES * 0x76)) & (ONES * 0x80);
-        // Combines neighbours: digits to numbers of two, those to numbers of four, those to the whole. What belongs to no pair overflows
-        // at the top.
+        // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs
+        // to no pair overflows at the top.
         let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
         let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
         (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)

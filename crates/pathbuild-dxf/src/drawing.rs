@@ -6,8 +6,8 @@ pub struct Options<'a> {
     /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers on other layers are
     /// not even parsed, so they cannot be wrong.
     pub keep_layer: &'a dyn Fn(&str) -> bool,
-    /// Decides by the bytes of a TEXT, or of the last part of an MTEXT, on an unwanted layer whether the drawing shall say that it has such
-    /// a text ([`Drawing::has_noted_text`]). The text is not decoded.
+    /// Decides by the bytes of a TEXT, or of the last part of an MTEXT, on an unwanted layer whether to set [`Drawing::has_noted_text`].
+    /// The text is not decoded.
     pub note_text: Option<TextTest<'a>>,
     /// How $INSUNITS is treated.
     pub units: Units,
@@ -22,7 +22,7 @@ pub struct Options<'a> {
     pub compatible: bool,
 }
 
-/// Decides by the bytes of a text.
+/// A predicate on the bytes of a text.
 pub type TextTest<'a> = &'a dyn Fn(&[u8]) -> bool;
 
 /// How $INSUNITS is treated. (book: reference/configuration, `units`)
@@ -52,7 +52,7 @@ pub struct Drawing {
     pub left_out: Vec<LeftOut>,
     /// Findings about the file as a whole. If one of them is an error, there are no entities.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether a text on an unwanted layer, or any line of a block that may be inserted, was to be noted ([`Options::note_text`]).
+    /// Whether a text on an unwanted layer, or any line of a block that may be inserted, satisfied [`Options::note_text`].
     pub has_noted_text: bool,
 }
 

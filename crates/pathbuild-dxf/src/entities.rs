@@ -33,9 +33,9 @@ pub(crate) struct EntityReader<'a, 'o> {
     unseen_blocks: Option<Pairs<'a>>,
     /// Whether insertions on unwanted layers may bring something wanted.
     blocks_matter: bool,
-    /// The BLOCKS section, until it has been searched for texts that are to be noted.
+    /// The BLOCKS section, until it has been searched for texts to note.
     unnoted_blocks: Option<Pairs<'a>>,
-    /// Whether a text on an unwanted layer was to be noted. Once there is one, no other is looked at.
+    /// Whether a text on an unwanted layer has been noted. After the first one, no others are tested.
     pub(crate) has_noted_text: bool,
 }
 
@@ -192,7 +192,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
         let layer = layer.unwrap_or_else(|| self.layers.id(b"0", || line, &mut self.decoder));
         if self::want(&self.layers, layer, kind, space) == Want::Skip {
-            // It says no layer: all of it was read.
+            // The record has no layer, so all of it was read.
             if self.notes_texts(kind) {
                 self.note_text();
             }

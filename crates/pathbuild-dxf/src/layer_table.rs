@@ -76,7 +76,7 @@ impl<'a> LayerTable<'a> {
     }
 }
 
-/// The longest part of a name that is spelt alike in any case and code page: ASCII outside of escapes and without letters.
+/// The longest part of a name that is the same in any case and code page: ASCII without escapes and letters.
 fn part_certain(name: &[u8]) -> &[u8] {
     let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
     name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()

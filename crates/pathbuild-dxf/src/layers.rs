@@ -61,7 +61,7 @@ impl<'a, 'o> Layers<'a, 'o> {
         Self { table, keep, by_spelling, found: Vec::with_capacity(USUAL), last: None }
     }
 
-    /// Returns the layer with this spelling. `line` is asked for only when the spelling is new.
+    /// Returns the layer with this spelling. `line` is called only for new spellings.
     #[inline]
     pub(crate) fn id(
         &mut self,

@@ -1,4 +1,5 @@
-//! Whatever the bytes: no panic, no hang, no number that is not finite, nothing beside the layers and the limit. (book: reference/reliability)
+//! Arbitrary bytes cause no panic, no hang and no non-finite numbers, and respect the wanted layers and the limits. (book:
+//! reference/reliability)
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +8,7 @@ use pathbuild_dxf::{Drawing, Geometry, Options, Point3, Units, read, read_into};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Pieces of files, sound and less so, that are strung together.
+/// Parts of files, valid and invalid, which are concatenated.
 const PIECES: &[&str] = &[
     "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1015\n  9\n$INSUNITS\n 70\n     1\n  0\nENDSEC\n",
     "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n  0\nLAYER\n  2\nA\n 70\n1\n  6\nDOT\n  0\nENDTAB\n  0\nENDSEC\n",
@@ -61,7 +62,7 @@ fn options(layers: &dyn Fn(&str) -> bool, tolerance: f64) -> Options<'_> {
     }
 }
 
-/// Reads and checks what must hold for any drawing.
+/// Reads a file and checks what must hold for any drawing.
 fn check(bytes: &[u8]) -> Drawing {
     check_with(bytes, 1e-12);
     check_with(bytes, 0.01)
@@ -95,7 +96,7 @@ fn is_finite(geometry: &Geometry) -> bool {
     }
 }
 
-/// One change of a file.
+/// A modification of a file.
 #[derive(Clone, Debug)]
 enum Mutation {
     Cut(prop::sample::Index, usize),
@@ -134,8 +135,8 @@ fn mutate(bytes: &mut Vec<u8>, mutation: &Mutation) {
     }
 }
 
-/// The same file with its codes padded otherwise, so that most are read one by one and with care, not many at a time. Lines that hold no
-/// code stay as they are.
+/// The same file with differently padded codes, so that most are read carefully one by one instead of many at a time. Lines without a code
+/// are unchanged.
 fn padded_otherwise(file: &[u8], paddings: &[usize]) -> Vec<u8> {
     const PADDINGS: &[(&str, &str)] =
         &[("", ""), (" ", ""), ("    ", ""), ("\t", ""), ("", " "), (" ", "\t ")];
@@ -153,12 +154,12 @@ fn padded_otherwise(file: &[u8], paddings: &[usize]) -> Vec<u8> {
     lines.collect::<Vec<_>>().join(&b'\n')
 }
 
-/// The same file behind a remark of this length.
+/// The same file after a comment of this length.
 fn behind_a_remark(file: &[u8], length: usize) -> Vec<u8> {
     [b"999\n", &*vec![b'x'; length], b"\n", file].concat()
 }
 
-/// A drawing with everything in it.
+/// A drawing with all features.
 fn everything() -> Vec<u8> {
     let content = PIECES[9..19].concat();
     let inner = PIECES[9..15].concat();
@@ -183,7 +184,7 @@ fn every_beginning_of_a_file_is_read() {
     }
 }
 
-/// Nothing of the other drawing stays, whatever came of either.
+/// Nothing of the previous drawing is left, whatever the results.
 #[test]
 fn a_drawing_is_read_in_the_place_of_another() {
     let whole = everything();
@@ -232,7 +233,7 @@ proptest! {
         check(&[PIECES[3].as_bytes(), &*bytes].concat());
     }
 
-    /// Whether codes are read many at a time or one by one, what is read and what is said is the same.
+    /// The result does not depend on whether codes are read many at a time or one by one.
     #[test]
     fn codes_may_be_padded_in_any_way(
         mutations in vec(mutation(), 0..4),
@@ -242,12 +243,12 @@ proptest! {
         for mutation in &mutations {
             mutate(&mut bytes, mutation);
         }
-        // Where lines end is decided by the first.
+        // The first line end determines the line ends of the file.
         prop_assume!(bytes.iter().find(|byte| matches!(byte, b'\r' | b'\n')) == Some(&b'\n'));
         prop_assert!(check(&padded_otherwise(&bytes, &paddings)) == check(&bytes));
     }
 
-    /// Reading again, with other line ends, gives the same.
+    /// The result does not depend on the line ends.
     #[test]
     fn line_ends_make_no_difference(pieces in vec(prop::sample::select(&PIECES[..31]), 0..20)) {
         let file = format!("{}{}{}{}", PIECES[3], pieces.concat(), PIECES[7], PIECES[8]);

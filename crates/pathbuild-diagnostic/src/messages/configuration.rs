@@ -1,58 +1,58 @@
-//! pathbuild.toml and the values of options. (PB003; book: reference/configuration)
+//! Messages about pathbuild.toml and the values of options. (PB003; book: reference/configuration)
 
 use crate::message::Word;
 
 messages! {
-    /// Not there, or not to be read.
+    /// The configuration is missing or unreadable.
     CONFIGURATION_UNREADABLE: InvalidConfiguration {
         en: "cannot read the configuration: {reason}",
         de: "die Konfiguration ist nicht lesbar: {reason}",
         help_en: "check the name; `pathbuild init` writes a new one",
         help_de: "den Namen prüfen; `pathbuild init` schreibt eine neue",
     }
-    /// No TOML.
+    /// The file is not valid TOML.
     TOML_SYNTAX: InvalidConfiguration {
         en: "this is not TOML: {reason}",
         de: "das ist kein TOML: {reason}",
         help_en: "texts stand in quotes, patterns in single ones; `pathbuild init` shows how each key is written",
         help_de: "Texte stehen in Anführungszeichen, Muster in einfachen; `pathbuild init` zeigt, wie jeder Schlüssel geschrieben wird",
     }
-    /// A key that is nearly one that is known.
+    /// An unknown key that is similar to a known one.
     UNKNOWN_KEY: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
         help_en: "did you mean `{near}`?",
         help_de: "ist `{near}` gemeint?",
     }
-    /// A key that resembles none.
+    /// An unknown key that is not similar to any known one.
     STRANGE_KEY: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
         help_en: "known here: {known}",
         help_de: "hier bekannt: {known}",
     }
-    /// A key of another table.
+    /// A key that belongs into another table.
     KEY_OF_TABLE: InvalidConfiguration {
         en: "the key `{key}` stands in the wrong place",
         de: "der Schlüssel `{key}` steht an der falschen Stelle",
         help_en: "`{near}` belongs into {table}",
         help_de: "`{near}` gehört in {table}",
     }
-    /// A key that stands before all tables, in one.
+    /// A top-level key inside a table.
     KEY_OF_TOP: InvalidConfiguration {
         en: "the key `{key}` stands in the wrong place",
         de: "der Schlüssel `{key}` steht an der falschen Stelle",
         help_en: "`{near}` belongs to the top of the file, before the first [table]",
         help_de: "`{near}` gehört an den Anfang der Datei, vor die erste [Tabelle]",
     }
-    /// A key that is nearly one of another table.
+    /// An unknown key that is similar to one of another table.
     NEAR_KEY_OF_TABLE: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
         help_en: "did you mean `{near}`? It belongs into {table}",
         help_de: "ist `{near}` gemeint? Das gehört in {table}",
     }
-    /// The same, before all tables.
+    /// An unknown key that is similar to a top-level one.
     NEAR_KEY_OF_TOP: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
@@ -66,143 +66,143 @@ messages! {
         help_en: "remove it; with `{new} = true` programs are as PathDxf2GCode writes them, without it support bars are left whole",
         help_de: "entfernen; mit `{new} = true` werden Programme so, wie PathDxf2GCode sie schreibt, ohne bleiben Stützstege ganz",
     }
-    /// A layer that is a path and holds clamps.
+    /// A layer that is both a path layer and a layer with clamps.
     KEEP_OUT_IS_PATH: InvalidConfiguration {
         en: "layer {layer} is a path by `path-pattern`, and holds clamps by `keep-out`",
         de: "Layer {layer} ist nach `path-pattern` ein Pfad und enthält nach `keep-out` Spannmittel",
         help_en: "write `keep-out` so that it matches the whole names of layers with clamps only, or rename the layer",
         help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
     }
-    /// A table for something that is not there yet.
+    /// A table for a feature that does not exist.
     NOT_BUILT: InvalidConfiguration {
         en: "`{key}` is not built yet",
         de: "`{key}` gibt es noch nicht",
         help_en: "remove it; this version would ignore it",
         help_de: "entfernen; diese Version würde es nicht beachten",
     }
-    /// A table without what it is about.
+    /// A table without a required key.
     MISSING_KEY: InvalidConfiguration {
         en: "`{key}` needs the key `{missing}`",
         de: "`{key}` braucht den Schlüssel `{missing}`",
     }
-    /// Wrong type, or out of range.
+    /// A value with a wrong type or out of range.
     INVALID_VALUE: InvalidConfiguration {
         en: "`{key}` must be {expected}, not {found}",
         de: "`{key}` muss {expected} sein, nicht {found}",
     }
-    /// A place outside of a repository that is not trusted.
+    /// A path that leads out of an untrusted repository.
     OUTSIDE: InvalidConfiguration {
         en: "`{key}` leads out of the repository, which is not trusted",
         de: "`{key}` führt aus dem Repository hinaus, dem nicht vertraut wird",
         help_en: "keep it below {root}; if the repository is your own, leave out --untrusted or name it in `[trust] roots` of your config.toml",
         help_de: "es unterhalb von {root} ablegen; beim eigenen Repository --untrusted weglassen oder es unter `[trust] roots` in der eigenen config.toml nennen",
     }
-    /// A limit that a stranger raises.
+    /// A limit raised by an untrusted repository.
     RAISED_LIMIT: InvalidConfiguration {
         en: "`{key}` is above its default, and the repository is not trusted",
         de: "`{key}` liegt über der Vorgabe, und dem Repository wird nicht vertraut",
         help_en: "lower it to {default} or less",
         help_de: "auf höchstens {default} senken",
     }
-    /// A stranger answers for nothing.
+    /// A post marked as unchecked by an untrusted repository.
     UNCHECKED_BY_STRANGER: InvalidConfiguration {
         en: "`{key}` needs somebody who answers for the programs, and the repository is not trusted",
         de: "für `{key}` muss jemand einstehen, und dem Repository wird nicht vertraut",
         help_en: "remove it: what cannot be read back is an error then",
         help_de: "entfernen: was sich nicht zurücklesen lässt, ist dann ein Fehler",
     }
-    /// A directory that is not there.
+    /// A missing directory.
     NO_DIRECTORY: InvalidConfiguration {
         en: "`{key}` names {directory}, which is not a directory",
         de: "`{key}` nennt {directory}, das kein Verzeichnis ist",
         help_en: "correct the name; names in pathbuild.toml are relative to it, those of options to the working directory",
         help_de: "den Namen berichtigen; Namen in pathbuild.toml beziehen sich auf deren Ort, die von Optionen auf das Arbeitsverzeichnis",
     }
-    /// Not one of those that there are.
+    /// A value that is none of the choices.
     INVALID_CHOICE: InvalidConfiguration {
         en: "`{key}` has no value {found}",
         de: "`{key}` hat keinen Wert {found}",
         help_en: "it can be {choices}",
         help_de: "möglich sind {choices}",
     }
-    /// The same, nearly one of them.
+    /// A value that is none of the choices, but similar to one.
     NEAR_CHOICE: InvalidConfiguration {
         en: "`{key}` has no value {found}",
         de: "`{key}` hat keinen Wert {found}",
         help_en: "did you mean \"{near}\"?",
         help_de: "ist \"{near}\" gemeint?",
     }
-    /// No regular expression.
+    /// An invalid regular expression.
     BROKEN_REGEX: InvalidConfiguration {
         en: "`{key}` is not a regular expression: {reason}",
         de: "`{key}` ist kein regulärer Ausdruck: {reason}",
         help_en: "a character that means itself has a backslash before it, or stands in brackets: [.]",
         help_de: "ein Zeichen, das für sich selbst steht, hat einen Backslash davor oder steht in Klammern: [.]",
     }
-    /// Any number of them would take any amount of memory.
+    /// Too many patterns, which would use an unlimited amount of memory.
     TOO_MANY_PATTERNS: InvalidConfiguration {
         en: "the file has more than {most} {what}",
         de: "die Datei hat mehr als {most} {what}",
         help_en: "alternatives can be one: a|b; in patterns of files they stand in braces, with commas between them",
         help_de: "Alternativen können einer sein: a|b; in Dateimustern stehen sie in geschweiften Klammern, durch Kommas getrennt",
     }
-    /// No glob.
+    /// An invalid glob pattern.
     BROKEN_GLOB: InvalidConfiguration {
         en: "`{key}` is not a pattern of names: {reason}",
         de: "`{key}` ist kein Namensmuster: {reason}",
         help_en: "* is any text, ** also across directories, ? one character, [a-c] one of several",
         help_de: "* ist beliebiger Text, ** auch über Verzeichnisse hinweg, ? ein Zeichen, [a-c] eines von mehreren",
     }
-    /// A rule without a colon.
+    /// A restriction without a colon.
     RESTRICT_WITHOUT_COLON: InvalidConfiguration {
         en: "`{key}` must be PARENT:CHILD, two regular expressions with a colon between",
         de: "`{key}` muss PARENT:CHILD sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
         help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"^8:P$\"",
         help_de: "Pfade, deren Namen PARENT entsprechen, betten nur Pfade ein, deren Namen CHILD entsprechen: \"^8:P$\"",
     }
-    /// A severity for no code.
+    /// A severity for an unknown code, with a similar known one.
     UNKNOWN_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
         help_en: "did you mean {near}? `pathbuild explain` lists them",
         help_de: "ist {near} gemeint? `pathbuild explain` führt alle auf",
     }
-    /// The same, where none is near.
+    /// A severity for an unknown code.
     STRANGE_CODE: InvalidConfiguration {
         en: "there is no diagnostic {code}",
         de: "es gibt keine Meldung {code}",
         help_en: "`pathbuild explain` lists all of them",
         help_de: "`pathbuild explain` führt alle auf",
     }
-    /// An error that stays one.
+    /// A code whose severity cannot be lowered.
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
         help_en: "otherwise a wrong program could result; correct the drawing, or keep known errors in a file with --baseline",
         help_de: "sonst könnte ein falsches Programm entstehen; die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten",
     }
-    /// Two configurations in one run.
+    /// Arguments that belong to different configurations.
     OTHER_CONFIGURATION: InvalidConfiguration {
         en: "{argument} lies under {other}, but this run has {used}",
         de: "{argument} liegt unter {other}, dieser Lauf hat aber {used}",
         help_en: "run once for each configuration, or name the one that is meant with --config",
         help_de: "für jede Konfiguration einen eigenen Lauf machen oder die gemeinte mit --config nennen",
     }
-    /// The same, where the first argument has none.
+    /// An argument with a configuration, although the first argument has none.
     UNEXPECTED_CONFIGURATION: InvalidConfiguration {
         en: "{argument} lies under {other}, but this run has no configuration, because its first argument has none",
         de: "{argument} liegt unter {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
         help_en: "run once for each, or name the configuration that is meant with --config",
         help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
     }
-    /// A baseline that is not there.
+    /// An unreadable baseline.
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",
         de: "die Liste bekannter Meldungen ist nicht lesbar: {reason}",
         help_en: "check the name; --update-baseline writes a new one",
         help_de: "den Namen prüfen; --update-baseline schreibt eine neue",
     }
-    /// A line of a baseline that is none.
+    /// A malformed line of a baseline.
     BASELINE_LINE: InvalidConfiguration {
         en: "this line of the baseline does not begin with a fingerprint of 32 hexadecimal digits",
         de: "diese Zeile der Liste bekannter Meldungen beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
@@ -211,7 +211,7 @@ messages! {
     }
 }
 
-/// What a value must be, in every language.
+/// Declares descriptions of valid values, in every language.
 macro_rules! expectations {
     ($($key:ident: $en:literal, $de:literal;)*) => {
         $(#[doc = $en] pub static $key: Word = Word { en: $en, de: $de };)*

@@ -1,203 +1,203 @@
-//! Entities of a path: markers, line types, texts. (PB101 to PB117)
+//! Messages about the entities of a path: markers, line types, texts. (PB101 to PB117)
 
 messages! {
-    /// No start marker.
+    /// A path without a start marker.
     MISSING_START: MissingStart {
         en: "path {name} has no start marker",
         de: "Pfad {name} hat keine Startmarke",
         help_en: "draw a PHANTOM circle of 1 mm diameter on layer {layer}, with the path's parameters as text (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 1 mm Durchmesser zeichnen, mit den Parametern des Pfads als Text (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
     }
-    /// Note: a start marker on a layer of no path.
+    /// Note: a start marker on a layer without a path.
     START_ON_OTHER_LAYER: MissingStart {
         en: "on layer {layer}, which is no path layer, there is a start marker at {point}: is it on the wrong layer?",
         de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Startmarke: liegt sie auf dem falschen Layer?",
     }
-    /// Note: an end marker on a layer of no path.
+    /// Note: an end marker on a layer without a path.
     END_MARKER_ON_OTHER_LAYER: MissingEnd {
         en: "on layer {layer}, which is no path layer, there is an end marker at {point}: is it on the wrong layer?",
         de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Endmarke: liegt sie auf dem falschen Layer?",
     }
-    /// Note: a circle with the path's text.
+    /// Note: a circle with the text of a start.
     MEANT_AS_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm: meant as the start? Draw it with 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm: als Startmarke gemeint? Mit 1 mm zeichnen",
     }
-    /// No end marker.
+    /// A path without an end marker.
     MISSING_END: MissingEnd {
         en: "path {name} has no end marker",
         de: "Pfad {name} hat keine Endmarke",
         help_en: "draw a PHANTOM circle of 2 mm diameter on layer {layer} where the path ends",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 2 mm Durchmesser zeichnen, wo der Pfad endet",
     }
-    /// Note: where the walk along the path ends.
+    /// Note: the point where the walk along the path ends.
     ENDS_HERE: MissingEnd {
         en: "the segments of the path end at {point}: the end marker belongs there",
         de: "die Segmente des Pfads enden bei {point}: dort gehört die Endmarke hin",
     }
-    /// Two start markers.
+    /// A second start marker.
     TWO_STARTS: TwoStarts {
         en: "path {name} has a second start marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Startmarke; die erste ist bei {first}",
         help_en: "remove one, or put it on another path's layer",
         help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
-    /// Two end markers.
+    /// A second end marker.
     TWO_ENDS: TwoEnds {
         en: "path {name} has a second end marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Endmarke; die erste ist bei {first}",
         help_en: "remove one, or put it on another path's layer",
         help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
-    /// PHANTOM circle of no known diameter.
+    /// A PHANTOM circle with a meaningless diameter.
     UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {
         en: "a {line_type} circle of {diameter} mm diameter means nothing",
         de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser bedeutet nichts",
         help_en: "PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
         help_de: "PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
     }
-    /// A line type without meaning.
+    /// A line type without a meaning.
     UNKNOWN_LINE_TYPE: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
         de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
         help_en: "known are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
         help_de: "bekannt sind {known}, jeweils auch mit 2, X2 oder TINY; [line-types] in pathbuild.toml kann weitere festlegen",
     }
-    /// The same, and a line type that is probably meant.
+    /// A line type without a meaning, with a suggestion.
     LINE_TYPE_LIKE_ANOTHER: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
         de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
         help_en: "if it means {like}, add this line under [line-types] in pathbuild.toml: \"{line_type}\" = \"{like}\"",
         help_de: "wenn {like} gemeint ist, unter [line-types] in pathbuild.toml diese Zeile einfügen: \"{line_type}\" = \"{like}\"",
     }
-    /// A known line type on the wrong kind of entity.
+    /// A line type that is meaningless on this kind of entity.
     LINE_TYPE_ON_ENTITY: UnknownLineType {
         en: "line type {line_type} has no meaning on {element}; elements like this: {count}",
         de: "{element} mit Linientyp {line_type} hat keine Bedeutung; Elemente dieser Art: {count}",
         help_en: "on a circle CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT and PHANTOM have a meaning, on lines and arcs all but PHANTOM",
         help_de: "auf einem Kreis haben CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT und PHANTOM eine Bedeutung, auf Linien und Bögen alle außer PHANTOM",
     }
-    /// Support bars where nothing is left to stand.
+    /// Support bars on a drilled hole.
     BARS_ON_HOLE: UnknownLineType {
         en: "BORDER and CENTER have no meaning on a drilled hole",
         de: "BORDER und CENTER haben auf einem Bohrloch keine Bedeutung",
         help_en: "a circle of the cutter's diameter is drilled and leaves no support bars: use CONTINUOUS (to B) or DIVIDE (to D)",
         help_de: "ein Kreis mit dem Durchmesser des Fräsers wird gebohrt und lässt keine Stützstege: CONTINUOUS (bis B) oder DIVIDE (bis D) verwenden",
     }
-    /// A text that belongs to nothing.
+    /// A text without an element.
     TEXT_WITHOUT_ELEMENT: TextWithoutElement {
         en: "the text \"{text}\" belongs to no element: its circle is at {centre} with a diameter of {diameter} mm",
         de: "der Text \"{text}\" gehört zu keinem Element: sein Kreis liegt bei {centre} mit {diameter} mm Durchmesser",
         help_en: "move it over its element; text and element must be on exactly the same layer",
         help_de: "über das Element schieben; Text und Element müssen auf genau demselben Layer liegen",
     }
-    /// A text that a small shift gives to another element.
+    /// A text that would belong to another element if it were moved slightly.
     NEARLY_OTHER_ELEMENT: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, but {other} at {other_point} is only {margin} mm farther away",
         de: "zum Text \"{text}\" gehört {element} bei {point}, aber {other} bei {other_point} ist nur {margin} mm weiter entfernt",
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name; `text-margin` under [warnings] sets the limit",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
     }
-    /// A text that a large element of another kind has taken from one that it lies on.
+    /// A text that belongs to an element because of the order of kinds, although one of another kind is nearer.
     NEARER_OF_OTHER_KIND: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: circles come before arcs, arcs before lines",
         de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: Kreise gehen vor Bögen, Bögen vor Linien",
         help_en: "move the text away from the element that it shall not belong to, or make it smaller, or put text and element on a layer of their own with ~ and letters behind the name",
         help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder kleiner machen, oder Text und Element auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
-    /// A text that belongs to an element because that comes first.
+    /// A text that is equally near to two elements.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
         de: "zum Text \"{text}\" gehört {element} bei {point} nur, weil es in der Datei zuerst kommt: {other} bei {other_point} ist genauso nah",
         help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
-    /// Note: what it may have been meant for.
+    /// Note: the nearest element.
     NEAREST_ELEMENT: TextWithoutElement {
         en: "nearest is {element} at {point}, {distance} mm away from the text's circle",
         de: "am nächsten liegt {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
     }
-    /// Note: an element beside it on another layer.
+    /// Note: an element near the text on another layer.
     NEAR_ON_OTHER_LAYER: TextWithoutElement {
         en: "on layer {layer} {element} is {distance} mm away from the text's circle: are the two on different layers by mistake?",
         de: "auf Layer {layer} liegt {element} {distance} mm vom Kreis des Textes entfernt: liegen beide versehentlich auf verschiedenen Layern?",
     }
-    /// Note: it would be found on another layer.
+    /// Note: the element that the text would belong to on another layer.
     ELEMENT_ON_OTHER_LAYER: TextWithoutElement {
         en: "on layer {layer} it would belong to {element} at {point}",
         de: "auf Layer {layer} würde {element} bei {point} zu ihm gehören",
     }
-    /// Smaller than the cutter.
+    /// A circle smaller than the cutter.
     CIRCLE_TOO_SMALL: CircleTooSmall {
         en: "the circle's diameter {diameter} mm is less than the cutter's, O{tool}",
         de: "der Kreisdurchmesser {diameter} mm ist kleiner als der des Fräsers, O{tool}",
         help_en: "a circle of the cutter's diameter is a drilled hole, a larger one a helical circle",
         help_de: "ein Kreis mit dem Durchmesser des Fräsers ist ein Bohrloch, ein größerer ein Helixkreis",
     }
-    /// Hardly larger than the cutter.
+    /// A circle only slightly larger than the cutter.
     NEARLY_DRILLED: NearlyDrilled {
         en: "the circle's diameter {diameter} mm is only {difference} mm larger than the cutter's, O{tool}: it is not drilled, but milled along a helix of {radius} mm radius",
         de: "der Kreisdurchmesser {diameter} mm ist nur {difference} mm größer als der des Fräsers, O{tool}: er wird nicht gebohrt, sondern auf einer Helix von {radius} mm Radius gefräst",
         help_en: "draw it with a diameter of {tool} mm to drill it; `hole-margin` under [warnings] sets the limit",
         help_de: "zum Bohren mit {tool} mm Durchmesser zeichnen; `hole-margin` unter [warnings] setzt die Grenze",
     }
-    /// A depth that does not reach its element.
+    /// A parameter text on a layer without a path.
     TEXT_ON_OTHER_LAYER: TextOnOtherLayer {
         en: "the text \"{text}\" has no effect: layer {layer} belongs to no path",
         de: "der Text \"{text}\" hat keine Wirkung: Layer {layer} gehört zu keinem Pfad",
         help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
         help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
     }
-    /// A slip of the pen in a layer's name.
+    /// A layer whose name resembles that of a path layer.
     NEARLY_PATH_LAYER: NearlyPathLayer {
         en: "layer {layer} belongs to no path, but its name is nearly that of path {path}: what is drawn on it has no effect ({elements})",
         de: "Layer {layer} gehört zu keinem Pfad, heißt aber fast wie der Pfad {path}: was darauf liegt, hat keine Wirkung ({elements})",
         help_en: "call it {path}, or {path}~A with letters only behind ~; give it quite another name if it is not milled",
         help_de: "{path} nennen, oder {path}~A mit nichts als Buchstaben hinter ~; ganz anders nennen, wenn es nicht gefräst wird",
     }
-    /// Not in the plane.
+    /// An element outside of the XY plane.
     OFF_PLANE: OffPlane {
         en: "the element is not in the plane: Z is {z} mm; elements of this path that are not: {count}",
         de: "das Element liegt nicht in der Ebene: Z ist {z} mm; Elemente dieses Pfads außerhalb der Ebene: {count}",
         help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
         help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN oder Z und Erhebung auf 0 setzen)",
     }
-    /// Frozen or off.
+    /// A frozen or invisible path layer.
     LAYER_NOT_VISIBLE: LayerNotVisible {
         en: "layer {layer} is frozen or off, but its path counts all the same",
         de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad zählt trotzdem",
         help_en: "make it visible, or rename it if the path is not wanted any more",
         help_de: "sichtbar machen oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
     }
-    /// A turn marker that never acts.
+    /// A turn marker without effect.
     TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
         en: "this turn marker never acts",
         de: "diese Wendemarke wirkt nie",
         help_en: "a turn marker acts only where segments are left and none begins there: at the tip of a dead end",
         help_de: "eine Wendemarke wirkt nur, wo noch Segmente übrig sind und keines weiterführt: an der Spitze einer Sackgasse",
     }
-    /// Ends that do not quite meet.
+    /// Ends that nearly meet and were joined.
     JOINED_ENDS: JoinedEnds {
         en: "two ends {distance} mm apart were joined",
         de: "zwei Enden im Abstand von {distance} mm wurden verbunden",
         help_en: "snap the end to the other with the CAD's object snap; join-tolerance in pathbuild.toml allows it meanwhile",
         help_de: "das Ende im CAD auf das andere fangen; join-tolerance in pathbuild.toml erlaubt es bis dahin",
     }
-    /// Frozen or off, a layer with clamps.
+    /// A frozen or invisible layer with clamps.
     CLAMPS_NOT_VISIBLE: LayerNotVisible {
         en: "a layer with clamps is frozen or off, but its clamps count all the same",
         de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel zählen trotzdem",
         help_en: "make it visible, or move the clamps that are gone to a layer that `keep-out` does not name",
         help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
     }
-    /// A gap in a clamp's outline.
+    /// An open outline of a clamp.
     OUTLINE_OPEN: InvalidKeepOut {
         en: "the outline of a clamp does not close: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss eines Spannmittels ist nicht geschlossen: er endet bei {point} und bei {other}, {distance} mm auseinander",
         help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; the CAD's object snap joins them",
         help_de: "einen Kreis, eine geschlossene Polylinie oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
     }
-    /// Three ends in one point.
+    /// A point where more than two curves of clamps end.
     OUTLINE_BRANCHES: InvalidKeepOut {
         en: "at {point} more than two lines or arcs of clamps meet: it is not clear what is inside",
         de: "bei {point} treffen sich mehr als zwei Linien oder Bögen von Spannmitteln: was innen liegt, ist nicht eindeutig",
@@ -211,35 +211,35 @@ messages! {
         help_en: "put a text such as Z25 (mm above the plate) inside the outline, on the same layer",
         help_de: "einen Text wie Z25 (mm über der Platte) in den Umriss setzen, auf demselben Layer",
     }
-    /// A clamp with several heights.
+    /// A clamp with several texts.
     CLAMP_WITH_TEXTS: InvalidKeepOut {
         en: "several texts are inside the outline of this clamp or overlap it: {texts}",
         de: "mehrere Texte liegen im Umriss dieses Spannmittels oder überlappen ihn: {texts}",
         help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and what is only a note to another layer",
         help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
     }
-    /// A text that says no height.
+    /// A text of a clamp that gives no height.
     NO_CLAMP_HEIGHT: InvalidKeepOut {
         en: "the text \"{text}\" does not say how high this clamp is",
         de: "der Text \"{text}\" sagt nicht, wie hoch dieses Spannmittel ist",
         help_en: "write Z and the height above the plate in mm, greater than 0, and nothing else: Z25",
         help_de: "Z und die Höhe über der Platte in mm schreiben, größer als 0, und sonst nichts: Z25",
     }
-    /// A text without an outline.
+    /// A text on a layer with clamps that belongs to no clamp.
     TEXT_OUTSIDE_CLAMPS: InvalidKeepOut {
         en: "the text \"{text}\" is on a layer with clamps, but inside the outline of none and overlaps none",
         de: "der Text \"{text}\" ist auf einem Layer mit Spannmitteln, liegt aber in keinem Umriss und überlappt keinen",
         help_en: "move it into the outline whose height it says, or to another layer",
         help_de: "in den Umriss schieben, dessen Höhe er sagt, oder auf einen anderen Layer legen",
     }
-    /// A curve that is not understood.
+    /// An unsupported curve on a layer with clamps.
     NO_OUTLINE: InvalidKeepOut {
         en: "this {entity} on a layer with clamps is not understood, so it is not known where the clamp is",
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht verstanden; wo das Spannmittel ist, ist also nicht bekannt",
         help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
     }
-    /// A clamp with more texts than are named.
+    /// A clamp with more texts than are listed.
     CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {
         en: "{count} texts are inside the outline of this clamp or overlap it, the first are {texts}",
         de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn, die ersten sind {texts}",

@@ -1,61 +1,61 @@
-//! Files as such: reading, writing, limits. (PB001 to PB008, PB113)
+//! Messages about files: reading, writing, limits. (PB001 to PB008, PB113)
 
 messages! {
-    /// The system refused to read it.
+    /// An unreadable file.
     UNREADABLE: UnreadableFile {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",
         help_en: "check the name, and that the CAD has not locked the file",
         help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
     }
-    /// The system refused to say what is in it.
+    /// An unreadable directory.
     UNLISTABLE: UnreadableFile {
         en: "cannot look into the directory: {reason}",
         de: "das Verzeichnis lässt sich nicht einsehen: {reason}",
         help_en: "give the user who runs pathbuild the right to read it; drawings in it may be missing here",
         help_de: "dem Benutzer, der pathbuild aufruft, das Leserecht geben; hier können Zeichnungen daraus fehlen",
     }
-    /// A drawing or a directory that cannot be named.
+    /// A drawing or directory whose name is not UTF-8.
     NAME_NOT_UTF_8: UnreadableFile {
         en: "the name {name} in this directory is not in UTF-8; nothing under it is read",
         de: "der Name {name} in diesem Verzeichnis ist nicht in UTF-8; was darunter steht, wird nicht gelesen",
         help_en: "rename it",
         help_de: "umbenennen",
     }
-    /// There is no such file.
+    /// A missing file.
     MISSING: UnreadableFile {
         en: "there is no such file",
         de: "diese Datei gibt es nicht",
         help_en: "check the name; relative names count from the working directory",
         help_de: "den Namen prüfen; relative Namen zählen ab dem Arbeitsverzeichnis",
     }
-    /// Note: a name that is nearly the same.
+    /// Note: a file with a similar name.
     NEAR_FILE: UnreadableFile {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
     }
-    /// A directory where a drawing was expected.
+    /// A directory instead of a drawing.
     IS_DIRECTORY: UnreadableFile {
         en: "this is a directory, not a drawing",
         de: "das ist ein Verzeichnis, keine Zeichnung",
         help_en: "name a drawing in it, or use `pathbuild check` for the whole directory",
         help_de: "eine Zeichnung darin nennen oder `pathbuild check` für das ganze Verzeichnis",
     }
-    /// Nothing in it.
+    /// An empty file.
     EMPTY_FILE: InvalidDxf {
         en: "the file is empty",
         de: "die Datei ist leer",
         help_en: "save the drawing again as DXF",
         help_de: "die Zeichnung noch einmal als DXF speichern",
     }
-    /// No DXF structure at all.
+    /// A file without any DXF structure.
     NOT_DXF: InvalidDxf {
         en: "this is not a DXF file: {found}",
         de: "das ist keine DXF-Datei: {found}",
         help_en: "save the drawing as DXF (ASCII or binary, R10 or later); a DWG file renamed to .dxf is none",
         help_de: "die Zeichnung als DXF speichern (ASCII oder binär, ab R10); eine in .dxf umbenannte DWG-Datei ist keine",
     }
-    /// The configured units are not understood.
+    /// A drawing in other units than configured.
     WRONG_UNITS: WrongUnits {
         en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",
         de: "die Einheit der Zeichnung ist {unit}, nicht Millimeter ($INSUNITS ist {number})",
@@ -69,91 +69,91 @@ messages! {
         help_en: "this is a bug in pathbuild; please report it with this drawing and the version that `pathbuild --version` prints",
         help_de: "das ist ein Fehler in pathbuild; bitte mit dieser Zeichnung und der Ausgabe von `pathbuild --version` melden",
     }
-    /// A limit of the configuration.
+    /// A configured limit.
     LIMIT: LimitReached {
         en: "{what} exceeds the limit of {limit}",
         de: "{what} überschreitet die Grenze von {limit}",
         help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program that is too long.
+    /// A program with too many moves.
     TOO_MANY_MOVES: LimitReached {
         en: "this path comes to {count} moves, which exceeds the limit of {limit}",
         de: "dieser Pfad ergibt {count} Bewegungen, das überschreitet die Grenze von {limit}",
         help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program that would fill the memory.
+    /// A program that would take too much memory.
     TOO_MUCH_MEMORY: LimitReached {
         en: "this path comes to {count} moves, which take about {size} bytes of memory; the limit is {limit}",
         de: "dieser Pfad ergibt {count} Bewegungen, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Ignore files that would fill the memory.
+    /// Ignore files that are too large in total.
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} have more than {limit} bytes together: nothing there is looked at",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: dort wird nichts angesehen",
         help_en: "name a directory further down; or raise `{key}` under [limits] in pathbuild.toml: all together may have 16 times as much",
         help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: zusammen darf es 16-mal so viel sein",
     }
-    /// A line that nobody reads, this program included.
+    /// A line of output that is longer than any reader accepts, including this program.
     OUTPUT_LINE_TOO_LONG: LimitReached {
         en: "line {line} of {name} comes to {length} bytes, which is more than {limit}; nothing is written",
         de: "Zeile {line} von {name} wird {length} Byte lang, das ist mehr als {limit}; es wird nichts geschrieben",
         help_en: "shorten the comment Q; with many probes, another `z-model` than \"plane\" writes four of them in a line",
         help_de: "den Kommentar Q kürzen; bei vielen Messpunkten schreibt ein anderes `z-model` als \"plane\" vier davon in eine Zeile",
     }
-    /// A text that would fill the disk.
+    /// A program that is too large to write.
     OUTPUT_TOO_LARGE: LimitReached {
         en: "this program comes to more than {limit} bytes; it is not written",
         de: "dieses Programm wird größer als {limit} Byte; es wird nicht geschrieben",
         help_en: "check infeed I, depth B and the length of comments Q; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I, Tiefe B und die Länge der Kommentare Q prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A sheet, a probing program or a file of values that would fill the disk.
+    /// A setup sheet, a probing program or a file of measured values that is too large to write.
     FILE_TOO_LARGE: LimitReached {
         en: "{name} comes to more than {limit} bytes; it is not written, nor is what belongs to it",
         de: "{name} wird größer als {limit} Byte; das und was dazu gehört wird nicht geschrieben",
         help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Too many paths in one program.
+    /// A program with too many paths.
     TOO_MANY_PATHS: LimitReached {
         en: "the number of different paths (each with its values) that are embedded exceeds the limit of {limit}",
         de: "die Zahl verschiedener Pfade (jeder mit seinen Werten), die eingebettet sind, überschreitet die Grenze von {limit}",
         help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A directory with too much below it.
+    /// A directory tree with too many entries.
     TOO_MANY_ENTRIES: LimitReached {
         en: "there are more than {limit} files and directories below {directory}: nothing there is looked at",
         de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: nichts davon wird angesehen",
         help_en: "name a directory further down; or list what is no part of the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "ein Verzeichnis weiter unten nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Removing failed.
+    /// A file that cannot be removed.
     CANNOT_REMOVE: CannotWrite {
         en: "cannot remove {name}: {reason}",
         de: "{name} kann nicht entfernt werden: {reason}",
         help_en: "check the directory's permissions, and whether another program has the file open",
         help_de: "Rechte des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
     }
-    /// A rule would be something else with it, a command at worst.
+    /// A file name that would change the meaning of a make rule.
     UNNAMEABLE: CannotWrite {
         en: "no rule for make can name {name}: it has one of `= % | * ? [`, begins with `~`, or ends with `)` or `\\`",
         de: "keine Regel für make kann {name} nennen: darin steht `= % | * ?` oder `[`, am Anfang `~` oder am Ende `)` oder `\\`",
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
-    /// Writing failed.
+    /// A file that cannot be written.
     CANNOT_WRITE: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",
         help_en: "nothing was written under that name; check the directory's permissions and free space, and whether another program has the file open",
         help_de: "unter diesem Namen wurde nichts geschrieben; Rechte und freien Platz des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
     }
-    /// A program that was read and would fill the memory.
+    /// A program that is too long to read.
     PROGRAM_TOO_LONG: LimitReached {
         en: "this program comes to more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
         de: "dieses Programm ergibt mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",

@@ -1,65 +1,65 @@
-//! Reading, interpreting and checking G-code. (PB701 to PB749; book: program/reading)
+//! Messages about reading, interpreting and verifying G-code. (PB701 to PB749; book: program/reading)
 //!
-//! `{dialect}` is the name of the dialect that the file is read as.
+//! `{dialect}` is the name of the dialect in which the file is read.
 
 messages! {
-    /// `(LOGOPEN,name)`.
+    /// A comment that the controller obeys, such as `(LOGOPEN,name)`.
     ACTIVE_COMMENT: ActiveComment {
         en: "{dialect} obeys this comment: {word}",
         de: "{dialect} gehorcht diesem Kommentar: {word}",
         help_en: "put another word in front, if it is only a remark",
         help_de: "ein anderes Wort davorsetzen, wenn es nur eine Bemerkung ist",
     }
-    /// `X10` where the control may count thousandths.
+    /// A coordinate without a decimal point, such as `X10`, which may count as thousandths.
     NO_DECIMAL_POINT: DoubtfulSpelling {
         en: "`{word}` has no decimal point: some controls of {dialect} count thousandths",
         de: "`{word}` hat keinen Dezimalpunkt: manche Steuerungen von {dialect} zählen Tausendstel",
         help_en: "write `{word}.`",
         help_de: "`{word}.` schreiben",
     }
-    /// `g0 f1000` where only capitals are read.
+    /// Lower-case words such as `g0 f1000`, where only upper case is accepted.
     SMALL_LETTER: UnknownWord {
         en: "common builds of {dialect} do not read small letters: write {letter}",
         de: "übliche Ausgaben von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
         help_en: "write all words in capitals",
         help_de: "alle Wörter in Großbuchstaben schreiben",
     }
-    /// CR in a line that ends with LF.
+    /// A CR inside a line that ends with LF.
     RETURN_IN_LINE: UnknownCharacter {
         en: "a carriage return (CR) within the line; the line is left out",
         de: "ein Wagenrücklauf (CR) mitten in der Zeile; die Zeile bleibt unbeachtet",
         help_en: "some controls end the line there and obey what follows, even in a comment: end every line with LF or CR LF",
         help_de: "manche Steuerungen beenden die Zeile dort und führen aus, was folgt, auch in einem Kommentar: alle Zeilen mit LF oder CR LF beenden",
     }
-    /// A word that the post does not write and that is not followed.
+    /// A word that the post does not write and that is not interpreted.
     FOREIGN_WORD: ForeignWord {
         en: "{word} is not checked: the post for {dialect} does not write it, and what it does is not followed",
         de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
         help_en: "remove it, or check at the control what it does",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
-    /// `verify --against`: no T before the first cut.
+    /// `verify --against`: no T word before the first cut.
     TOOL_NOT_CHOSEN: MovesDiffer {
         en: "the tool is not chosen before the first cut: the drawing's program says {expected}",
         de: "das Werkzeug ist vor der ersten Fräsbewegung nicht gewählt: das Programm der Zeichnung sagt {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: `G54` is missing in the header.
+    /// `verify --against`: a missing mode such as `G54` in the header.
     MODE_MISSING: MovesDiffer {
         en: "{word} is missing before the first move: the control may keep what the program before has set",
         de: "{word} fehlt vor der ersten Bewegung: die Steuerung behält womöglich, was das vorige Programm gesetzt hat",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: M8, M9.
+    /// `verify --against`: another coolant word, M7 to M9.
     COOLANT_DIFFERS: MovesDiffer {
         en: "the coolant is `{found}`, for the drawing's cutter it is `{expected}`",
         de: "die Kühlung ist `{found}`, für den Fräser der Zeichnung ist sie `{expected}`",
         help_en: "write the program again with `pathbuild emit`, or correct `coolant` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `coolant` in [tool.NAME] berichtigen",
     }
-    /// A line that begins with a value.
+    /// A line that does not begin with a command.
     NO_COMMAND: UnknownWord {
         en: "the line begins with `{word}`: {dialect} obeys only lines that begin with G, M or T",
         de: "die Zeile beginnt mit `{word}`: {dialect} gehorcht nur Zeilen, die mit G, M oder T beginnen",
@@ -80,98 +80,98 @@ messages! {
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
-    /// `verify --against`: a word of which the drawing's program knows nothing.
+    /// `verify --against`: a word that the drawing's program does not contain.
     NOT_IN_DRAWING: MovesDiffer {
         en: "{word} is not in the drawing's program: it may change where, how deep or how fast the tool cuts",
         de: "{word} steht nicht im Programm der Zeichnung: es kann ändern, wo, wie tief oder wie schnell gefräst wird",
         help_en: "remove it, or write the program again with `pathbuild emit`",
         help_de: "das Wort entfernen oder das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: another place.
+    /// `verify --against`: a move to another point.
     DRAWN_ELSEWHERE: MovesDiffer {
         en: "the tool goes to {found}; the drawing says {expected}",
         de: "das Werkzeug fährt nach {found}; die Zeichnung sagt {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: the same place by another way.
+    /// `verify --against`: a move to the right point along another curve.
     DRAWN_OTHERWISE: MovesDiffer {
         en: "the tool goes there by another way than the drawing says",
         de: "das Werkzeug fährt auf anderem Weg dorthin, als die Zeichnung sagt",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: rapid or not.
+    /// `verify --against`: a rapid move instead of a cut, or the reverse.
     DRAWN_AT_ANOTHER_PACE: MovesDiffer {
         en: "this is {found}; the drawing says {expected}",
         de: "das ist {found}; die Zeichnung sagt {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: F.
+    /// `verify --against`: another feed.
     DRAWN_WITH_ANOTHER_FEED: MovesDiffer {
         en: "the feed is {found}; the drawing says {expected}",
         de: "der Vorschub ist {found}; die Zeichnung sagt {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: it ends too early.
+    /// `verify --against`: missing moves at the end.
     DRAWN_FURTHER: MovesDiffer {
         en: "moves are missing at the end: the drawing goes on to {expected}",
         de: "am Ende fehlen Bewegungen: die Zeichnung geht weiter nach {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: it goes on too long.
+    /// `verify --against`: additional moves at the end.
     NOT_DRAWN: MovesDiffer {
         en: "the drawing has no such move: the tool goes to {found}",
         de: "die Zeichnung hat keine solche Bewegung: das Werkzeug fährt nach {found}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: a probing run.
+    /// `verify --against`: another move of a probing program.
     PROBING_NOT_DRAWN: MovesDiffer {
         en: "the drawing's probing run has `{expected}` here",
         de: "der Messlauf der Zeichnung hat hier `{expected}`",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: T.
+    /// `verify --against`: another tool.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, for the drawing it is T{expected}",
         de: "das Werkzeug ist T{found}, für die Zeichnung ist es T{expected}",
         help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
     }
-    /// `verify --against`: G43, H.
+    /// `verify --against`: another tool length offset (G43, H).
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool's length is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
         help_en: "G43 H with the number that M6 put in; none in the native program",
         help_de: "G43 H mit der Nummer, die M6 eingewechselt hat; im eigenen Programm keine",
     }
-    /// `verify --against`: M3, S.
+    /// `verify --against`: another spindle direction or speed.
     SPINDLES_DIFFER: MovesDiffer {
         en: "the spindle runs with `{found}`, for the drawing's cutter it is `{expected}`",
         de: "die Spindel läuft mit `{found}`, für den Fräser der Zeichnung ist es `{expected}`",
         help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
     }
-    /// `verify --against`: no dwell behind M3.
+    /// `verify --against`: a dwell after M3 that is missing or too short.
     SPUN_UP_TOO_SHORT: MovesDiffer {
         en: "the tool cuts less than {seconds} s after the spindle was switched on",
         de: "das Werkzeug fräst weniger als {seconds} s, nachdem die Spindel eingeschaltet wurde",
         help_en: "write the program again with `pathbuild emit`: it waits as `[machine] spin-up` says",
         help_de: "das Programm mit `pathbuild emit` neu schreiben: es wartet, wie `[machine] spin-up` sagt",
     }
-    /// `G0 Z-3`, `G0 Z2`.
+    /// A rapid move down and up again, as in `G0 Z-3`, `G0 Z2`.
     RAPID_DIP: RapidPlunge {
         en: "a rapid move down to Z {z} below the material's surface, and up again: nothing was cut there before",
         de: "eine Eilgangbewegung hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
         help_en: "drill with G01 and a feed",
         help_de: "mit G01 und einem Vorschub bohren",
     }
-    /// `G28` from below the surface.
+    /// `G28` while the tool is below the surface.
     HOME_FROM_DEPTH: RapidInMaterial {
         en: "a rapid move to a place of the machine from Z {z}: the material stands up to Z {surface}",
         de: "eine Eilgangbewegung zu einem Ort der Maschine ab Z {z}: das Material reicht bis Z {surface}",
@@ -185,224 +185,224 @@ messages! {
         help_en: "write the speed with S: `M3 S12000`",
         help_de: "die Drehzahl mit S angeben: `M3 S12000`",
     }
-    /// G92 or G52 at the end.
+    /// An offset by G92 or G52 that is active at the end.
     OFFSET_LEFT_ON: OffsetLeftOn {
         en: "{word} still holds at the end: the next program begins elsewhere",
         de: "{word} gilt am Ende noch: das nächste Programm beginnt anderswo",
         help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
         help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
     }
-    /// Nothing in the file looks like a word of G-code.
+    /// A file that does not look like G-code.
     NOT_G_CODE: NotGCode {
         en: "this is no G-code: {found}",
         de: "das ist kein G-Code: {found}",
         help_en: "name a program for the machine, a text file with words such as G01 X10",
         help_de: "ein Programm für die Maschine nennen, eine Textdatei mit Wörtern wie G01 X10",
     }
-    /// A byte that begins nothing.
+    /// A character that cannot begin a word.
     UNKNOWN_CHARACTER: UnknownCharacter {
         en: "`{found}` begins no word; the line is left out",
         de: "mit `{found}` beginnt kein Wort; die Zeile bleibt unbeachtet",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
-    /// The same where the dialect passes over what it does not know.
+    /// A character that cannot begin a word and that the dialect ignores.
     UNKNOWN_CHARACTER_PASSED: UnknownCharacter {
         en: "`{found}` begins no word; it is passed over",
         de: "mit `{found}` beginnt kein Wort; es wird übergangen",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
-    /// `X` and then no number.
+    /// A letter without a number.
     WORD_WITHOUT_NUMBER: InvalidWord {
         en: "`{letter}` has no number; the line is left out",
         de: "`{letter}` hat keine Zahl; die Zeile bleibt unbeachtet",
         help_en: "write the number right behind the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
-    /// `X1.2.3`.
+    /// A malformed number such as `X1.2.3`.
     NO_NUMBER: InvalidWord {
         en: "`{found}` is no number; the line is left out",
         de: "`{found}` ist keine Zahl; die Zeile bleibt unbeachtet",
         help_en: "numbers have a sign, digits and at most one point",
         help_de: "Zahlen bestehen aus Vorzeichen, Ziffern und höchstens einem Punkt",
     }
-    /// Digits where a letter should be.
+    /// A number without a letter.
     NUMBER_WITHOUT_LETTER: InvalidWord {
         en: "the number `{found}` has no letter; the line is left out",
         de: "die Zahl `{found}` hat keinen Buchstaben; die Zeile bleibt unbeachtet",
         help_en: "put the letter of the word in front; a comment begins with {comment}",
         help_de: "den Buchstaben des Worts davorsetzen; ein Kommentar beginnt mit {comment}",
     }
-    /// N too large, or not at the beginning.
+    /// A block number that is too large, or not at the beginning.
     BLOCK_NUMBER: InvalidWord {
         en: "`{found}` is no block number for {dialect}",
         de: "`{found}` ist für {dialect} keine Satznummer",
         help_en: "N stands first in the line, without decimals, and is at most {most}",
         help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
     }
-    /// `(` without `)`.
+    /// An unclosed comment.
     UNCLOSED_COMMENT: InvalidComment {
         en: "the comment is not closed; the line is left out",
         de: "der Kommentar ist nicht geschlossen; die Zeile bleibt unbeachtet",
         help_en: "put `)` at its end; a comment cannot go on in the next line",
         help_de: "`)` ans Ende setzen; ein Kommentar geht nicht über die Zeile hinaus",
     }
-    /// `(` within `( )`.
+    /// A comment inside a comment.
     NESTED_COMMENT: InvalidComment {
         en: "a comment within a comment; the line is left out",
         de: "ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
         help_en: "write `[` and `]` within comments: {dialect} stops here",
         help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt hier stehen",
     }
-    /// Something else stands where a value is expected.
+    /// A missing value in an expression.
     VALUE_EXPECTED: InvalidExpression {
         en: "a value is missing here; the line is left out",
         de: "hier fehlt ein Wert; die Zeile bleibt unbeachtet",
         help_en: "a value is a number, #n, a function or an expression in [ ]",
         help_de: "ein Wert ist eine Zahl, #n, eine Funktion oder ein Ausdruck in [ ]",
     }
-    /// An operator or bracket is expected.
+    /// A missing operator or closing bracket.
     OPERATOR_EXPECTED: InvalidExpression {
         en: "an operator or `{bracket}` is missing here; the line is left out",
         de: "hier fehlt ein Rechenzeichen oder `{bracket}`; die Zeile bleibt unbeachtet",
         help_en: "operators are {operators}",
         help_de: "Rechenzeichen sind {operators}",
     }
-    /// A bracket is expected.
+    /// A missing bracket.
     BRACKET_EXPECTED: InvalidExpression {
         en: "`{bracket}` is missing here; the line is left out",
         de: "hier fehlt `{bracket}`; die Zeile bleibt unbeachtet",
         help_en: "expressions stand in [ ]; ATAN is written ATAN[y]/[x]",
         help_de: "Ausdrücke stehen in [ ]; ATAN schreibt man ATAN[y]/[x]",
     }
-    /// `#1` without `=`.
+    /// A parameter such as `#1` without `=`.
     ASSIGNMENT_EXPECTED: InvalidExpression {
         en: "`=` is missing behind the parameter; the line is left out",
         de: "hinter dem Parameter fehlt `=`; die Zeile bleibt unbeachtet",
         help_en: "a parameter at the beginning of a word is set: #1=2.5",
         help_de: "ein Parameter am Anfang eines Worts wird gesetzt: #1=2.5",
     }
-    /// Too deep.
+    /// An expression that is nested too deeply.
     NESTED_TOO_DEEPLY: InvalidExpression {
         en: "brackets are nested deeper than {most}; the line is left out",
         de: "Klammern sind tiefer als {most} verschachtelt; die Zeile bleibt unbeachtet",
         help_en: "set a parameter to a part of the expression first",
         help_de: "zuerst einen Parameter auf einen Teil des Ausdrucks setzen",
     }
-    /// The control's limit.
+    /// A line that is too long for the controller.
     LINE_TOO_LONG: LongLine {
         en: "the line has {length} characters; {dialect} takes {most}",
         de: "die Zeile hat {length} Zeichen; {dialect} nimmt {most}",
         help_en: "split the line, or shorten its comments",
         help_de: "die Zeile teilen oder ihre Kommentare kürzen",
     }
-    /// The reader's own limit.
+    /// A line that is too long for this program.
     LINE_MUCH_TOO_LONG: LongLine {
         en: "the line has {length} characters, more than {most}; it is left out",
         de: "die Zeile hat {length} Zeichen, mehr als {most}; sie bleibt unbeachtet",
         help_en: "this may not be G-code at all, or its line ends have got lost",
         help_de: "vielleicht ist das kein G-Code, oder die Zeilenenden sind verloren gegangen",
     }
-    /// `X1 2` is X12.
+    /// A space inside a number: `X1 2` means X12.
     BLANK_IN_NUMBER: DoubtfulSpelling {
         en: "blanks mean nothing in G-code: this is read as {letter}{number}",
         de: "Leerzeichen bedeuten in G-Code nichts: das wird als {letter}{number} gelesen",
         help_en: "if two words are meant, the second one's letter is missing",
         help_de: "wenn zwei Wörter gemeint sind, fehlt der Buchstabe des zweiten",
     }
-    /// `X 1` where blanks separate.
+    /// A space between letter and number in a dialect that may not accept it.
     BLANK_AFTER_LETTER: DoubtfulSpelling {
         en: "a blank between letter and number: {dialect} may not take it",
         de: "ein Leerzeichen zwischen Buchstabe und Zahl: {dialect} nimmt das vielleicht nicht",
         help_en: "write the number right behind the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
-    /// `X1,5`.
+    /// A decimal comma such as `X1,5`.
     COMMA_FOR_POINT: DoubtfulSpelling {
         en: "a decimal comma is read as a point",
         de: "ein Dezimalkomma wird als Punkt gelesen",
         help_en: "write a point",
         help_de: "einen Punkt schreiben",
     }
-    /// A comment of another dialect.
+    /// A comment style of another dialect.
     FOREIGN_COMMENT: DoubtfulSpelling {
         en: "{dialect} is not known to take comments with `{sign}`",
         de: "von {dialect} ist nicht bekannt, dass es Kommentare mit `{sign}` nimmt",
         help_en: "begin comments with {comment}",
         help_de: "Kommentare mit {comment} beginnen",
     }
-    /// `%NAME`.
+    /// Text after `%`.
     TEXT_AFTER_PERCENT: DoubtfulSpelling {
         en: "text behind `%` is taken as a comment",
         de: "Text hinter `%` wird als Kommentar genommen",
         help_en: "leave `%` alone in its line",
         help_de: "`%` allein in der Zeile lassen",
     }
-    /// GRBL obeys it.
+    /// A character that GRBL obeys immediately.
     REAL_TIME_CHARACTER: RealTimeCharacter {
         en: "{dialect} obeys `{found}` at once, even in a comment: {effect}",
         de: "{dialect} gehorcht `{found}` sofort, auch in einem Kommentar: {effect}",
         help_en: "write ASCII only, and no ! ? ~",
         help_de: "nur ASCII schreiben, kein ! ? ~",
     }
-    /// Behind M30 or the closing %.
+    /// Lines after the end of the program.
     AFTER_END: AfterProgramEnd {
         en: "the program ends in line {line}; this and what follows is not read",
         de: "das Programm endet in Zeile {line}; dies und alles danach wird nicht gelesen",
         help_en: "remove it, or the earlier end",
         help_de: "entfernen oder das frühere Ende",
     }
-    /// No M2, M30, %.
+    /// A program without M2, M30 or %.
     NO_END: NoProgramEnd {
         en: "the program ends without {words}",
         de: "das Programm endet ohne {words}",
         help_en: "the file may have been cut off; write M30 in its last line",
         help_de: "die Datei ist vielleicht abgeschnitten; M30 in die letzte Zeile schreiben",
     }
-    /// `/`.
+    /// An optional line, marked by `/`.
     OPTIONAL_LINE: OptionalLine {
         en: "a switch at the machine can leave this line out; it is read as if it were run",
         de: "ein Schalter an der Maschine kann diese Zeile auslassen; sie wird gelesen, als würde sie ausgeführt",
         help_en: "remove `/`, or the line",
         help_de: "`/` entfernen oder die Zeile",
     }
-    /// `/` that does nothing.
+    /// A `/` that has no effect.
     SLASH_DROPPED: OptionalLine {
         en: "{dialect} drops `/` and runs the line",
         de: "{dialect} lässt `/` weg und führt die Zeile aus",
         help_en: "remove the line if it is not meant",
         help_de: "die Zeile entfernen, wenn sie nicht gemeint ist",
     }
-    /// A G or M code.
+    /// An unknown G or M code.
     CODE_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know {word}",
         de: "{dialect} kennt {word} nicht",
         help_en: "read the file as another dialect with --dialect, or write it for this one with `pathbuild post FILE --post {dialect}`",
         help_de: "die Datei mit --dialect als anderen Dialekt lesen oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
     }
-    /// A letter.
+    /// An unknown letter.
     LETTER_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know the letter {word}",
         de: "{dialect} kennt den Buchstaben {word} nicht",
         help_en: "read the file as another dialect with --dialect, or remove the word",
         help_de: "die Datei mit --dialect als anderen Dialekt lesen oder das Wort entfernen",
     }
-    /// `#` or `[ ]`.
+    /// `#` or `[ ]` in a dialect without expressions.
     UNKNOWN_EXPRESSION: UnknownWord {
         en: "{dialect} knows no parameters and expressions; the line is left out",
         de: "{dialect} kennt keine Parameter und Ausdrücke; die Zeile bleibt unbeachtet",
         help_en: "write numbers, or read the file as another dialect with --dialect",
         help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
-    /// `%` for GRBL.
+    /// `%` in a dialect that does not know it.
     UNKNOWN_PERCENT: UnknownWord {
         en: "{dialect} does not know `%`",
         de: "{dialect} kennt `%` nicht",
         help_en: "remove the line, unless your sender does it",
         help_de: "die Zeile entfernen, wenn das nicht das Sendeprogramm tut",
     }
-    /// A drilling cycle in a dialect without.
+    /// A drilling cycle in a dialect without drilling cycles.
     UNKNOWN_CYCLE: UnknownWord {
         en: "{dialect} does not take the drilling cycle {word}: what it does is missing from the result",
         de: "{dialect} nimmt den Bohrzyklus {word} nicht: was er tut, fehlt im Ergebnis",
@@ -416,290 +416,290 @@ messages! {
         help_en: "write the moves out, or check the program at the control",
         help_de: "die Bewegungen ausschreiben oder das Programm an der Steuerung prüfen",
     }
-    /// A command.
+    /// A command that is not interpreted.
     NOT_FOLLOWED: WordNotFollowed {
         en: "{word} is not followed: moves from here on may be others than those of the machine",
         de: "{word} wird nicht verfolgt: ab hier können die Bewegungen andere sein als die der Maschine",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }
-    /// An axis.
+    /// An axis that is not interpreted.
     AXIS_NOT_FOLLOWED: WordNotFollowed {
         en: "the axis {word} is not followed",
         de: "die Achse {word} wird nicht verfolgt",
         help_en: "only X, Y and Z are read",
         help_de: "nur X, Y und Z werden gelesen",
     }
-    /// The dialect knows it and does nothing.
+    /// A word that the dialect knows but ignores.
     IGNORED: IgnoredWord {
         en: "{dialect} passes over {word}",
         de: "{dialect} übergeht {word}",
         help_en: "remove it, or switch it by hand",
         help_de: "entfernen oder von Hand schalten",
     }
-    /// F, by option.
+    /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
         en: "F is passed over, as asked: the layers' feeds hold",
         de: "F wird wie verlangt übergangen: es gilt der Vorschub der Ebenen",
     }
-    /// The last one wins.
+    /// A speed that replaces an earlier one of the same layer.
     SPEED_REPLACED: IgnoredWord {
         en: "layer {layer} already has the speed {old}; {new} takes its place",
         de: "die Ebene {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
         help_en: "give each layer one S",
         help_de: "jeder Ebene nur ein S geben",
     }
-    /// Two of a modal group.
+    /// Two words of the same modal group.
     SAME_GROUP: ConflictingWords {
         en: "{first} and {second} exclude each other in one line",
         de: "{first} und {second} schließen einander in einer Zeile aus",
         help_en: "put them into two lines",
         help_de: "auf zwei Zeilen verteilen",
     }
-    /// A letter twice.
+    /// A repeated letter.
     LETTER_TWICE: ConflictingWords {
         en: "{letter} is there twice in one line",
         de: "{letter} kommt in einer Zeile zweimal vor",
         help_en: "put the second into a line of its own; a letter may be missing between them",
         help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt dazwischen ein Buchstabe",
     }
-    /// Two words want the coordinates.
+    /// Two words that both use the coordinates.
     AXES_WANTED_TWICE: ConflictingWords {
         en: "{first} and {second} both use the coordinates of this line",
         de: "{first} und {second} verwenden beide die Koordinaten dieser Zeile",
         help_en: "put them into two lines",
         help_de: "auf zwei Zeilen verteilen",
     }
-    /// A word that another needs.
+    /// A word that requires another one.
     NEEDS: MissingWord {
         en: "{word} needs {missing}",
         de: "{word} braucht {missing}",
         help_en: "add the word to the line",
         help_de: "das Wort in die Zeile schreiben",
     }
-    /// Coordinates and no motion mode.
+    /// Coordinates without a motion mode.
     NO_MOTION: MissingWord {
         en: "coordinates without a motion: none of G0 to G3 holds here",
         de: "Koordinaten ohne Bewegung: hier gilt keines von G0 bis G3",
         help_en: "put G0 or G1 in front",
         help_de: "G0 oder G1 davorsetzen",
     }
-    /// Limits of a value.
+    /// A value that is out of range.
     OUT_OF_RANGE: ValueOutOfRange {
         en: "{word} cannot be {value}",
         de: "{word} kann nicht {value} sein",
         help_en: "{word} is {limits}",
         help_de: "{word} ist {limits}",
     }
-    /// G53 with G91.
+    /// G53 together with G91.
     MACHINE_COORDINATES_RELATIVE: ConflictingWords {
         en: "G53 counts from the machine's zero, and G91 from where the tool is",
         de: "G53 zählt ab Maschinennull und G91 von da, wo das Werkzeug ist",
         help_en: "switch to G90 before",
         help_de: "vorher auf G90 schalten",
     }
-    /// G53 without G0 or G1.
+    /// G53 with another motion than G0 and G1.
     MACHINE_COORDINATES_MOTION: ConflictingWords {
         en: "G53 goes with G0 and G1 only",
         de: "G53 geht nur mit G0 und G1",
         help_en: "write G0 or G1 in the same line",
         help_de: "G0 oder G1 in dieselbe Zeile schreiben",
     }
-    /// No use for a word.
+    /// A word without a use.
     UNUSED: UnusedWord {
         en: "nothing in this line uses {word}",
         de: "nichts in dieser Zeile verwendet {word}",
         help_en: "remove it, or add the G word that it belongs to",
         help_de: "entfernen oder das G-Wort ergänzen, zu dem es gehört",
     }
-    /// Division by zero and the like.
+    /// An expression without a value, for example because of a division by zero.
     NO_VALUE: CannotEvaluate {
         en: "this has no value: {reason}; the line is left out",
         de: "das hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
     }
-    /// Probe results, positions.
+    /// A parameter whose value only the machine knows.
     MACHINE_VALUE: MachineValue {
         en: "only the machine knows #{parameter}; {value} is taken for it",
         de: "nur die Maschine kennt #{parameter}; {value} wird dafür genommen",
         help_en: "what depends on it can be different at the machine",
         help_de: "was davon abhängt, kann an der Maschine anders sein",
     }
-    /// G55 and so on.
+    /// A work offset, such as G55, with an unknown position.
     OFFSET_UNKNOWN: UnknownOffset {
         en: "where {system} lies is not known here; it is taken to be where {base} is",
         de: "wo {system} liegt, ist hier nicht bekannt; es wird da angenommen, wo {base} ist",
         help_en: "lengths and the box hold only within one system",
         help_de: "Längen und Größe gelten nur innerhalb eines Systems",
     }
-    /// G28, G30, G53.
+    /// G28, G30 or G53, whose target is unknown.
     POSITION_UNKNOWN: UnknownOffset {
         en: "where {word} goes is not known here: the next move begins at an unknown place",
         de: "wohin {word} führt, ist hier nicht bekannt: die nächste Bewegung beginnt an unbekannter Stelle",
         help_en: "lengths and checks leave these moves out",
         help_de: "Längen und Prüfungen lassen diese Bewegungen aus",
     }
-    /// No unit.
+    /// A program that does not state its unit.
     UNITS_NOT_STATED: UnitsNotStated {
         en: "no {inch} or {mm} before the first move; millimetres are taken",
         de: "kein {inch} oder {mm} vor der ersten Bewegung; Millimeter werden angenommen",
         help_en: "state the unit: the control keeps that of the program before",
         help_de: "die Einheit angeben: die Steuerung behält die des vorigen Programms",
     }
-    /// The comment says otherwise.
+    /// A unit that contradicts a comment.
     UNITS_CONTRADICTED: UnitsNotStated {
         en: "{word} is read as {unit}, but the comment says {comment}",
         de: "{word} wird als {unit} gelesen, aber der Kommentar sagt {comment}",
         help_en: "the filter's own table and its examples contradict each other; `unit-codes` chooses between them",
         help_de: "die Tabelle des Filters und seine Beispiele widersprechen einander; `unit-codes` wählt zwischen ihnen",
     }
-    /// G90, G17.
+    /// A program that does not state a mode such as G90 or G17.
     MODES_NOT_STATED: ModesNotStated {
         en: "no {words} before the first move that depends on it; {taken} is taken",
         de: "kein {words} vor der ersten Bewegung, die davon abhängt; {taken} wird angenommen",
         help_en: "state it: the control keeps that of the program before",
         help_de: "angeben: die Steuerung behält, was das vorige Programm gesetzt hat",
     }
-    /// The number is executed, whatever the formula says.
+    /// A number that differs from its formula. The machine uses the number.
     FORMULA_DIFFERS: FormulaDiffers {
         en: "the machine goes to {number}, but the formula comes to {value}",
         de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// With a drawing.
+    /// A formula that differs from that of the drawing.
     FORMULA_NOT_DRAWN: FormulaDiffers {
         en: "the formula is {found}, the drawing gives {expected}",
         de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
         help_en: "the program was edited, or written with another --z-model: emit and adjust it again",
         help_de: "das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben: noch einmal ausgeben und anpassen",
     }
-    /// With a drawing.
+    /// A probe that differs from that of the drawing.
     PROBE_NOT_DRAWN: FormulaDiffers {
         en: "the program states the probe {found}, the drawing gives {expected}",
         de: "das Programm nennt die Probe {found}, die Zeichnung ergibt {expected}",
         help_en: "emit again and measure with the new program",
         help_de: "noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// Nothing can be said of the formula's value.
+    /// A formula with a probe that the header does not list.
     PROBE_NOT_STATED: UncheckedFormula {
         en: "the formula uses #{probe}, which the program's header does not state",
         de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// Of an adjusted program.
+    /// A formula that was applied without a measured height in the header.
     HEIGHT_NOT_MEASURED: UncheckedFormula {
         en: "the formula has been worked out, but the program's header does not state the measured height of #{probe}",
         de: "die Formel ist ausgerechnet, der Kopf des Programms nennt aber keine gemessene Höhe von #{probe}",
         help_en: "an older version adjusted the program, or it was edited: run adjust again",
         help_de: "eine ältere Version hat das Programm angepasst, oder es wurde bearbeitet: noch einmal adjust aufrufen",
     }
-    /// Of an adjusted program.
+    /// A formula that was not applied in an adjusted program.
     FORMULA_NOT_APPLIED: UncheckedFormula {
         en: "this formula has not been worked out, although the program's header states measured heights",
         de: "diese Formel ist nicht ausgerechnet, obwohl der Kopf des Programms gemessene Höhen nennt",
         help_en: "run adjust again",
         help_de: "noch einmal adjust aufrufen",
     }
-    /// Of a program that pathbuild wrote.
+    /// A formula in a program without probes.
     FORMULA_WITHOUT_PROBES: UncheckedFormula {
         en: "a correction formula in a program without probes",
         de: "eine Korrekturformel in einem Programm ohne Proben",
         help_en: "the program was edited: emit it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
     }
-    /// A division by zero, or something else that is no number.
+    /// A formula without a value, for example because of a division by zero.
     FORMULA_WITHOUT_VALUE: UncheckedFormula {
         en: "the formula has no value",
         de: "die Formel hat keinen Wert",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// Every other height in the program is corrected.
+    /// A height without a formula in a program where all others have one.
     HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
         en: "this height has no correction formula",
         de: "diese Höhe hat keine Korrekturformel",
         help_en: "an editor or sender may have removed it: emit again, and adjust it again",
         help_de: "ein Editor oder Sender hat sie vielleicht entfernt: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// Two lines of one probe.
+    /// A probe that is listed twice in the header.
     PROBE_STATED_TWICE: UncheckedFormula {
         en: "the header states #{probe} twice, with different values",
         de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
         help_en: "the program was edited: emit again, and adjust it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
     }
-    /// Of another program.
+    /// An adjusted program that does not list its measured heights.
     HEIGHTS_NOT_STATED: UncheckedFormula {
         en: "the program does not state its measured heights, so that the numbers before its formulas are not checked",
         de: "das Programm nennt seine gemessenen Höhen nicht; die Zahlen vor den Formeln sind darum nicht geprüft",
         help_en: "adjust it with pathbuild, which writes them into the header",
         help_de: "mit pathbuild anpassen: adjust schreibt sie in den Kopf",
     }
-    /// The header's cutter against the tool table's.
+    /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
         en: "the header says O{header}; T{index} of `[tool]` is {table} mm wide",
         de: "der Kopf sagt O{header}; T{index} in `[tool]` ist {table} mm breit",
         help_en: "put the cutter in that the header names, or correct `[tool]`",
         help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen",
     }
-    /// The header's cutter against an option's.
+    /// A cutter in the header that differs from that of an option.
     OTHER_CUTTER_GIVEN: Disagreement {
         en: "the header says O{header}, --cutter says {given}",
         de: "der Kopf sagt O{header}, --cutter sagt {given}",
         help_en: "the rapid moves were checked with --cutter",
         help_de: "die Eilgänge wurden mit --cutter geprüft",
     }
-    /// The cutter of the header or an option against the drawing's.
+    /// A cutter in the header or an option that differs from that of the drawing.
     OTHER_CUTTER_DRAWN: Disagreement {
         en: "{place} says O{found}, the drawing O{drawn}",
         de: "{place} sagt O{found}, die Zeichnung O{drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
-    /// The surface of the header or an option against the drawing's.
+    /// A surface in the header or an option that differs from that of the drawing.
     OTHER_SURFACE_DRAWN: Disagreement {
         en: "{place} says the surface is at {found}, the drawing at {drawn}",
         de: "{place} sagt, die Oberfläche liegt bei {found}, die Zeichnung sagt {drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
-    /// The statistics at a program's end.
+    /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {
         en: "`{label}` says {stated} mm, the program's moves come to {length} mm",
         de: "`{label}` sagt {stated} mm, die Bewegungen des Programms ergeben {length} mm",
         help_en: "the program was edited: emit it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
     }
-    /// A comment that emit writes otherwise.
+    /// A comment that differs from what `emit` writes.
     TEXT_DIFFERS: Disagreement {
         en: "emit writes `{expected}` here",
         de: "emit schreibt hier `{expected}`",
         help_en: "the program was edited: emit it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
     }
-    /// XpertMILL.
+    /// Coordinates without a motion word, as XpertMILL accepts them.
     MOTION_NOT_STATED: MotionNotStated {
         en: "coordinates without a motion word are read as {word} again; {dialect} is not known to do so",
         de: "Koordinaten ohne Bewegungswort werden wieder als {word} gelesen; von {dialect} ist das nicht bekannt",
         help_en: "write the motion word in every line",
         help_de: "das Bewegungswort in jede Zeile schreiben",
     }
-    /// A helix where there is none.
+    /// A helix in a dialect that may not support it.
     HELIX_DOUBTFUL: DoubtfulArc {
         en: "an arc with Z: {dialect} is not known to take it",
         de: "ein Bogen mit Z: von {dialect} ist nicht bekannt, dass es das nimmt",
         help_en: "write short lines instead",
         help_de: "stattdessen kurze Strecken schreiben",
     }
-    /// F missing.
+    /// A cut without a feed.
     NO_FEED: MissingFeed {
         en: "a cutting move without a feed",
         de: "eine Fräsbewegung ohne Vorschub",
         help_en: "write F in this line or before",
         help_de: "F in diese Zeile oder davor schreiben",
     }
-    /// F cleared by G94.
+    /// A cut without a feed after G94 cleared it.
     FEED_CLEARED: MissingFeed {
         en: "a cutting move without a feed: {word} in line {line} has cleared F",
         de: "eine Fräsbewegung ohne Vorschub: {word} in Zeile {line} hat F gelöscht",
@@ -713,250 +713,250 @@ messages! {
         help_en: "write F in this line, or switch to G94",
         help_de: "F in diese Zeile schreiben oder auf G94 schalten",
     }
-    /// G95 with the spindle standing.
+    /// G95 while the spindle speed is unknown.
     FEED_PER_TURN_WITHOUT_SPEED: MissingFeed {
         en: "with G95 the feed depends on the spindle, and no speed is set",
         de: "mit G95 hängt der Vorschub von der Spindel ab, und es ist keine Drehzahl gesetzt",
         help_en: "set S, or switch to G94",
         help_de: "S setzen oder auf G94 schalten",
     }
-    /// Radii.
+    /// An arc with different radii at its ends.
     RADII_DIFFER: ArcRadiiDiffer {
         en: "the arc begins with the radius {start} and ends with {end}: {difference} mm more than {dialect} takes",
         de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: {difference} mm mehr, als {dialect} nimmt",
         help_en: "write I and J with more decimals, or check the centre",
         help_de: "I und J mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
     }
-    /// No centre, no radius.
+    /// An arc without centre and radius.
     ARC_WITHOUT_CENTRE: InvalidArc {
         en: "an arc needs {centre} or R",
         de: "ein Bogen braucht {centre} oder R",
     }
-    /// Both.
+    /// An arc with both centre and radius.
     ARC_WITH_CENTRE_AND_RADIUS: InvalidArc {
         en: "an arc with R and {centre}: one of them says otherwise than the other",
         de: "ein Bogen mit R und {centre}: eins von beiden sagt anderes als das andere",
         help_en: "keep I and J: they are more exact",
         help_de: "I und J behalten: sie sind genauer",
     }
-    /// Needs an axis word.
+    /// An arc without a required axis word.
     ARC_WITHOUT_END: InvalidArc {
         en: "{dialect} wants {axes} in an arc, even when they do not change",
         de: "{dialect} verlangt {axes} in einem Bogen, auch wenn sie sich nicht ändern",
         help_en: "repeat the coordinates",
         help_de: "die Koordinaten wiederholen",
     }
-    /// R form full circle.
+    /// A full circle given by its radius.
     RADIUS_FULL_CIRCLE: InvalidArc {
         en: "an arc with R cannot end where it begins",
         de: "ein Bogen mit R kann nicht enden, wo er beginnt",
         help_en: "write a full circle with {centre}",
         help_de: "einen Vollkreis mit {centre} schreiben",
     }
-    /// R too short.
+    /// A radius that is too small for the ends of the arc.
     RADIUS_TOO_SMALL: InvalidArc {
         en: "the radius {radius} is too small: the arc's ends are {chord} apart",
         de: "der Radius {radius} ist zu klein: die Enden des Bogens liegen {chord} auseinander",
         help_en: "R is at least half of that",
         help_de: "R ist mindestens die Hälfte davon",
     }
-    /// No radius at all.
+    /// A radius of zero.
     RADIUS_ZERO: InvalidArc {
         en: "the arc's radius is 0",
         de: "der Radius des Bogens ist 0",
         help_en: "check I and J: they count from the arc's beginning, unless the file means absolute centres",
         help_de: "I und J prüfen: sie zählen ab dem Beginn des Bogens, außer die Datei meint absolute Mittelpunkte",
     }
-    /// By R, nearly 180 degrees or with few digits.
+    /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {
         en: "an arc by R: its centre moves by {shift} mm when the last digit of R changes",
         de: "ein Bogen mit R: sein Mittelpunkt wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
         help_en: "write it with I and J",
         help_de: "mit I und J schreiben",
     }
-    /// Nearly 360 degrees.
+    /// An arc that is nearly a full circle.
     NEAR_FULL_CIRCLE: DoubtfulArc {
         en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, and the last digit decides",
         de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, und die letzte Ziffer entscheidet",
         help_en: "write a full circle with equal ends, and leave out an arc that is none",
         help_de: "einen Vollkreis mit gleichen Enden schreiben, und einen Bogen, der keiner ist, weglassen",
     }
-    /// M5 with motion.
+    /// M5 in a line with a move.
     STOP_BEFORE_MOTION: StopBeforeMotion {
         en: "{word} is obeyed before the move of this line, while the cutter is still in the material",
         de: "{word} wird vor der Bewegung dieser Zeile ausgeführt, während der Fräser noch im Material ist",
         help_en: "put {word} into the next line",
         help_de: "{word} in die nächste Zeile setzen",
     }
-    /// Rapid in the plane.
+    /// A rapid move in the plane through material.
     RAPID_IN_MATERIAL: RapidInMaterial {
         en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
         de: "eine Eilgangbewegung auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
         help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
-    /// Kilometres of milling.
+    /// A program that is too large for simulating the material.
     TOO_LARGE_TO_FOLLOW: LimitReached {
         en: "following the material of this program exceeds the limit of {limit} cells; not checked: rapid moves into material",
         de: "das Material dieses Programms zu verfolgen überschreitet die Grenze von {limit} Zellen; nicht geprüft: Eilgang ins Material",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Arcs and slopes without end.
+    /// Arcs and ramps with too many pieces for simulating the material.
     TOO_MANY_PIECES: LimitReached {
         en: "to follow the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; not checked: rapid moves into material",
         de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, das überschreitet die Grenze von {limit}; nicht geprüft: Eilgang ins Material",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// Rapid down.
+    /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {
         en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",
         de: "eine Eilgangbewegung hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
         help_en: "go down with G1 and a feed (stock known at {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
-    /// First move in the plane.
+    /// A first move in the plane before retracting.
     START_NOT_RAISED: StartNotRaised {
         en: "the program moves in the plane before it raises the cutter",
         de: "das Programm fährt in der Ebene, bevor es den Fräser anhebt",
         help_en: "begin with G0 Z above the material",
         help_de: "mit G0 Z über dem Material beginnen",
     }
-    /// At the end.
+    /// A program that ends below the surface.
     END_NOT_RAISED: EndNotRaised {
         en: "the program ends at Z {z}, below the material's surface at {surface}",
         de: "das Programm endet auf Z {z}, unter der Oberfläche des Materials bei {surface}",
         help_en: "end with G0 Z above the material",
         help_de: "mit G0 Z über dem Material enden",
     }
-    /// X, Y and Z at once.
+    /// A rapid move in the plane and down at the same time.
     DIAGONAL_RAPID: DiagonalRapid {
         en: "a rapid move in the plane and down to Z {z} at once: many machines do not go straight",
         de: "eine Eilgangbewegung in der Ebene und zugleich hinunter auf Z {z}: viele Maschinen fahren nicht gerade",
         help_en: "move in the plane first, then down",
         help_de: "zuerst in der Ebene fahren, dann hinunter",
     }
-    /// Cutting with M5.
+    /// A cut with the spindle off.
     SPINDLE_OFF: SpindleOff {
         en: "a cutting move with the spindle off",
         de: "eine Fräsbewegung bei stehender Spindel",
         help_en: "switch it on with M3 before; a program without M3 to M5 is not asked for it",
         help_de: "sie vorher mit M3 einschalten; von einem Programm ohne M3 bis M5 wird das nicht verlangt",
     }
-    /// Neither M5 nor M30.
+    /// A program that ends with the spindle on.
     SPINDLE_LEFT_ON: SpindleLeftOn {
         en: "the spindle still turns when the program ends",
         de: "die Spindel dreht sich noch, wenn das Programm endet",
         help_en: "switch it off with M5, or end the program with M30",
         help_de: "sie mit M5 ausschalten oder das Programm mit M30 beenden",
     }
-    /// I, J, K with one or two decimals, and nothing finer in the program.
+    /// Arcs with only one or two decimals.
     COARSE_ARCS: CoarseArcs {
         en: "arcs are written with {decimals} decimals of a millimetre",
         de: "Bögen sind mit {decimals} Nachkommastellen eines Millimeters geschrieben",
         help_en: "set the post-processor to three or more: ends and centres of rounded arcs do not fit each other",
         help_de: "den Postprozessor auf drei oder mehr einstellen: Enden und Mittelpunkte gerundeter Bögen passen nicht zueinander",
     }
-    /// G38 down, then X or Y.
+    /// A sideways move after probing without retracting.
     PROBE_NOT_RAISED: ProbeNotRaised {
         en: "the tool moves sideways while it still touches what it probed",
         de: "das Werkzeug fährt zur Seite, während es noch berührt, was es angetastet hat",
         help_en: "raise it first: G0 Z",
         help_de: "es vorher anheben: G0 Z",
     }
-    /// S of a running spindle.
+    /// A spindle speed outside of the machine's range.
     SPINDLE_SPEED: SpindleSpeed {
         en: "S {speed} is outside the machine's {least} to {most}",
         de: "S {speed} liegt außerhalb der {least} bis {most} der Maschine",
         help_en: "change S, or the spindle's range under [machine]",
         help_de: "S ändern oder den Bereich der Spindel unter [machine]",
     }
-    /// F.
+    /// A feed that exceeds the limit of an axis.
     FEED_TOO_HIGH: FeedTooHigh {
         en: "a feed of {feed} mm/min, {axis} of which are more than the machine's {most}",
         de: "ein Vorschub von {feed} mm/min, der in {axis} mehr ist als die {most} der Maschine",
         help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
         help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder die Geschwindigkeit unter [machine]",
     }
-    /// F as such.
+    /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MOST: FeedTooHigh {
         en: "a feed of {feed} mm/min; the machine's largest is {most}",
         de: "ein Vorschub von {feed} mm/min; der größte der Maschine ist {most}",
         help_en: "the control slows down, and times are longer; change F, or `maximum-feed` under [machine]",
         help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder `maximum-feed` unter [machine]",
     }
-    /// Placed box.
+    /// A program that leaves the working area of the machine.
     OUTSIDE_MACHINE: OutsideMachine {
         en: "{axis} {value} is outside the machine's {least} to {most}",
         de: "{axis} {value} liegt außerhalb der {least} bis {most} der Maschine",
         help_en: "move the part, or change the travel under [machine]",
         help_de: "das Werkstück versetzen oder den Verfahrweg unter [machine] ändern",
     }
-    /// Size only.
+    /// A program that is larger than the working area of the machine.
     LARGER_THAN_MACHINE: OutsideMachine {
         en: "the program needs {size} mm in {axis}, the machine has {most}",
         de: "das Programm braucht {size} mm in {axis}, die Maschine hat {most}",
         help_en: "wherever the part is clamped, it does not fit",
         help_de: "wo immer das Werkstück gespannt ist, es passt nicht",
     }
-    /// M6.
+    /// A tool change below the surface.
     TOOL_CHANGE_AT_DEPTH: ToolChangeAtDepth {
         en: "a tool change at Z {z}, below the material's surface at {surface}",
         de: "ein Werkzeugwechsel auf Z {z}, unter der Oberfläche des Materials bei {surface}",
         help_en: "raise the cutter before M6",
         help_de: "den Fräser vor M6 anheben",
     }
-    /// Up, or nowhere.
+    /// A probing move that does not go down.
     USELESS_PROBE: UselessProbe {
         en: "the probing move does not go down: it meets nothing",
         de: "die Messbewegung führt nicht nach unten: sie trifft nichts",
         help_en: "probe towards the material; G38.4 and G38.5 go away from it",
         help_de: "zum Material hin messen; G38.4 und G38.5 führen von ihm weg",
     }
-    /// No movement.
+    /// A probing move without length.
     PROBE_WITHOUT_WAY: UselessProbe {
         en: "the probing move ends where it begins",
         de: "die Messbewegung endet, wo sie beginnt",
         help_en: "probe to a height below the material",
         help_de: "bis zu einer Höhe unter dem Material messen",
     }
-    /// Where the paths part.
+    /// `diff`: moves to different points.
     PATHS_DIFFER: MovesDiffer {
         en: "the moves differ: here the tool goes to {found}, in line {line} of the other to {expected}",
         de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen nach {expected}",
     }
-    /// Arc against line, other way round.
+    /// `diff`: moves along different curves.
     SHAPES_DIFFER: MovesDiffer {
         en: "the moves differ: this one and that in line {line} of the other part between their ends",
         de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen trennen sich zwischen ihren Enden",
     }
-    /// Rapid against feed.
+    /// `diff`: a rapid move and a cut.
     KINDS_DIFFER: MovesDiffer {
         en: "the moves differ: this is {found}, in line {line} of the other it is {expected}",
         de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen {expected}",
     }
-    /// Feed.
+    /// `diff`: different feeds.
     FEEDS_DIFFER: MovesDiffer {
         en: "the feeds differ: {found} here, {expected} in line {line} of the other",
         de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen {expected}",
     }
-    /// Too short.
+    /// `diff`: missing moves at the end.
     MOVES_MISSING: MovesDiffer {
         en: "the moves end here; the other goes on in line {line}",
         de: "die Bewegungen enden hier; das andere fährt in Zeile {line} weiter",
     }
-    /// Too long.
+    /// `diff`: additional moves at the end.
     MOVES_TOO_MANY: MovesDiffer {
         en: "the other's moves end in line {line}; these go on",
         de: "die Bewegungen des anderen enden in Zeile {line}; diese gehen weiter",
     }
-    /// Said under the last of many, where one more is left.
+    /// Note: one more occurrence is not shown.
     ONE_MORE: DoubtfulSpelling {
         en: "this is said of one more line, which is not shown",
         de: "das gilt für eine weitere Zeile, die nicht gezeigt wird",
     }
-    /// Said under the last of many.
+    /// Note: further occurrences are not shown.
     MORE: DoubtfulSpelling {
         en: "this is said of {count} more lines, which are not shown",
         de: "das gilt für {count} weitere Zeilen, die nicht gezeigt werden",

@@ -1,7 +1,7 @@
-//! Everything that pathbuild says about a drawing, by subject. A message's two languages and its help stand together, so that one
-//! is not changed without the others.
+//! The catalogue of messages, by subject. The two languages and the help of a message are next to each other, so that none is changed
+//! without the others.
 
-/// Declares messages: one static each, and the list of a subject's.
+/// Declares the messages of a subject: a static for each, and a list of all.
 macro_rules! messages {
     ($($(#[$doc:meta])* $key:ident: $code:ident {
         en: $en:literal, de: $de:literal $(, help_en: $help_en:literal, help_de: $help_de:literal)? $(,)?
@@ -31,7 +31,7 @@ pub mod subpaths;
 pub mod variables;
 pub mod walk;
 
-/// Every message, for tests and for results that come back from a cache.
+/// All messages, for tests and for deserializing cached results.
 pub fn all() -> impl Iterator<Item = &'static crate::Message> {
     [
         files::ALL,

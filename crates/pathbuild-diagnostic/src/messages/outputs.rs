@@ -1,14 +1,14 @@
-//! What is emitted, and Q-projects. (PB512 to PB520)
+//! Messages about output files and Q-projects. (PB512 to PB520)
 
 messages! {
-    /// Several paths in a drawing.
+    /// A drawing with several paths where one is needed.
     SEVERAL_PATHS: SeveralPaths {
         en: "the drawing holds several paths: {names}",
         de: "die Zeichnung enthält mehrere Pfade: {names}",
         help_en: "name the paths to emit: pathbuild emit {first}",
         help_de: "die gewünschten Pfade nennen: pathbuild emit {first}",
     }
-    /// No path in a drawing.
+    /// A drawing without a path.
     NO_PATH: NoPath {
         en: "the drawing holds no path",
         de: "die Zeichnung enthält keinen Pfad",
@@ -29,35 +29,35 @@ messages! {
         help_en: "a path's layer has a name that matches {pattern}; `path-pattern` in pathbuild.toml sets another pattern",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht; `path-pattern` in pathbuild.toml setzt ein anderes Muster",
     }
-    /// A path that only the file's name knows.
+    /// A path that is only in the file's name.
     PROMISED_PATH: PromisedPath {
         en: "the file's name names path {name}, but no layer of the drawing has that name",
         de: "der Dateiname nennt den Pfad {name}, aber kein Layer der Zeichnung heißt so",
         help_en: "rename the layer, or the file",
         help_de: "den Layer oder die Datei umbenennen",
     }
-    /// A path that no other drawing finds.
+    /// A path that is not covered by the file's name.
     STRAY_PATH: StrayPath {
         en: "other drawings cannot embed path {name}: its name is not in the name of this file",
         de: "andere Zeichnungen können Pfad {name} nicht einbetten: sein Name steht nicht im Namen dieser Datei",
         help_en: "put the path's name into the file's name, or correct the layer's name",
         help_de: "den Namen des Pfads in den Dateinamen aufnehmen oder den Namen des Layers berichtigen",
     }
-    /// A pattern of targets that no path has.
+    /// A target pattern that matches no path.
     NO_TARGET: NoPath {
         en: "no path of the library matches the target {pattern}",
         de: "kein Pfad der Bibliothek entspricht dem Ziel {pattern}",
         help_en: "targets are patterns of path names: * is any text, ? one character",
         help_de: "Ziele sind Muster von Pfadnamen: * ist beliebiger Text, ? ein Zeichen",
     }
-    /// A name on the command line that nothing has.
+    /// A name on the command line that does not exist.
     NO_SUCH_PATH: PathNotFound {
         en: "there is no path or drawing {name}",
         de: "es gibt keinen Pfad und keine Zeichnung {name}",
         help_en: "looked in {directories}",
         help_de: "gesucht in {directories}",
     }
-    /// A pattern of `list` that no path matches.
+    /// A pattern of `list` that matches no path.
     NO_PATH_LIKE: PathNotFound {
         en: "no path matches {name}",
         de: "kein Pfad entspricht {name}",
@@ -69,87 +69,87 @@ messages! {
         en: "the library defines it in {near}: name that drawing",
         de: "die Bibliothek enthält ihn in {near}: diese Zeichnung nennen",
     }
-    /// Note: the drawing that defines the path, which nobody finds by the drawing's name.
+    /// Note: the drawing that defines the path, although its name does not cover it.
     NOT_IN_FILE_NAME: PathNotFound {
         en: "{near} defines it, though the file's name does not cover it: name that drawing",
         de: "{near} enthält ihn, obwohl der Dateiname ihn nicht abdeckt: diese Zeichnung nennen",
     }
-    /// A note: the path whose name is nearest.
+    /// Note: the path with the most similar name.
     NEAR_PATH: PathNotFound {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
     }
-    /// Two outputs of one name.
+    /// Two programs with the same file name.
     SAME_OUTPUT: SameOutput {
         en: "{name} would be written by {first} and by {second}",
         de: "{name} würde von {first} und von {second} geschrieben",
         help_en: "give one of them an R (a suffix of the output's name), or use --out-dir in separate runs",
         help_de: "einem davon ein R geben (Zusatz zum Namen der Ausgabe) oder --out-dir in getrennten Läufen verwenden",
     }
-    /// Output that nothing writes any more.
+    /// An output file that would no longer be written.
     STALE: StaleOutput {
         en: "{name} was written earlier, and nothing would write it now",
         de: "{name} wurde früher geschrieben, jetzt würde es nichts mehr schreiben",
         help_en: "check that nobody needs it; emit --remove-stale removes such files",
         help_de: "prüfen, ob es noch jemand braucht; emit --remove-stale entfernt solche Dateien",
     }
-    /// Output of before the path became wrong.
+    /// An output file that is older than the errors in its path.
     OLDER_OUTPUT: OlderOutput {
         en: "path {path} was not written, and {name} is older",
         de: "Pfad {path} wurde nicht geschrieben, und {name} ist älter",
         help_en: "do not mill from {name} before the path's errors are fixed and it is written anew",
         help_de: "nicht nach {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
-    /// What `adjust` wrote, of another program than the path's now.
+    /// A corrected program that was made from an older program.
     STALE_ADJUSTED: StaleOutput {
         en: "{name} was made from another program than {clean} is now",
         de: "{name} wurde aus einem anderen Programm gemacht, als {clean} jetzt ist",
         help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
     }
-    /// A corrected program that was edited, or that does not state its measured heights.
+    /// A corrected program that was edited, or whose header lacks the measured heights.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
         de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} macht",
         help_en: "it was edited, or an older version adjusted it: do not run it, adjust again",
         help_de: "es wurde bearbeitet, oder eine ältere Version hat es angepasst: nicht laufen lassen, noch einmal adjust aufrufen",
     }
-    /// A corrected program, and values that somebody entered later.
+    /// A corrected program that is older than the measured heights.
     STALE_VALUES: StaleOutput {
         en: "{name} was adjusted with other heights than {values} has now",
         de: "{name} wurde mit anderen Höhen angepasst, als {values} jetzt hat",
         help_en: "do not run it: adjust again",
         help_de: "nicht laufen lassen: noch einmal adjust aufrufen",
     }
-    /// Output of another post, of before the path was changed.
+    /// An outdated program written by another post.
     STALE_OTHER_MOVES: StaleOutput {
         en: "{name} has other moves than {program}: another post-processor wrote it before the path was changed",
         de: "{name} hat andere Bewegungen als {program}: ein anderer Postprozessor hat es geschrieben, bevor der Pfad geändert wurde",
         help_en: "do not run it: emit with that post, or emit --remove-stale removes it",
         help_de: "nicht laufen lassen: mit jenem Postprozessor neu schreiben (emit), oder emit --remove-stale entfernt es",
     }
-    /// A path without an embedding.
+    /// A path that the Q-project does not embed.
     LACKS_PATH: QProjectLacksPath {
         en: "the Q-project does not embed path {name} of {drawing}",
         de: "das Q-Projekt bettet Pfad {name} aus {drawing} nicht ein",
         help_en: "add it, or write the Q-project anew: pathbuild q-project {drawing}",
         help_de: "ihn hinzufügen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
-    /// Another value than on the proxy line.
+    /// A value that differs from that of the proxy line.
     Q_VALUE_DIFFERS: QProjectDiffers {
         en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
         de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
         help_en: "make both agree, or write the Q-project anew: pathbuild q-project {drawing}",
         help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
-    /// Another length than the proxy line.
+    /// A length that differs from that of the proxy line.
     Q_LENGTH_DIFFERS: QProjectDiffers {
         en: "the segment is {here} mm long, the proxy line of path {name} in {drawing} {there} mm",
         de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} {there} mm",
         help_en: "make both agree, or write the Q-project anew: pathbuild q-project {drawing}",
         help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
-    /// A proxy line of nothing.
+    /// A proxy line for a path that does not exist.
     PROXY_OF_NOTHING: ProxyDiffers {
         en: "the proxy line names {name}, which is no path of this drawing",
         de: "die Stellvertreterlinie nennt {name}, das kein Pfad dieser Zeichnung ist",
@@ -163,28 +163,28 @@ messages! {
         help_en: "correct the name",
         help_de: "den Namen berichtigen",
     }
-    /// Another value than the path's.
+    /// A value of a proxy line that differs from that of its path.
     PROXY_VALUE_DIFFERS: ProxyDiffers {
         en: "{letter} is {here} on the proxy line, but {there} in path {name}",
         de: "{letter} ist auf der Stellvertreterlinie {here}, in Pfad {name} aber {there}",
         help_en: "write the path's {letter} on the proxy line, which people copy into their projects",
         help_de: "das {letter} des Pfads an die Stellvertreterlinie schreiben, die in Projekte kopiert wird",
     }
-    /// Another length than the path's.
+    /// A length of a proxy line that differs from that of its path.
     PROXY_LENGTH_DIFFERS: ProxyDiffers {
         en: "the proxy line is {here} mm long, but path {name} is {there} mm from start to end",
         de: "die Stellvertreterlinie ist {here} mm lang, Pfad {name} aber {there} mm von Anfang bis Ende",
         help_en: "draw it from the path's start to its end",
         help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
     }
-    /// The paths of a drawing need several cutters, and no second name can be made of the first.
+    /// A Q-project that needs several paths, but whose name allows no further names.
     NO_NAME_FOR_CUTTER: CannotWrite {
         en: "the drawing's paths have several O, and a Q-project has a path for each: no name follows {name}",
         de: "die Pfade der Zeichnung haben mehrere O, und ein Q-Projekt hat für jedes einen Pfad: auf {name} folgt kein Name",
         help_en: "give a name whose last number can grow with --path-name",
         help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl wachsen kann",
     }
-    /// The other moves are those of the table "Compatible".
+    /// Note: the moves only differ because of `--compatible`.
     SAME_IF_COMPATIBLE: MovesDiffer {
         en: "with --compatible the moves are the same: the program is as PathDxf2GCode writes it",
         de: "mit --compatible sind die Bewegungen gleich: das Programm ist so, wie PathDxf2GCode es schreibt",

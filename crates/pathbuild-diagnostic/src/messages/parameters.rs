@@ -1,28 +1,28 @@
-//! Parameter texts and their values. (PB201 to PB210)
+//! Messages about parameter texts and their values. (PB201 to PB210)
 
 messages! {
-    /// A needed value is neither given nor inherited.
+    /// A required value that is neither given nor inherited.
     MISSING: MissingParameter {
         en: "{letter} missing",
         de: "{letter} fehlt",
         help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
         help_de: "{element} braucht {letter}: ans Element schreiben oder an die Startmarke des Pfads",
     }
-    /// O or T of the path itself.
+    /// A path without O or T.
     MISSING_AT_START: MissingParameter {
         en: "{letter} missing at the path's start",
         de: "{letter} fehlt am Pfadanfang",
         help_en: "every path needs O (cutter diameter) and T (thickness of the material) in the text of its start marker",
         help_de: "jeder Pfad braucht O (Fräserdurchmesser) und T (Materialdicke) im Text seiner Startmarke",
     }
-    /// M where a path is embedded.
+    /// A missing M where a path is embedded.
     MISSING_MATERIAL: MissingParameter {
         en: "M missing: no material on {where}",
         de: "M fehlt: kein Material bei {where}",
         help_en: "where a path is embedded, both it and the segment (or the embedding path) must name the material",
         help_de: "wo ein Pfad eingebettet wird, müssen er und das Segment (oder der einbettende Pfad) das Material nennen",
     }
-    /// A letter that the element does not know.
+    /// A letter that is unknown to the element.
     UNKNOWN_LETTER: UnknownParameter {
         en: "{element} does not know \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
@@ -36,63 +36,63 @@ messages! {
         help_en: "letters are upper case: \"{upper}\"? It knows {known}",
         help_de: "Buchstaben sind groß zu schreiben: \"{upper}\"? Bekannt sind {known}",
     }
-    /// Several letters in lower case: the text as it should be.
+    /// A text in lower case, with a correction.
     LOWER_CASE_TEXT: UnknownParameter {
         en: "the letters of this text are lower case",
         de: "die Buchstaben dieses Textes sind klein geschrieben",
         help_en: "letters are upper case: write \"{text}\"",
         help_de: "Buchstaben werden groß geschrieben: \"{text}\"",
     }
-    /// Parameters with commas between.
+    /// Parameters separated by commas.
     COMMAS: UnknownParameter {
         en: "parameters are separated by commas here",
         de: "hier sind Parameter durch Kommas getrennt",
         help_en: "separate them with blanks: write \"{text}\"",
         help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
-    /// Words that cannot be parameters.
+    /// A text that is a remark.
     REMARK: UnknownParameter {
         en: "\"{text}\" looks like a remark and holds no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
         help_en: "move a remark to a layer that is no path layer; Q puts a comment into the program",
         help_de: "eine Bemerkung auf einen Layer legen, der kein Pfad-Layer ist; mit Q kommt ein Kommentar ins Programm",
     }
-    /// 02 for O2.
+    /// A zero instead of O.
     ZERO_FOR_O: UnknownParameter {
         en: "{element} does not know \"0\"",
         de: "{element} kennt \"0\" nicht",
         help_en: "a zero for the letter O? write \"{meant}\"",
         help_de: "eine Null statt des Buchstabens O? \"{meant}\" schreiben",
     }
-    /// A path's name without >.
+    /// A path name without `>`.
     NAME_WITHOUT_SIGN: UnknownParameter {
         en: "a path's name without \">\" before it",
         de: "ein Pfadname ohne \">\" davor",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
-    /// A blank between a letter and its number.
+    /// A space between a letter and its number.
     VALUE_APART: UnknownParameter {
         en: "a blank separates a letter from its value",
         de: "ein Leerzeichen trennt einen Buchstaben von seinem Wert",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
-    /// A blank between > and the name.
+    /// A space between `>` and the name.
     NAME_APART_FROM_SIGN: UnknownParameter {
         en: "a blank separates \">\" from the path's name",
         de: "ein Leerzeichen trennt \">\" vom Namen des Pfads",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
-    /// Two values of which one must be greater.
+    /// A value that must be greater than another one.
     NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber größer sein als {limit_letter} mit {limit}",
         help_en: "heights are measured from the clamping plate: S above T above D above B",
         help_de: "Höhen zählen ab der Aufspannplatte: S über T über D über B",
     }
-    /// Two values of which one must be less.
+    /// A value that must be less than another one.
     NOT_BELOW: ParameterOutOfRange {
         en: "{letter} is {value}, but must be less than {limit_letter}, which is {limit}",
         de: "{letter} ist {value}, muss aber kleiner sein als {limit_letter} mit {limit}",
@@ -106,133 +106,133 @@ messages! {
         help_en: "write a value above 0, for example {example}",
         help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
     }
-    /// Far below the plate.
+    /// A bottom far below the plate.
     BELOW_PLATE: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",
         de: "B ist {value}: {depth} mm unter der Platte",
         help_en: "check B, and that nothing lies there that must not be milled; `below-plate` under [warnings] allows more than {limit} mm",
         help_de: "B prüfen, und ob dort nichts liegt, das nicht gefräst werden darf; `below-plate` unter [warnings] erlaubt mehr als {limit} mm",
     }
-    /// Below the plate by what may have been meant as a depth.
+    /// A bottom below the plate that was probably meant as a depth.
     BELOW_PLATE_BY_DEPTH: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",
         de: "B ist {value}: {depth} mm unter der Platte",
         help_en: "heights are measured from the plate upwards: {depth} mm deep in T{thickness} is B{example}; where {depth} mm below the plate is meant, `below-plate` under [warnings] allows more than {limit} mm",
         help_de: "Höhen werden von der Platte nach oben gemessen: {depth} mm tief bei T{thickness} ist B{example}; sind {depth} mm unter der Platte gemeint, erlaubt `below-plate` unter [warnings] mehr als {limit} mm",
     }
-    /// Sweepless milling that begins in the air.
+    /// Sweepless milling that begins above the surface.
     FIRST_DEPTH_IN_AIR: DoubtfulValue {
         en: "W is {value}, above the surface T of {thickness}: the first pass mills air",
         de: "W ist {value} und liegt über der Oberfläche T von {thickness}: der erste Durchgang fräst in der Luft",
         help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
         help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
     }
-    /// Sweepless milling without passes.
+    /// Sweepless milling that begins below the bottom.
     FIRST_DEPTH_BELOW_BOTTOM: DoubtfulValue {
         en: "W is {value}, below the bottom {bottom}: everything is milled in one pass, {depth} mm deep",
         de: "W ist {value} und liegt unter dem Grund {bottom}: alles wird in einem Durchgang von {depth} mm Tiefe gefräst",
         help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
         help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
     }
-    /// Support bars that no line type asks for.
+    /// Parameters of support bars without any support segment.
     LOST_BARS: LostBars {
         en: "nothing holds the part inside this outline: the path has {letters} for support bars, but no line with line type BORDER or CENTER",
         de: "das Teil in diesem Umriss wird von nichts gehalten: der Pfad hat {letters} für Stützstege, aber keine Linie mit Linientyp BORDER oder CENTER",
         help_en: "give the outline line type BORDER or CENTER (programs and blocks lose it to CONTINUOUS), or remove {letters} where the part is held otherwise",
         help_de: "dem Umriss den Linientyp BORDER oder CENTER geben (Programme und Blöcke machen CONTINUOUS daraus) oder {letters} entfernen, wenn das Teil anders gehalten wird",
     }
-    /// More than the whole plate at once.
+    /// An infeed greater than the thickness.
     INFEED_ABOVE_THICKNESS: DoubtfulValue {
         en: "I is {value}, more than the thickness T of {thickness}: everything is milled in one pass",
         de: "I ist {value}, mehr als die Dicke T von {thickness}: alles wird in einem Durchgang gefräst",
         help_en: "write the infeed of one pass, for example I0.5",
         help_de: "die Zustellung eines Durchgangs schreiben, zum Beispiel I0.5",
     }
-    /// A mark that leaves little of the material.
+    /// A mark that cuts through most of the material.
     DEEP_MARK: DoubtfulValue {
         en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
         de: "D ist {value}: die Markierung ist {depth} mm tief in Material von {thickness} mm",
         help_en: "D is the height of the mark's bottom above the plate, not its depth: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
         help_de: "D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
     }
-    /// The same of marks that have the path's D.
+    /// Marks with the path's D that cut through most of the material.
     DEEP_MARKS_OF_PATH: DoubtfulValue {
         en: "marks without D have this one, {value}: they are {depth} mm deep in material of {thickness} mm",
         de: "Markierungen ohne D haben dieses, {value}: sie sind {depth} mm tief in Material von {thickness} mm",
         help_en: "where this D is that of support bars, give each mark its own: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
         help_de: "wo dieses D das der Stützstege ist, jeder Markierung ein eigenes geben: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
     }
-    /// Faster than the machine.
+    /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MACHINE: DoubtfulValue {
         en: "F is {value}, but the machine's largest feed is {limit}",
         de: "F ist {value}, der größte Vorschub der Maschine ist aber {limit}",
         help_en: "correct F, or `maximum-feed` under [machine]",
         help_de: "F berichtigen oder `maximum-feed` unter [machine]",
     }
-    /// The same of the option.
+    /// A feed from an option that exceeds the limit of the machine.
     FALLBACK_FEED_ABOVE_MACHINE: DoubtfulValue {
         en: "the feed {value} that holds for this path, which has no F, is above the machine's largest, {limit}",
         de: "der Vorschub {value}, der für diesen Pfad ohne F gilt, liegt über dem größten der Maschine, {limit}",
         help_en: "lower `feed` (--feed), write F into the path, or correct `maximum-feed` under [machine]",
         help_de: "`feed` (--feed) senken, F in den Pfad schreiben oder `maximum-feed` unter [machine] berichtigen",
     }
-    /// The sweep height that an emitted path gets because it has none.
+    /// A default sweep height that is too low.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} that holds for this path is not greater than T, which is {limit}",
         de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T mit {limit}",
         help_en: "give the path an S, or raise sweep-height",
         help_de: "dem Pfad ein S geben oder sweep-height erhöhen",
     }
-    /// Material or a probe that H raises as high as rapid moves run.
+    /// Material or a probe that H raises to the sweep height.
     RAISED_INTO_SWEEPS: ParameterOutOfRange {
         en: "what stands here reaches up to {limit}, and sweeps of this path run at {value}: rapid moves would run into it",
         de: "was hier steht, reicht bis {limit}, und Leerfahrten dieses Pfades laufen auf {value}: Eilgangbewegungen führen hinein",
         help_en: "give this path a greater S, or raise the material less (H)",
         help_de: "diesem Pfad ein größeres S geben oder das Material weniger anheben (H)",
     }
-    /// A letter twice in one text.
+    /// A repeated letter.
     TWICE: DuplicateParameter {
         en: "{letter} is given twice",
         de: "{letter} ist zweimal angegeben",
         help_en: "remove one of them; pathbuild does not guess which one you mean",
         help_de: "eines davon entfernen; pathbuild rät nicht, welches gemeint ist",
     }
-    /// A variable twice in one text.
+    /// A repeated variable.
     VARIABLE_TWICE: DuplicateParameter {
         en: "variable \"{variable}\" is given twice",
         de: "Variable \"{variable}\" ist zweimal angegeben",
         help_en: "remove one of them; a variable's name is one character",
         help_de: "eine davon entfernen; der Name einer Variablen ist ein Zeichen",
     }
-    /// Not a number.
+    /// A value that is not a number.
     NOT_A_NUMBER: NotANumber {
         en: "{letter} needs a number, not \"{value}\"",
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
         help_en: "an optional sign, digits, at most one decimal point or comma: {letter}-0,3",
         help_de: "ein Vorzeichen, wenn nötig, Ziffern, höchstens ein Dezimalpunkt oder -komma: {letter}-0,3",
     }
-    /// A number with its unit.
+    /// A number with a unit.
     NUMBER_WITH_UNIT: NotANumber {
         en: "\"{letter}{value}\" is not a number",
         de: "\"{letter}{value}\" ist keine Zahl",
         help_en: "write \"{meant}\": lengths are always in mm, feeds in mm/min, and units are never written",
         help_de: "\"{meant}\" schreiben: Längen sind immer in mm, Vorschübe in mm/min, Einheiten werden nicht geschrieben",
     }
-    /// A blank that does not separate.
+    /// A non-breaking space, which does not separate parameters.
     NON_BREAKING_SPACE: NotANumber {
         en: "{letter} needs a number, not \"{value}\": \u{2423} is a non-breaking space, which separates nothing",
         de: "{letter} braucht eine Zahl, nicht \"{value}\": \u{2423} ist ein geschütztes Leerzeichen und trennt nicht",
         help_en: "type a plain blank in its place",
         help_de: "dafür ein gewöhnliches Leerzeichen schreiben",
     }
-    /// Not an integer.
+    /// A value that is not an integer.
     NOT_AN_INTEGER: NotANumber {
         en: "{letter} needs a whole number, not \"{value}\"",
         de: "{letter} braucht eine ganze Zahl, nicht \"{value}\"",
         help_en: "N gives the order at a star: N1, N2, N3",
         help_de: "N gibt die Reihenfolge an einem Stern: N1, N2, N3",
     }
-    /// A variable where none can be.
+    /// A variable in a letter that must be literal.
     VARIABLE_NOT_ALLOWED: VariableNotAllowed {
         en: "{letter} cannot use a variable",
         de: "{letter} kann keine Variable verwenden",
@@ -246,63 +246,63 @@ messages! {
         help_en: "put a text over the start marker with at least O and T: \"O2 T5 I1 B0\"",
         help_de: "einen Text mit mindestens O und T über die Startmarke legen: \"O2 T5 I1 B0\"",
     }
-    /// @ with other letters.
+    /// @ together with other letters.
     AT_WITH_OTHERS: InvalidAtReference {
         en: "@ cannot stand beside other parameters",
         de: "@ kann nicht neben anderen Parametern stehen",
         help_en: "with @ the path has exactly the parameters of the other path",
         help_de: "mit @ hat der Pfad genau die Parameter des anderen Pfads",
     }
-    /// @ to nothing.
+    /// @ with an unknown path.
     AT_UNKNOWN: InvalidAtReference {
         en: "there is no path {name} with a start in this drawing",
         de: "es gibt in dieser Zeichnung keinen Pfad {name} mit einem Anfang",
         help_en: "@ names another path of the same drawing; it has {known}",
         help_de: "@ nennt einen anderen Pfad derselben Zeichnung; sie hat {known}",
     }
-    /// @ to a path with @.
+    /// @ with a path that uses @ itself.
     AT_CHAINED: InvalidAtReference {
         en: "path {name} itself uses @",
         de: "Pfad {name} verwendet selbst @",
         help_en: "name the path that has the parameters",
         help_de: "den Pfad nennen, der die Parameter hat",
     }
-    /// E cannot be understood.
+    /// An invalid regular expression in E.
     INVALID_REGEX: InvalidRegex {
         en: "E is not a regular expression: {reason}",
         de: "E ist kein regulärer Ausdruck: {reason}",
         help_en: "E is searched in the names of embedded paths: E^2050 or E[.]1P",
         help_de: "E wird in den Namen eingebetteter Pfade gesucht: E^2050 oder E[.]1P",
     }
-    /// Allowed, but nothing comes of it.
+    /// A letter that is permitted but has no effect.
     WITHOUT_EFFECT: ParameterWithoutEffect {
         en: "{letter} has no effect here",
         de: "{letter} hat hier keine Wirkung",
         help_en: "remove it; it has no effect",
         help_de: "entfernen; es bewirkt nichts",
     }
-    /// W of a path that mills no chain.
+    /// W of a path without a milling chain.
     FIRST_DEPTH_WITHOUT_CHAIN: ParameterWithoutEffect {
         en: "{letter} has no effect here: the path has no milling chain",
         de: "{letter} hat hier keine Wirkung: der Pfad hat keine Fräskette",
         help_en: "remove it, or check the line types: only lines and arcs with CONTINUOUS, DIVIDE, BORDER or CENTER form chains",
         help_de: "entfernen oder die Linientypen prüfen: nur Linien und Bögen mit CONTINUOUS, DIVIDE, BORDER oder CENTER bilden Ketten",
     }
-    /// B of what is only marked.
+    /// B of a mark.
     BOTTOM_OF_MARK: ParameterWithoutEffect {
         en: "{letter} has no effect here: a mark (line type DIVIDE) goes down to D",
         de: "{letter} hat hier keine Wirkung: eine Markierung (Linientyp DIVIDE) geht bis D",
         help_en: "write D{value} if that is how deep the mark is; what goes down to B is line type CONTINUOUS",
         help_de: "D{value} schreiben, wenn die Markierung so tief ist; bis B geht der Linientyp CONTINUOUS",
     }
-    /// D of what is milled to the bottom.
+    /// D of a milling segment.
     DEPTH_OF_MILLING: ParameterWithoutEffect {
         en: "{letter} has no effect here: milling (line type CONTINUOUS) goes down to B",
         de: "{letter} hat hier keine Wirkung: Fräsen (Linientyp CONTINUOUS) geht bis B",
         help_en: "write B{value} if that is how deep it is; what goes down to D is a mark, line type DIVIDE",
         help_de: "B{value} schreiben, wenn es so tief ist; bis D geht eine Markierung, Linientyp DIVIDE",
     }
-    /// Only the chain's first segment's value counts.
+    /// A chain parameter on a segment other than the first.
     WITHOUT_EFFECT_IN_CHAIN: ParameterWithoutEffect {
         en: "{letter} has no effect here: the first segment's {letter} applies to the whole chain",
         de: "{letter} hat hier keine Wirkung: für die ganze Fräskette gilt der Wert des ersten Segments",

@@ -1,93 +1,93 @@
-//! Post-processors: their definitions, and what goes wrong when a program is written through one. (PB750 to PB769)
+//! Messages about post-processors: their definitions, and errors while writing a program. (PB750 to PB769)
 
 messages! {
-    /// Bytes that are no text.
+    /// A definition that is not UTF-8.
     POST_NOT_UTF8: InvalidPost {
         en: "the definition is not UTF-8 text: this line has a character in another encoding, such as ANSI",
         de: "die Definition ist kein UTF-8-Text: diese Zeile hat ein Zeichen in einer anderen Kodierung, etwa ANSI",
         help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
         help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
     }
-    /// A mark of UTF-16, but pairs that are none.
+    /// A definition with a byte order mark of UTF-16 and malformed content.
     POST_NOT_UTF16: InvalidPost {
         en: "the definition begins as UTF-16 text, but is none",
         de: "die Definition beginnt wie UTF-16-Text, ist aber keiner",
         help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
         help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
     }
-    /// Coordinates of whole millimetres.
+    /// Coordinates with few decimals.
     COARSE_NUMBERS: DoubtfulPost {
         en: "{option} is \"{value}\": coordinates are rounded to {decimals} decimals",
         de: "{option} ist \"{value}\": Koordinaten werden auf {decimals} Nachkommastellen gerundet",
         help_en: "write three decimals, such as NumberFormat 0.0## or decimals = 3",
         help_de: "drei Nachkommastellen schreiben, etwa NumberFormat 0.0## oder decimals = 3",
     }
-    /// `{units}`.
+    /// A macro without `$`, such as `{units}`.
     MACRO_WITHOUT_SIGN: UnknownMacro {
         en: "{macro} in {section} would be written as it stands",
         de: "{macro} in {section} würde so geschrieben, wie es dasteht",
         help_en: "a macro has a dollar sign: {nearest}",
         help_de: "ein Makro hat ein Dollarzeichen: {nearest}",
     }
-    /// The XML or TOML parser's complaint.
+    /// A syntax error in XML or TOML.
     POST_SYNTAX: InvalidPost {
         en: "the definition cannot be read: {reason}",
         de: "die Definition ist nicht lesbar: {reason}",
     }
-    /// Larger than any definition is.
+    /// A definition that is too large.
     POST_TOO_LARGE: InvalidPost {
         en: "the definition has {size} bytes; {limit} is the limit",
         de: "die Definition hat {size} Bytes; {limit} ist die Grenze",
     }
-    /// XML, but of something else.
+    /// An XML file with another root element.
     POST_WRONG_ROOT: InvalidPost {
         en: "the file holds <{found}>, not <PostProcessor>",
         de: "die Datei enthält <{found}>, nicht <PostProcessor>",
         help_en: "a CamBam definition begins with <PostProcessor>",
         help_de: "eine CamBam-Definition beginnt mit <PostProcessor>",
     }
-    /// An option's value.
+    /// An invalid value of an option.
     POST_OPTION: InvalidPost {
         en: "{option} is \"{value}\", not {expected}",
         de: "{option} ist \"{value}\", nicht {expected}",
     }
-    /// `{$` without an end.
+    /// An unclosed macro.
     POST_UNCLOSED_MACRO: InvalidPost {
         en: "a macro in {section} is not closed",
         de: "ein Makro in {section} ist nicht geschlossen",
         help_en: "close it with \"}\"",
         help_de: "es mit \"}\" schließen",
     }
-    /// `{$spindle(left)}`.
+    /// Wrong arguments of a macro, as in `{$spindle(left)}`.
     POST_MACRO_ARGUMENTS: InvalidPost {
         en: "{macro} in {section} has the wrong arguments; it takes {expected}",
         de: "{macro} in {section} hat falsche Argumente; erlaubt: {expected}",
     }
-    /// Nobody knows the name, and nothing is like it.
+    /// Unknown macro, without a suggestion.
     UNKNOWN_MACRO: UnknownMacro {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
         help_en: "define it as \"$name=value\" in PostProcessorMacros or in the configuration",
         help_de: "als \"$name=Wert\" in PostProcessorMacros oder in der Konfiguration definieren",
     }
-    /// Nobody knows the name, but one is like it.
+    /// Unknown macro, with a suggestion.
     UNKNOWN_MACRO_NEAREST: UnknownMacro {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
     }
-    /// Not known to CamBam or pathbuild.
+    /// An element that neither CamBam nor pathbuild knows.
     POST_UNKNOWN_ELEMENT: DoubtfulPost {
         en: "<{element}> is not known and left out",
         de: "<{element}> ist unbekannt und wird übergangen",
     }
-    /// An element that stands twice.
+    /// A repeated element.
     POST_REPEATED_ELEMENT: DoubtfulPost {
         en: "<{element}> stands here again; the last one holds",
         de: "<{element}> steht hier noch einmal; das letzte gilt",
     }
-    /// A line of `PostProcessorMacros`.
+    /// A malformed line of `PostProcessorMacros`.
     POST_MACRO_LINE: DoubtfulPost {
         en: "\"{text}\" defines no macro and is left out",
         de: "\"{text}\" definiert kein Makro und wird übergangen",
@@ -99,612 +99,612 @@ messages! {
         en: "{macro} is built in; its definition is left out",
         de: "{macro} ist eingebaut; die Definition wird übergangen",
     }
-    /// A contains B contains A.
+    /// Macros that contain each other.
     MACRO_DEPTH: EndlessMacro {
         en: "{section} contains itself, or macros are nested more than {limit} deep",
         de: "{section} enthält sich selbst, oder Makros sind tiefer als {limit} verschachtelt",
     }
-    /// `{$mops}` in MOP.
+    /// A section that contains itself, such as `{$mops}` in MOP.
     BLOCK_WITHIN_ITSELF: EndlessMacro {
         en: "{macro} in {section}: this section is itself a part of what {macro} stands for",
         de: "{macro} in {section}: dieser Abschnitt ist selbst ein Teil dessen, wofür {macro} steht",
         help_en: "$mops belongs into PostFile, $blocks into MOP, once each",
         help_de: "$mops gehört in PostFile, $blocks in MOP, je einmal",
     }
-    /// Macros that multiply.
+    /// Macros that multiply the output.
     MACRO_SIZE: EndlessMacro {
         en: "the post writes far more text than the program has moves",
         de: "der Postprozessor schreibt weit mehr Text, als das Programm Bewegungen hat",
         help_en: "look for macros that contain others several times",
         help_de: "nach Makros suchen, die andere mehrmals enthalten",
     }
-    /// A hole that takes thousands of pecks.
+    /// A hole with too many pecks.
     TOO_MANY_PECKS: EndlessMacro {
         en: "the hole at {place} takes more than {limit} pecks",
         de: "die Bohrung bei {place} braucht mehr als {limit} Stufen",
         help_en: "check C of the hole",
         help_de: "C der Bohrung prüfen",
     }
-    /// A chord tolerance that is far too fine.
+    /// A chord tolerance that is too fine.
     TOO_MANY_CHORDS: EndlessMacro {
         en: "an arc of radius {radius} takes more than {limit} lines",
         de: "ein Bogen mit Radius {radius} braucht mehr als {limit} Strecken",
         help_en: "raise the post's tolerance for arcs",
         help_de: "die Toleranz für Bögen im Postprozessor erhöhen",
     }
-    /// A number that only some programs have.
+    /// A value that the program does not have.
     VALUE_MISSING: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
     }
-    /// A value that the configuration or the definition may give.
+    /// A value that the configuration or the definition can provide.
     VALUE_MISSING_OPEN: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
         help_en: "no drawing says it: write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros",
         help_de: "keine Zeichnung sagt ihn: \"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben",
     }
-    /// Nothing written for it.
+    /// A hole for which nothing is written.
     DRILLING_LOST: LostDrilling {
         en: "the post writes nothing that drills the hole at {place}: {section} is empty",
         de: "der Postprozessor schreibt nichts, was die Bohrung bei {place} ausführt: {section} ist leer",
         help_en: "write the hole as moves (cycles = false), or give the post a text for it",
         help_de: "die Bohrung als Bewegungen schreiben (cycles = false) oder dem Postprozessor einen Text dafür geben",
     }
-    /// Start and end are at different distances from the centre, as written.
+    /// An arc with different radii at its ends after rounding.
     ARC_ROUNDED: RoundedArc {
         en: "as written, the arc to {place} has the radius {start} at its start and {end} at its end",
         de: "wie geschrieben hat der Bogen nach {place} am Anfang den Radius {start} und am Ende {end}",
         help_en: "give the post's number format more decimals",
         help_de: "dem Zahlenformat des Postprozessors mehr Nachkommastellen geben",
     }
-    /// `MaximumArcRadius`.
+    /// An arc that is written as a line because of `MaximumArcRadius`.
     ARC_FLATTENED: FlattenedArc {
         en: "the arc to {place} has the radius {radius}; the post writes a line that is up to {distance} mm away",
         de: "der Bogen nach {place} hat den Radius {radius}; der Postprozessor schreibt eine Gerade, bis zu {distance} mm daneben",
         help_en: "raise MaximumArcRadius in the post",
         help_de: "MaximumArcRadius im Postprozessor erhöhen",
     }
-    /// No words.
+    /// A line of output that is not G-code.
     LINE_UNREADABLE: UnreadableLine {
         en: "the post writes \"{line}\", which is no G-code; what it does to the machine is not followed",
         de: "der Postprozessor schreibt \"{line}\", das kein G-Code ist; was es an der Maschine bewirkt, wird nicht verfolgt",
         help_en: "if that is meant, set SuppressParserErrors in the post",
         help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
     }
-    /// No cutter of that diameter.
+    /// A cutter diameter that is missing from the tool table.
     TOOL_UNKNOWN: UnknownTool {
         en: "the tool table has no cutter with O = {diameter} for {path}; it becomes tool {index}",
         de: "die Werkzeugtabelle hat keinen Fräser mit O = {diameter} für {path}; er wird Werkzeug {index}",
         help_en: "add it as [tool.NAME] to pathbuild.toml",
         help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
     }
-    /// A program's T that the table does not have.
+    /// A tool number that is missing from the tool table.
     TOOL_NUMBER_UNKNOWN: UnknownTool {
         en: "the tool table has no number {index}: the diameter of T{index} is not known, and 0 is written where the post asks for it",
         de: "die Werkzeugtabelle hat keine Nummer {index}: der Durchmesser von T{index} ist nicht bekannt, und wo der Postprozessor ihn verlangt, steht 0",
         help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
         help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
     }
-    /// The same, where nothing is written.
+    /// A tool number that is missing from the tool table and not written.
     TOOL_NOT_IN_TABLE: UnknownTool {
         en: "T{index} is not in the tool table",
         de: "T{index} ist nicht in der Werkzeugtabelle",
         help_en: "put the cutter that is meant into the machine's table and as [tool.NAME] with `number` into pathbuild.toml, or change T",
         help_de: "den gemeinten Fräser in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen oder T ändern",
     }
-    /// Nothing to write.
+    /// A program without operations.
     JOB_EMPTY: NothingToPost {
         en: "the program has no operations",
         de: "das Programm hat keine Operationen",
     }
-    /// NaN or infinity.
+    /// A coordinate or feed that is NaN or infinite.
     JOB_NOT_FINITE: NothingToPost {
         en: "{operation} has a coordinate or feed that is no number",
         de: "{operation} hat eine Koordinate oder einen Vorschub, der keine Zahl ist",
     }
-    /// No such post.
+    /// Unknown post, without a suggestion.
     POST_UNKNOWN: UnknownPost {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
         help_en: "`pathbuild post list` lists the built-in ones; a file is given with its extension",
         help_de: "`pathbuild post list` führt die eingebauten auf; eine Datei gibt man mit ihrer Endung an",
     }
-    /// As above, but there is one like it.
+    /// Unknown post, with a suggestion.
     POST_UNKNOWN_NEAREST: UnknownPost {
         en: "there is no post-processor {name}",
         de: "es gibt keinen Postprozessor {name}",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
     }
-    /// A note: the command after writing.
+    /// Note: the command after writing was not run.
     POST_BUILD_SKIPPED: DoubtfulPost {
         en: "the post's command \"{command}\" was not run; --run-post-build runs it",
         de: "der Befehl \"{command}\" des Postprozessors wurde nicht ausgeführt; --run-post-build führt ihn aus",
     }
-    /// A note: nobody but its owner answers for the program.
+    /// Note: the output was not verified.
     POST_UNCHECKED: DoubtfulPost {
         en: "unchecked = true: nothing checked that the output moves as the program does",
         de: "unchecked = true: nichts hat geprüft, ob die Ausgabe sich bewegt wie das Programm",
     }
-    /// A name that would be executed.
+    /// A name that the controller would execute.
     TEXT_AMONG_WORDS: RejectedWord {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
         de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführte",
         help_en: "write it in a comment in the post, or give the drawing another name",
         help_de: "es im Postprozessor in einen Kommentar schreiben oder die Zeichnung anders nennen",
     }
-    /// Wrapped round a cylinder of no diameter.
+    /// A program wrapped around a cylinder without a diameter.
     NO_RADIUS: NothingToPost {
         en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
         de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
         help_en: "give the radius with --surface, or write it from the drawing with emit, which knows T",
         help_de: "den Radius mit --surface angeben oder mit emit aus der Zeichnung schreiben, das T kennt",
     }
-    /// Wider than the cylinder is round.
+    /// A program wrapped around a cylinder more than once.
     WRAPPED_TWICE: DoubtfulPost {
         en: "wrapped round the cylinder, the program covers {degrees} degrees: it mills some places twice",
         de: "um den Zylinder gelegt reicht das Programm über {degrees} Grad: es fräst manche Stellen zweimal",
         help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
         help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
     }
-    /// Y beside A.
+    /// A word for an axis that another axis replaces.
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\", but {angle} stands in place of {axis}: the machine would move both",
         de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine bewegte beide",
         help_en: "take {axis} out of the post's texts",
         help_de: "{axis} aus den Texten des Postprozessors nehmen",
     }
-    /// The spindle would never turn.
+    /// A missing spindle speed.
     SPINDLE_UNKNOWN: MissingPostValue {
         en: "no spindle speed is known for {operation} (cutter O = {diameter}): the spindle would not turn",
         de: "für {operation} (Fräser O = {diameter}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
         help_en: "add it to pathbuild.toml as spindle = 12000 in [tool.NAME] with diameter = {diameter}; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
         help_de: "in pathbuild.toml spindle = 12000 in [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
     }
-    /// The same, of a program that was read, whose tool the table does not have.
+    /// A missing spindle speed for a program with an unknown tool number.
     SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
         en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
         de: "für {operation} (T{index}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
         help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand: spindle = \"manual\" outside all tables",
         help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen",
     }
-    /// The same, of a program that was read and names no tool.
+    /// A missing spindle speed for a program without a tool.
     SPINDLE_UNSTATED: MissingPostValue {
         en: "no spindle speed is known for {operation}: the program has no S with M3 or M4, and names no tool",
         de: "für {operation} ist keine Spindeldrehzahl bekannt: das Programm hat kein S mit M3 oder M4 und nennt kein Werkzeug",
         help_en: "put S and M3, or the tool (T1 M6), into the program; if the spindle is switched by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
         help_de: "S und M3 oder das Werkzeug (T1 M6) in das Programm aufnehmen; wird die Spindel von Hand geschaltet: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
     }
-    /// A second speed of one tool.
+    /// Different speeds of one tool, in a post that allows only one.
     ONE_SPEED_A_TOOL: NothingToPost {
         en: "T{index} runs at {speed} and, in {operation}, at {other} 1/min, but this post writes one speed for each tool",
         de: "T{index} läuft mit {speed} und in {operation} mit {other} 1/min, dieser Postprozessor schreibt aber eine Drehzahl je Werkzeug",
         help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
         help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben oder je Pfad ein Programm schreiben",
     }
-    /// A byte needs two hexadecimal digits.
+    /// A byte that is not two hexadecimal digits.
     BYTE_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: two hexadecimal digits are missing here",
         de: "{text}, Zeile {line}, Spalte {column}: hier fehlen zwei hexadezimale Ziffern",
     }
-    /// Variables are put in before statements are run.
+    /// A variable used in the text that defines it, although variables are substituted before statements run.
     VARIABLE_UNDEFINED_YET: UnknownMacro {
         en: "{text}, line {line}, column {column}: {name} gets its value in this text, which only later texts see",
         de: "{text}, Zeile {line}, Spalte {column}: {name} erhält seinen Wert in diesem Text, den erst spätere Texte sehen",
         help_en: "assign it in a text that is called before, such as program-start",
         help_de: "in einem Text zuweisen, der vorher aufgerufen wird, etwa program-start",
     }
-    /// A note: the tool table's coolant comes to nothing.
+    /// Note: the coolant of the tool table is not written.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
         en: "the program or the tool table says what the coolant does, but the post has no {macro} and does not write it",
         de: "das Programm oder die Werkzeugtabelle bestimmt die Kühlung, aber der Postprozessor hat kein {macro} und schreibt sie nicht",
     }
-    /// A note: M3 to M5 come to nothing.
+    /// Note: the spindle is not switched.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
         en: "the program or the tool table says which way the spindle turns, but the post has no {macro} and does not switch it",
         de: "das Programm oder die Werkzeugtabelle bestimmt die Drehrichtung der Spindel, aber der Postprozessor hat kein {macro} und schaltet sie nicht",
     }
-    /// A note: the spindle is not given its time.
+    /// Note: the spin-up time is not written.
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
         en: "[machine] spin-up is set, but the post has no {macro} and does not wait for the spindle",
         de: "[machine] spin-up ist gesetzt, aber der Postprozessor hat kein {macro} und wartet nicht auf die Spindel",
     }
-    /// A key of a TOML definition that is not known, nor like one.
+    /// Unknown key of a TOML definition, without a suggestion.
     POST_UNKNOWN_KEY: InvalidPost {
         en: "the key {key} is not known",
         de: "der Schlüssel {key} ist unbekannt",
     }
-    /// As above, but one is like it.
+    /// Unknown key of a TOML definition, with a suggestion.
     POST_UNKNOWN_KEY_NEAREST: InvalidPost {
         en: "the key {key} is not known",
         de: "der Schlüssel {key} ist unbekannt",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
     }
-    /// `[alias]` of a variable that there is not.
+    /// An `[alias]` for an unknown variable.
     ALIAS_UNKNOWN: DoubtfulControlText {
         en: "there is no variable {name} that another name could stand for",
         de: "es gibt keine Variable {name}, für die ein anderer Name stehen könnte",
         help_en: "in [alias], pathbuild's name stands on the left, the texts' own on the right",
         help_de: "in [alias] steht links der Name von pathbuild, rechts der der Steuertexte",
     }
-    /// A variable that does not exist.
+    /// Unknown variable, without a suggestion.
     VARIABLE_UNDEFINED: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
     }
-    /// One that exists, but not here.
+    /// A variable without a value in this place.
     VARIABLE_WITHOUT_VALUE: UnknownMacro {
         en: "{text}, line {line}, column {column}: {name} has no value here: {reason}",
         de: "{text}, Zeile {line}, Spalte {column}: {name} hat hier keinen Wert: {reason}",
         help_en: "give it one, or ask first whether it exists, by a statement with \"!\"",
         help_de: "ihr einen geben oder vorher mit einer Anweisung mit \"!\" fragen, ob es sie gibt",
     }
-    /// As above, but one is like it.
+    /// Unknown variable, with a suggestion.
     VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
         help_en: "did you mean {nearest}? Another program's names are translated in [alias]",
         help_de: "ist {nearest} gemeint? Namen anderer Programme übersetzt [alias]",
     }
-    /// A contains B contains A.
+    /// Variables that contain each other.
     VARIABLE_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: the text of {name} names variables more than {limit} deep",
         de: "{text}, Zeile {line}, Spalte {column}: der Text von {name} nennt Variablen mehr als {limit} tief",
     }
-    /// Texts that grow.
+    /// A text that becomes too long.
     TEXT_LENGTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: the text becomes longer than {limit} bytes",
         de: "{text}, Zeile {line}, Spalte {column}: der Text wird länger als {limit} Bytes",
     }
-    /// Statements or terms in each other.
+    /// Statements or terms that are nested too deeply.
     TEXT_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: nested more than {limit} deep",
         de: "{text}, Zeile {line}, Spalte {column}: tiefer als {limit} verschachtelt",
     }
-    /// `~` that begins no variable.
+    /// A `~` that begins no variable.
     LONE_TILDE: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"~\" begins no variable",
         de: "{text}, Zeile {line}, Spalte {column}: mit \"~\" beginnt keine Variable",
         help_en: "a variable is written ~Name~, a tilde \\~",
         help_de: "eine Variable schreibt man ~Name~, eine Tilde \\~",
     }
-    /// `}` too many.
+    /// A superfluous `}`.
     LONE_BRACE: InvalidControlText {
         en: "{text}, line {line}, column {column}: this brace closes nothing",
         de: "{text}, Zeile {line}, Spalte {column}: diese Klammer schließt nichts",
         help_en: "a brace that is to be written is preceded by a backslash",
         help_de: "eine Klammer, die ausgegeben werden soll, erhält einen Rückstrich davor",
     }
-    /// `}` too few.
+    /// A missing `}`.
     OPEN_BRACE: InvalidControlText {
         en: "{text}, line {line}, column {column}: a statement is not closed",
         de: "{text}, Zeile {line}, Spalte {column}: eine Anweisung ist nicht geschlossen",
     }
-    /// Something between the statement and its brace.
+    /// Unexpected content between a statement and its brace.
     STATEMENT_GOES_ON: InvalidControlText {
         en: "{text}, line {line}, column {column}: the statement should end here",
         de: "{text}, Zeile {line}, Spalte {column}: hier sollte die Anweisung enden",
     }
-    /// A paragraph sign.
+    /// A statement with a paragraph sign.
     STATEMENT_UNKNOWN: InvalidControlText {
         en: "{text}, line {line}, column {column}: statements with \"§\" are not understood",
         de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit \"§\" werden nicht verstanden",
         help_en: "the manual that describes them is not known",
         help_de: "das Handbuch, das sie beschreibt, ist nicht bekannt",
     }
-    /// No name behind `=` or `!`.
+    /// A missing name after `=` or `!`.
     NAME_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: the name of a variable is expected here",
         de: "{text}, Zeile {line}, Spalte {column}: hier wird der Name einer Variablen erwartet",
         help_en: "it is written without tildes",
         help_de: "er wird ohne Tilden geschrieben",
     }
-    /// No statement where one must be.
+    /// A missing statement.
     BRANCH_EXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: a statement in braces is expected here",
         de: "{text}, Zeile {line}, Spalte {column}: hier wird eine Anweisung in geschweiften Klammern erwartet",
     }
-    /// The name of a file does not end.
+    /// An unterminated file name.
     INSERTION_OPEN: InvalidControlText {
         en: "{text}, line {line}, column {column}: the name of the file to insert does not end with \"*\"",
         de: "{text}, Zeile {line}, Spalte {column}: der Name der einzufügenden Datei endet nicht mit \"*\"",
     }
-    /// A term stops too early.
+    /// A term that ends too early.
     TERM_ENDS: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term ends where a value or \")\" is expected",
         de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck endet, wo ein Wert oder \")\" erwartet wird",
     }
-    /// A character that is none of a term.
+    /// An unexpected character in a term.
     TERM_UNEXPECTED: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is not expected here",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" wird hier nicht erwartet",
     }
-    /// Two points.
+    /// A malformed number in a term.
     TERM_NUMBER: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is no number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist keine Zahl",
     }
-    /// A text among numbers.
+    /// A text where a number is needed.
     TERM_IS_TEXT: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is a text, not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist ein Text, keine Zahl",
         help_en: "write the variable outside of a statement, or in one with s",
         help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer mit s",
     }
-    /// Division by zero and the like.
+    /// A term without a value, for example because of a division by zero.
     TERM_NOT_FINITE: InvalidControlText {
         en: "{text}, line {line}, column {column}: the term has no value (a division by zero?)",
         de: "{text}, Zeile {line}, Spalte {column}: der Ausdruck hat keinen Wert (Division durch null?)",
     }
-    /// Bits of 1.5.
+    /// A bit operation on a fraction.
     TERM_NOT_WHOLE: InvalidControlText {
         en: "{text}, line {line}, column {column}: only whole numbers have bits",
         de: "{text}, Zeile {line}, Spalte {column}: nur ganze Zahlen haben Bits",
     }
-    /// No such function.
+    /// An unknown function.
     TERM_FUNCTION: InvalidControlText {
         en: "{text}, line {line}, column {column}: there is no function {name}",
         de: "{text}, Zeile {line}, Spalte {column}: es gibt keine Funktion {name}",
         help_en: "abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, and pi",
         help_de: "abs sqrt sin cos tan asin acos atan atan2 int round floor ceil min max mod, und pi",
     }
-    /// Too many arguments, or too few.
+    /// A wrong number of arguments.
     TERM_ARGUMENTS: InvalidControlText {
         en: "{text}, line {line}, column {column}: {name} has the wrong number of arguments",
         de: "{text}, Zeile {line}, Spalte {column}: {name} hat die falsche Zahl von Argumenten",
     }
-    /// `--5`.
+    /// Two signs before a term, as in `--5`.
     TERM_TWO_SIGNS: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: CAD6 takes only one sign in front of a term",
         de: "{text}, Zeile {line}, Spalte {column}: CAD6 nimmt nur ein Vorzeichen vor einem Ausdruck",
     }
-    /// `1 & 2 == 2`.
+    /// Bit operations and comparisons of unknown precedence, as in `1 & 2 == 2`.
     TERM_MIXED_BITS: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: which of & | ^ and the comparison comes first is not known for certain",
         de: "{text}, Zeile {line}, Spalte {column}: ob & | ^ oder der Vergleich zuerst kommt, ist nicht sicher bekannt",
         help_en: "use parentheses",
         help_de: "Klammern setzen",
     }
-    /// A function.
+    /// A function, which is an extension.
     TERM_EXTENSION: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: functions are an extension of pathbuild; CAD6 may not know them",
         de: "{text}, Zeile {line}, Spalte {column}: Funktionen sind eine Erweiterung von pathbuild; CAD6 kennt sie vielleicht nicht",
     }
-    /// Assigned and read in one text.
+    /// A variable that is read after an assignment in the same text.
     READ_AFTER_ASSIGNMENT: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: {name} is assigned before this, but here it still has its old value",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird davor zugewiesen, hat hier aber noch den alten Wert",
         help_en: "variables are put in before statements are run; the new value is seen by the next text",
         help_de: "Variablen werden eingesetzt, bevor Anweisungen laufen; den neuen Wert sieht erst der nächste Text",
     }
-    /// `X~X1~`.
+    /// A number without a format, as in `X~X1~`.
     NUMBER_UNFORMATTED: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: {name} is written with all its decimals",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird mit allen Nachkommastellen geschrieben",
         help_en: "put it into a statement that rounds, such as one with \".\" or \"#\"",
         help_de: "sie in eine Anweisung setzen, die rundet, etwa mit \".\" oder \"#\"",
     }
-    /// A file that is not there, or not below the post.
+    /// A file that is missing, or not below the directory of the post.
     INSERTION_REFUSED: InjectedFile {
         en: "{text}, line {line}, column {column}: {name} cannot be inserted: {reason}",
         de: "{text}, Zeile {line}, Spalte {column}: {name} kann nicht eingefügt werden: {reason}",
         help_en: "files to insert lie in the post's directory or below it",
         help_de: "einzufügende Dateien liegen im Verzeichnis des Postprozessors oder darunter",
     }
-    /// The texts have no place for Z.
+    /// A text without Z for a move that changes Z.
     NO_Z_IN_TEXT: InvalidControlText {
         en: "{operation} goes from Z {from} to Z {to} while it mills, but the text {text} has no ~Z1~",
         de: "{operation} geht beim Fräsen von Z {from} nach Z {to}, aber der Text {text} hat kein ~Z1~",
         help_en: "add Z to the text; for a way straight down between passes, lift-between-passes = true also does (never for T-slot cutters)",
         help_de: "Z in den Text aufnehmen; für den Weg gerade hinab zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
     }
-    /// A helix without Z.
+    /// A text without Z for a helix.
     NO_Z_IN_ARC: InvalidControlText {
         en: "{operation} has a helix from Z {from} to Z {to}, but the text arc has no ~Z1~",
         de: "{operation} hat eine Wendel von Z {from} nach Z {to}, aber der Text arc hat kein ~Z1~",
         help_en: "add Z with ~Z1~ to the text arc; where the control knows no helix, to the text line, and it is written as lines",
         help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Wendel, in den Text line, dann werden es Strecken",
     }
-    /// A text for what no program has.
+    /// A text for something that programs do not contain.
     TEXT_NEVER_CALLED: InvalidControlText {
         en: "{text} is never called: no program has what it is for",
         de: "{text} wird nie aufgerufen: kein Programm hat, wofür er da ist",
         help_en: "delete it, so that nobody takes what it writes for granted",
         help_de: "ihn löschen, damit niemand mit dem rechnet, was er schreibt",
     }
-    /// A text in whose place another is called.
+    /// A text that another one replaces.
     TEXT_NOT_CALLED: InvalidControlText {
         en: "{text} is never called, because the definition has {other}",
         de: "{text} wird nie aufgerufen, weil die Definition {other} hat",
         help_en: "delete one of the two; what it switches (spindle, coolant) must stand in texts that are called, such as tool-change and program-end",
         help_de: "einen der beiden löschen; was er schaltet (Spindel, Kühlung), muss in Texten stehen, die aufgerufen werden, etwa tool-change und program-end",
     }
-    /// No text at all.
+    /// A missing text.
     NO_TEXT_FOR: InvalidControlText {
         en: "{operation} needs the text {text}, which the post does not have",
         de: "{operation} braucht den Text {text}, den der Postprozessor nicht hat",
     }
-    /// A dialect that there is not.
+    /// Unknown dialect, without a suggestion.
     DIALECT_UNKNOWN: InvalidPost {
         en: "there is no dialect {name}",
         de: "es gibt keinen Dialekt {name}",
         help_en: "one of {known}",
         help_de: "einer von {known}",
     }
-    /// As above, but one is like it.
+    /// Unknown dialect, with a suggestion.
     DIALECT_UNKNOWN_NEAREST: InvalidPost {
         en: "there is no dialect {name}; one of {known}",
         de: "es gibt keinen Dialekt {name}, nur {known}",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
     }
-    /// A word, or a character, that is no use to the target.
+    /// A word or character that the controller does not accept.
     WORD_REJECTED: RejectedWord {
         en: "line {line} of the output: {dialect} does not take \"{word}\"",
         de: "Zeile {line} der Ausgabe: {dialect} nimmt \"{word}\" nicht an",
         help_en: "change the post's text, or name the dialect that the control really has",
         help_de: "den Text im Postprozessor ändern oder den Dialekt nennen, den die Steuerung wirklich hat",
     }
-    /// A line.
+    /// A line of output that is too long.
     LINE_TOO_LONG: LineTooLong {
         en: "line {line} of the output has {length} characters; {dialect} takes {longest}",
         de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt {longest} an",
         help_en: "give the post's number format fewer decimals, or its texts several lines",
         help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seinen Texten mehrere Zeilen",
     }
-    /// The text was read back.
+    /// Output that differs from the program when read back.
     POST_DIFFERS: PostDiffers {
         en: "line {line} of the output does not do what the program says",
         de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
         help_en: "look at the post's text for this line; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
         help_de: "den Text im Postprozessor für diese Zeile ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
-    /// There is no line to show.
+    /// Output that ends too early.
     MOVES_LOST: PostDiffers {
         en: "the output ends before all moves of the program are made",
         de: "die Ausgabe endet, bevor alle Bewegungen des Programms gemacht sind",
         help_en: "look at the post's texts for moves; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
         help_de: "die Texte für Bewegungen im Postprozessor ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
-    /// A cut of the program that is written, which nothing can be compared with.
+    /// A cut at an unknown position, which cannot be compared.
     CUT_AT_UNKNOWN_PLACE: PostDiffers {
         en: "step {step} of the program cuts from or to a place that is not known",
         de: "Schritt {step} des Programms fräst von oder zu einem unbekannten Ort",
         help_en: "begin the program with absolute moves in Z, X and Y",
         help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
     }
-    /// A note: no M3 before the first cut.
+    /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {
         en: "here it cuts, but the output has not switched the spindle on, as `spindle` of the tool says; if that is done by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
         de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, wie es `spindle` des Werkzeugs sagt; geschieht das von Hand: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
     }
-    /// A note: M3 for M4.
+    /// Note: the spindle turns in the wrong direction.
     SPINDLE_OTHER_WAY: PostDiffers {
         en: "here the spindle turns the other way round than `direction` of the tool says",
         de: "hier dreht sich die Spindel andersherum, als es `direction` des Werkzeugs sagt",
     }
-    /// A note: a laser that cuts on its way.
+    /// Note: a laser beam that is on during a rapid move.
     BEAM_ON: PostDiffers {
         en: "the post moves nothing in Z, and here its beam is still on during a rapid move",
         de: "der Postprozessor bewegt nichts in Z, und hier ist der Strahl während eines Eilgangs noch an",
     }
-    /// A note: another end.
+    /// Note: a move to another point.
     GOES_ELSEWHERE: PostDiffers {
         en: "here the tool goes to {found}, in the program to {expected}",
         de: "hier fährt das Werkzeug nach {found}, im Programm nach {expected}",
     }
-    /// A note: the same end by another way.
+    /// Note: a move along another curve.
     GOES_ANOTHER_WAY: PostDiffers {
         en: "the tool goes to {place} as in the program, but not by the same way",
         de: "das Werkzeug fährt wie im Programm nach {place}, aber auf anderem Weg",
     }
-    /// A note: rapid or not.
+    /// Note: a rapid move instead of a cut, or the reverse.
     GOES_AT_ANOTHER_PACE: PostDiffers {
         en: "this is {found}, in the program it is {expected}",
         de: "das ist {found}, im Programm {expected}",
     }
-    /// A note: F.
+    /// Note: another feed.
     GOES_WITH_ANOTHER_FEED: PostDiffers {
         en: "the feed is {found} here and {expected} in the program",
         de: "der Vorschub ist hier {found}, im Programm {expected}",
     }
-    /// A note: it goes on behind the last cut.
+    /// Note: a move after the last cut.
     GOES_TOO_FAR: PostDiffers {
         en: "this is {found} to {place}, but the program has made its last cut",
         de: "das ist {found} nach {place}, aber das Programm hat seinen letzten Schnitt schon gemacht",
     }
-    /// A note: a way between two cuts.
+    /// Note: a different way between two cuts.
     WAY_NOT_FREE: PostDiffers {
         en: "this is {found} from {from} to {to}; at this point the program does not go there, or only higher up",
         de: "das ist {found} von {from} nach {to}; an dieser Stelle fährt das Programm dort nicht oder nur weiter oben",
     }
-    /// An M word, or an axis, without a dialect that says what it does.
+    /// An M word or axis in a text without a dialect.
     WORD_NOT_FOLLOWED: DoubtfulPost {
         en: "the output has {word}, and without a dialect nothing says what it does",
         de: "die Ausgabe hat {word}, und ohne Dialekt sagt nichts, was das bewirkt",
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
     }
-    /// G55 and the like.
+    /// A work offset such as G55.
     OFFSET_CHOSEN: DoubtfulPost {
         en: "the output chooses an offset of the machine ({word}): the drawing's zero is where that offset puts it",
         de: "die Ausgabe wählt einen Versatz der Maschine ({word}): der Nullpunkt der Zeichnung liegt, wo dieser ihn hinlegt",
     }
-    /// What is wrong is in a file that there will not be.
+    /// Note: the line of the unwritten output that contains the problem.
     IN_OUTPUT: PostDiffers {
         en: "in line {line} of the output",
         de: "in Zeile {line} der Ausgabe",
     }
-    /// A note: the text of the definition that wrote the line.
+    /// Note: the section of the definition that wrote the line.
     WRITTEN_BY_LINE: PostDiffers {
         en: "it is written by {section}, line {at} of the definition",
         de: "sie wird von {section} geschrieben, Zeile {at} der Definition",
     }
-    /// The same, of a text that stands in for an absent one.
+    /// Note: the default section that wrote the line.
     WRITTEN_BY: PostDiffers {
         en: "it is written by {section}, as it is when the definition does not have it",
         de: "sie wird von {section} geschrieben, so wie es gilt, wenn die Definition es nicht hat",
     }
-    /// G55 and the like.
+    /// A program in several work offsets.
     JOB_SYSTEM: NothingToPost {
         en: "a program in several coordinate systems cannot be written through a post",
         de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
     }
-    /// Cuts before the position is known, as by G91 from wherever the tool stands.
+    /// A cut from an unknown position, for example after G91.
     JOB_PLACE_UNKNOWN: NothingToPost {
         en: "a cut from or to a place that is not known cannot be written through a post",
         de: "einen Schnitt von oder zu einem unbekannten Ort kann kein Postprozessor schreiben",
         help_en: "before its first cut the program must go to X, Y and Z once by absolute coordinates (G90)",
         help_de: "vor seinem ersten Schnitt muss das Programm X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
     }
-    /// M6 without T in mid-program.
+    /// M6 without T in the middle of a program.
     JOB_TOOL_UNNAMED: NothingToPost {
         en: "the tool is changed here, but the program does not say to which one",
         de: "hier wird das Werkzeug gewechselt, aber das Programm sagt nicht, welches kommt",
         help_en: "put T and the tool's number in front of M6",
         help_de: "T und die Nummer des Werkzeugs vor M6 setzen",
     }
-    /// A plunge with a new tool to where the old one ended.
+    /// A plunge directly after a tool change.
     CUT_AFTER_CHANGE: NothingToPost {
         en: "{operation} goes on at Z {z}, below the surface at {surface}, right after the change to T{index}: the new tool would plunge where the old one ended",
         de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug tauchte ein, wo das alte aufhörte",
         help_en: "put a rapid move to a place above the material between the tool change and the next cut",
         help_de: "zwischen Werkzeugwechsel und nächstem Schnitt eine Eilgangbewegung über das Material setzen",
     }
-    /// G28, G30, G53.
+    /// G28, G30 or G53.
     JOB_NAMED_PLACE: NothingToPost {
         en: "a move to a place that only the machine knows cannot be written through a post",
         de: "eine Bewegung an einen Ort, den nur die Maschine kennt, kann kein Postprozessor schreiben",
     }
-    /// Arcs of several turns, other probings than G38.2.
+    /// Arcs of several turns, or probing moves other than G38.2.
     JOB_MOVE: NothingToPost {
         en: "a move of this kind (an arc of several turns, probing away from the material) cannot be written through a post",
         de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, Antasten vom Material weg) kann kein Postprozessor schreiben",
     }
-    /// The command after writing failed.
+    /// A failed command after writing.
     POST_BUILD_FAILED: PostBuildFailed {
         en: "the post's command \"{command}\" failed: {reason}",
         de: "der Befehl \"{command}\" des Postprozessors ist fehlgeschlagen: {reason}",
         help_en: "the program was written; only the command failed",
         help_de: "das Programm wurde geschrieben, nur der Befehl ist fehlgeschlagen",
     }
-    /// The definition is a stranger's.
+    /// A command of a definition in an untrusted repository.
     POST_BUILD_REFUSED: PostBuildFailed {
         en: "the post's command \"{command}\" is not run: the repository is not trusted",
         de: "der Befehl \"{command}\" des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
         help_en: "nothing was written; leave out --run-post-build",
         help_de: "nichts wurde geschrieben; --run-post-build weglassen",
     }
-    /// A path with probes, emitted through a post.
+    /// A path with probes that is written through a post.
     POST_WITH_PROBES: UncorrectedHeights {
         en: "the path has Z-probes: written through a post, its heights would stay uncorrected",
         de: "der Pfad hat Z-Proben: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",
         help_en: "emit it without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
         help_de: "ohne Postprozessor ausgeben, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
     }
-    /// A program with formulas that were not worked out.
+    /// A program with formulas that were not applied.
     POST_UNADJUSTED: UncorrectedHeights {
         en: "the program has correction formulas that have not been worked out: written through a post, its heights would stay uncorrected",
         de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",

@@ -1,213 +1,213 @@
-//! Z-probes. (PB601 to PB608)
+//! Messages about Z-probes. (PB601 to PB608)
 
 messages! {
-    /// A line of a file of values that is none.
+    /// A malformed line in a file of measured values.
     NO_PROBE_LINE: InvalidProbeLine {
         en: "this is not a valid probe line",
         de: "das ist keine gültige Messzeile",
         help_en: "a line is ([X Y]/T=HEIGHT) #NUMBER=VALUE; only the value is entered by hand",
         help_de: "eine Zeile ist ([X Y]/T=HÖHE) #NUMMER=WERT; nur der Wert wird von Hand eingetragen",
     }
-    /// Nobody has measured.
+    /// A missing measured value.
     NO_VALUE: InvalidProbeLine {
         en: "#{probe} has no value",
         de: "#{probe} hat keinen Wert",
         help_en: "enter the measured height behind the =",
         help_de: "die gemessene Höhe hinter das = schreiben",
     }
-    /// What was entered is no number.
+    /// A measured value that is not a number.
     NOT_A_VALUE: InvalidProbeLine {
         en: "the value of #{probe} is not a number: {found}",
         de: "der Wert von #{probe} ist keine Zahl: {found}",
         help_en: "enter the measured height in mm, with a decimal point or comma",
         help_de: "die gemessene Höhe in mm eintragen, mit Punkt oder Komma",
     }
-    /// Two lines of one probe.
+    /// A probe with two lines.
     PROBE_TWICE: InvalidProbeLine {
         en: "#{probe} is in line {first} already",
         de: "#{probe} steht schon in Zeile {first}",
         help_en: "keep the line with the right value",
         help_de: "die Zeile mit dem richtigen Wert behalten",
     }
-    /// A value in the file, and another one in the log.
+    /// A value that differs from the one in the log.
     VALUE_DIFFERS_FROM_LOG: InvalidProbeLine {
         en: "#{probe} has a value here, and {measured} in the log",
         de: "#{probe} hat hier einen Wert und im Log {measured}",
         help_en: "remove the one that is wrong: the value here, or --log",
         help_de: "das entfernen, was falsch ist: den Wert hier oder --log",
     }
-    /// The tool met nothing.
+    /// A probe without contact.
     PROBE_FAILED: InvalidProbeLine {
         en: "this probe made no contact",
         de: "Antastung ohne Kontakt",
         help_en: "probe again; remove lines from the log that are of other probes or of an earlier run",
         help_de: "noch einmal messen; aus dem Log Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
     }
-    /// A line of a log that is broken.
+    /// A malformed line of a log.
     BROKEN_LOG_LINE: InvalidProbeLine {
         en: "this is not a result of a probe",
         de: "das ist kein Ergebnis einer Probe",
         help_en: "a result is [PRB:X,Y,Z:1]",
         help_de: "ein Ergebnis ist [PRB:X,Y,Z:1]",
     }
-    /// A log of another run.
+    /// A log with another number of results.
     LOG_COUNT: InvalidProbeLine {
         en: "the log has {found} results of probes, {file} has {expected} probes",
         de: "das Log hat {found} Ergebnisse von Proben, {file} hat {expected} Proben",
         help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
         help_de: "das Log muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Probenlaufs, und kein anderes",
     }
-    /// Too far from what is drawn.
+    /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {
         en: "#{probe} is {value}, which is {off} away from the {expected} that were drawn; up to {limit} is allowed",
         de: "#{probe} ist {value}, das ist {off} entfernt von den gezeichneten {expected}; erlaubt ist bis {limit}",
         help_en: "measure again; if it is right, correct T in the drawing, or allow more with --max-correction",
         help_de: "noch einmal messen; wenn es stimmt, T in der Zeichnung berichtigen oder mit --max-correction mehr erlauben",
     }
-    /// Every value is near enough, what comes of them is not.
+    /// A correction that is too large, although each measured height is near enough.
     HEIGHT_TOO_FAR: CorrectionTooLarge {
         en: "this height would be changed by {off}; up to {limit} is allowed",
         de: "diese Höhe würde um {off} verändert; erlaubt ist bis {limit}",
         help_en: "it lies far outside the probes: draw probes there, or allow more with --max-correction",
         help_de: "sie liegt weit außerhalb der Proben: dort Proben zeichnen oder mit --max-correction mehr erlauben",
     }
-    /// A formula with a probe that the file of values does not have.
+    /// A formula with a probe that is missing from the file of measured values.
     UNKNOWN_PROBE: UnknownProbe {
         en: "the formula uses #{probe}, which {file} does not have",
         de: "die Formel verwendet #{probe}, das es in {file} nicht gibt",
         help_en: "both files must be of the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A probe that the program does not have.
+    /// A probe that is missing from the program.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
         en: "{file} was made without a probe #{probe}",
         de: "{file} ist ohne eine Probe #{probe} entstanden",
         help_en: "both files must be of the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// A probe that has moved.
+    /// A probe at another position.
     OTHER_PROBE: UnknownProbe {
         en: "#{probe} is {here} here, and {file} was made with {there}",
         de: "#{probe} ist hier {here}, und {file} ist mit {there} entstanden",
         help_en: "the drawing has changed since; emit again, and measure with the new program",
         help_de: "die Zeichnung hat sich seither geändert; noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// The older form of a line, and formulas that do not say how high the material was drawn.
+    /// A probe whose expected height is unknown, because its line has an older form and no formula gives it.
     NO_EXPECTED_HEIGHT: InvalidProbeLine {
         en: "neither this line nor a formula says how high #{probe} was drawn, so its value cannot be checked",
         de: "weder diese Zeile noch eine Formel sagt, in welcher Höhe #{probe} gezeichnet ist; der Wert lässt sich nicht prüfen",
         help_en: "write the line as ([X Y]/T=HEIGHT) #{probe}=VALUE, or emit again and measure with the new program",
         help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben oder noch einmal ausgeben und mit dem neuen Programm messen",
     }
-    /// Something else where a value is expected.
+    /// A missing value in a formula.
     VALUE_EXPECTED: InvalidFormula {
         en: "the formula needs a number, #51 or a bracket here",
         de: "die Formel braucht hier eine Zahl, #51 oder eine Klammer",
         help_en: "it was damaged or edited: emit again and use the new program",
         help_de: "sie wurde beschädigt oder bearbeitet: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// Something behind a value that cannot go on there.
+    /// A missing operator in a formula.
     OPERATOR_EXPECTED: InvalidFormula {
         en: "the formula cannot go on like this",
         de: "so kann die Formel nicht weitergehen",
         help_en: "between values stands one of + - * /, and a bracket is closed by the one that belongs to it: ( ) or [ ]",
         help_de: "zwischen Werten steht eines von + - * /, und zu jeder Klammer gehört die passende: ( ) oder [ ]",
     }
-    /// A formula without an end.
+    /// An unclosed formula.
     UNCLOSED: InvalidFormula {
         en: "the formula is not closed",
         de: "die Formel ist nicht geschlossen",
         help_en: "its line was cut off: emit again and use the new program",
         help_de: "die Zeile ist abgeschnitten: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// Digits and points that are no number.
+    /// A malformed number in a formula.
     NOT_A_NUMBER: InvalidFormula {
         en: "{found} is not a number",
         de: "{found} ist keine Zahl",
         help_en: "a number has at most one decimal point",
         help_de: "eine Zahl hat höchstens einen Dezimalpunkt",
     }
-    /// More brackets than anybody writes.
+    /// A formula that is nested too deeply.
     TOO_DEEP: InvalidFormula {
         en: "more than {limit} nested brackets",
         de: "mehr als {limit} verschachtelte Klammern",
         help_en: "no formula of pathbuild has more than one: emit again and use the new program",
         help_de: "keine Formel von pathbuild hat mehr als eine: noch einmal ausgeben und das neue Programm verwenden",
     }
-    /// A divisor of 0.
+    /// A division by zero.
     DIVISION_BY_ZERO: InvalidFormula {
         en: "this divides by 0",
         de: "hier wird durch 0 geteilt",
     }
-    /// Numbers beyond all bounds.
+    /// A result that is too large.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",
     }
-    /// A program that was adjusted before.
+    /// A program that was adjusted already.
     ADJUSTED_BEFORE: InvalidFormula {
         en: "this program has been adjusted already",
         de: "dieses Programm ist schon angepasst",
         help_en: "adjust starts from _Clean.gcode as emit wrote it: emit again, or fetch the original file",
         help_de: "adjust geht von der _Clean.gcode aus, wie emit sie geschrieben hat: noch einmal ausgeben oder die ursprüngliche Datei holen",
     }
-    /// Somebody has measured.
+    /// Measured values that would be overwritten.
     VALUES_PRESENT: ProbeValuesPresent {
         en: "{name} holds measured values that belong to other probes",
         de: "{name} enthält gemessene Werte, die zu anderen Proben gehören",
         help_en: "the drawing's probes have changed since; nothing was written for this path. Measure anew and use --force",
         help_de: "die Proben der Zeichnung haben sich seither geändert; für diesen Pfad wurde nichts geschrieben. Neu messen und --force verwenden",
     }
-    /// Milling where nobody measures.
+    /// Milling outside of the probed area.
     OUTSIDE: OutsideProbes {
         en: "the path mills up to {distance} mm outside the probes, at {at} in the program",
         de: "der Pfad fräst bis zu {distance} mm außerhalb der Proben, bei {at} im Programm",
         help_en: "draw probes at the outer corners of what is milled; outside them heights are only guessed",
         help_de: "Proben an die äußeren Ecken dessen zeichnen, was gefräst wird; außerhalb sind Höhen nur geschätzt",
     }
-    /// A probe that sticks out.
+    /// A probe that differs from its neighbours.
     ODD: OddProbe {
         en: "#{probe} is {off} mm {direction} than its neighbours let expect",
         de: "#{probe} ist {off} mm {direction}, als nach den Nachbarn zu erwarten wäre",
         help_en: "measure this probe again; if the value is right, nothing is to be done",
         help_de: "diese Probe noch einmal messen; wenn der Wert stimmt, ist nichts zu tun",
     }
-    /// A measured height that corrects nothing.
+    /// A measured height without an effect.
     UNUSED: UnusedProbe {
         en: "no formula in {file} uses #{probe}",
         de: "keine Formel in {file} verwendet #{probe}",
         help_en: "the formulas were removed or changed: emit again and use the new program. If the probe lies too far from everything that is milled, remove it from the drawing",
         help_de: "die Formeln wurden entfernt oder geändert: noch einmal ausgeben und das neue Programm verwenden. Liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
     }
-    /// The same while the program is written.
+    /// A probe without an effect, found while writing the program.
     WILL_BE_UNUSED: UnusedProbe {
         en: "the probe {probe} corrects no height of this path",
         de: "die Probe {probe} korrigiert keine Höhe dieses Pfads",
         help_en: "others lie nearer to everything that is milled: remove the probe, or move it nearer",
         help_de: "andere liegen näher an allem, was gefräst wird: die Probe entfernen oder näher heran setzen",
     }
-    /// Somebody has edited the program.
+    /// A program that was edited.
     EDITED_PROGRAM: OldProgram {
         en: "{name} is not what emit writes for {drawing}",
         de: "{name} ist nicht das, was emit für {drawing} schreibt",
         help_en: "it was edited, or written with other options: run emit again, then adjust with the same options (--z-model, --compatible)",
         help_de: "es wurde bearbeitet oder mit anderen Optionen geschrieben: noch einmal emit aufrufen, dann adjust mit denselben Optionen (--z-model, --compatible)",
     }
-    /// The drawing has changed since.
+    /// A program that is older than its drawing.
     OLD_PROGRAM: OldProgram {
         en: "{name} is out of date: {drawing} gives other moves now",
         de: "{name} ist veraltet: {drawing} ergibt jetzt andere Bewegungen",
         help_en: "run emit again, then adjust with the same options (--feed, --sweep-height)",
         help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--feed, --sweep-height)",
     }
-    /// The program was written with `--compatible`.
+    /// A program that was written with `--compatible`.
     COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written with --compatible: without it its drawing gives another program",
         de: "{name} wurde mit --compatible geschrieben: ohne diese Option ergibt die Zeichnung ein anderes Programm",
         help_en: "adjust it with --compatible, or run emit again without it",
         help_de: "adjust mit --compatible aufrufen oder emit noch einmal ohne diese Option",
     }
-    /// The program was written without `--compatible`.
+    /// A program that was written without `--compatible`.
     NOT_COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written without --compatible: with it its drawing gives another program",
         de: "{name} wurde ohne --compatible geschrieben: mit dieser Option ergibt die Zeichnung ein anderes Programm",
@@ -216,7 +216,7 @@ messages! {
     }
 }
 
-/// For [`ODD`].
+/// A word for [`ODD`].
 pub static HIGHER: crate::Word = crate::Word { en: "higher", de: "höher" };
-/// For [`ODD`].
+/// A word for [`ODD`].
 pub static LOWER: crate::Word = crate::Word { en: "lower", de: "niedriger" };

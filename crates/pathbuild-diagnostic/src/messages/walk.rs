@@ -1,4 +1,4 @@
-//! The walk along a path. (PB401 to PB407)
+//! Messages about the walk along a path. (PB401 to PB407)
 
 messages! {
     /// A dead end without a turn marker.
@@ -8,21 +8,21 @@ messages! {
         help_en: "close the gap, draw the missing segment, or move it to the path's layer",
         help_de: "die Lücke schließen, das fehlende Segment zeichnen oder es auf den Layer des Pfads legen",
     }
-    /// The tip of a dead end: what is left begins on the way to it.
+    /// The tip of a dead end; the remaining segments branch off on the way to it.
     DEAD_END: NothingContinues {
         en: "the path breaks off here, at the tip of a dead end; segments not reached: {left}",
         de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse; nicht erreichte Segmente: {left}",
         help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
         help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
     }
-    /// There and back over what is drawn twice.
+    /// A segment that is drawn twice, so that the walk returns along it.
     DRAWN_TWICE: NothingContinues {
         en: "{element} at {point} is drawn twice: the path runs back along the second one and breaks off; segments not reached: {left}",
         de: "{element} bei {point} ist doppelt gezeichnet: der Pfad läuft auf dem zweiten Segment zurück und bricht ab; nicht erreichte Segmente: {left}",
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
-    /// A turn marker from where nothing is found.
+    /// A turn marker without a branch on the way back.
     TURN_FOUND_NOTHING: NothingContinues {
         en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
         de: "auf dem Rückweg von dieser Wendemarke zweigt kein Segment ab; nicht erreichte Segmente: {left}",
@@ -39,7 +39,7 @@ messages! {
         en: "on layer {layer} {element} ends at {point}, {distance} mm away: is it on the wrong layer?",
         de: "auf Layer {layer} endet {element} bei {point}, {distance} mm entfernt: liegt es auf dem falschen Layer?",
     }
-    /// Note: a duplicate.
+    /// Note: a duplicate segment.
     DUPLICATE: NothingContinues {
         en: "{element} at {point} lies on one that was already traversed: it is drawn twice",
         de: "{element} bei {point} liegt auf einem schon durchlaufenen: es ist doppelt gezeichnet",
@@ -49,77 +49,77 @@ messages! {
         en: "a curve that is no part of the path ({kind}) lies at {point}",
         de: "bei {point} liegt eine Kurve ({kind}), die nicht zum Pfad gehört",
     }
-    /// Stopped at the end with segments left.
+    /// Segments left over at the end.
     UNREACHED: UnreachedSegments {
         en: "the path ends here, but not all of its segments were reached; left: {left}, one of them {element} at {point}",
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
     }
-    /// What is left is drawn twice.
+    /// A leftover segment that is drawn twice.
     UNREACHED_TWICE: UnreachedSegments {
         en: "{element} at {point} is drawn twice, and the path runs along one of the two only; segments not reached: {left}",
         de: "{element} bei {point} ist doppelt gezeichnet, der Pfad läuft aber nur über eines der beiden Segmente; nicht erreichte Segmente: {left}",
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
-    /// Something left lies along a segment, where that has no end.
+    /// A leftover segment that touches another one where that has no end.
     NO_END_THERE: UnreachedSegments {
         en: "not all segments were reached; left: {left}; {element} at {point} lies on {other}, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} liegen {element} und {other} übereinander, ohne dass dort ein Segment endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
-    /// There and back over what is drawn twice.
+    /// An end that is not reached because a segment is drawn twice.
     END_NOT_REACHED_TWICE: EndNotReached {
         en: "the path stops at {point}, but its end marker is at {end}: {element} at {begin} is drawn twice",
         de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}: {element} bei {begin} ist doppelt gezeichnet",
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
-    /// All segments done, but not at the end.
+    /// An end that is not reached although all segments are traversed.
     END_NOT_REACHED: EndNotReached {
         en: "the path stops at {point}, but its end marker is at {end}",
         de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}",
         help_en: "move the end marker there, or draw what is missing between",
         help_de: "die Endmarke dorthin verschieben oder das Fehlende dazwischen zeichnen",
     }
-    /// No segments.
+    /// A path without segments.
     EMPTY_PATH: EmptyPath {
         en: "the path has no segments",
         de: "der Pfad hat keine Segmente",
         help_en: "draw lines, arcs or circles on the path's layer",
         help_de: "Linien, Bögen oder Kreise auf dem Layer des Pfads zeichnen",
     }
-    /// Larger than A.
+    /// A helical circle larger than A.
     HELIX_TOO_LARGE: HelixTooLarge {
         en: "the helical circle's diameter {diameter} mm is greater than A, which is {limit}",
         de: "der Durchmesser {diameter} mm des Helixkreises ist größer als A mit {limit}",
         help_en: "a core would break loose; mill the circle as a path with support bars, or give the path an A (default 4 * O)",
         help_de: "ein Kern würde herausbrechen; den Kreis als Pfad mit Stützstegen fräsen oder dem Pfad ein A geben (sonst gilt 4 * O)",
     }
-    /// The bars are too close.
+    /// Support bars that are too close to each other.
     NO_ROOM_BETWEEN_BARS: NoRoomBetweenBars {
         en: "between support bars there are {gap} mm, too little for the cutter, O{tool}; bars: {count}",
         de: "zwischen den Stützstegen sind {gap} mm, zu wenig für den Fräser, O{tool}; Stege: {count}",
         help_en: "raise U, the least distance between bars, or shorten P",
         help_de: "U, den Mindestabstand der Stege, erhöhen oder P verkleinern",
     }
-    /// Support bars that leave nothing between them.
+    /// Support bars without any gap.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
         en: "all of it is left standing up to D {top}: {length} mm are shorter than P + U, {pitch} mm",
         de: "alles bleibt bis D {top} stehen: {length} mm sind kürzer als P + U, {pitch} mm",
         help_en: "lower U, the least distance between bars, for a gap; what shall be milled to D only has line type DIVIDE, what shall be milled through CONTINUOUS",
         help_de: "U, den Mindestabstand der Stege, für eine Lücke verkleinern; was nur bis D gefräst werden soll, hat Linientyp DIVIDE, was ganz gefräst werden soll, CONTINUOUS",
     }
-    /// A program comes into a clamp; said at the drawn element.
+    /// A program that moves into a clamp, reported at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, comes into the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "der Fräser, O{tool}, kommt in das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S to {height} or more (rapids at S go straight), draw cuts half of O and more away from the outline, or move the clamp",
         help_de: "S auf {height} oder mehr legen (Eilgänge auf S gehen geradeaus), Schnitte um O/2 und mehr vom Umriss entfernt zeichnen oder das Spannmittel versetzen",
     }
-    /// The same of a G-code program, at its line.
+    /// A G-code program that moves into a clamp, reported at its line.
     LINE_INTO_CLAMP: InsideKeepOut {
         en: "here the tool, O{tool}, comes into the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
         de: "hier kommt der Fräser, O{tool}, in das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",

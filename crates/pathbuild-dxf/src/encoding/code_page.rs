@@ -1,4 +1,4 @@
-//! `$DWGCODEPAGE`: which encoding its value names. (book: reference/dxf)
+//! Maps the values of `$DWGCODEPAGE` to encodings. (book: reference/dxf)
 
 use oem_cp::code_table::DECODING_TABLE_CP_MAP;
 use oem_cp::code_table_type::TableType;
@@ -11,7 +11,7 @@ use pathbuild_encoding::{
 /// Encoding declared for the texts of a file.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CodePage {
-    /// None, or `ANSI_1252`, which many programs write whatever they use.
+    /// None, or `ANSI_1252`, which many programs write regardless of the actual encoding.
     Usual,
     /// An encoding of the WHATWG standard.
     Standard(&'static Encoding),

@@ -89,7 +89,8 @@ const FRAME_POINT: i64 = 16;
 /// Largest bulge that counts as straight: over a chord of one metre it is 5 nm high, and the radius would be too large to be accurate.
 const FLAT: f64 = 1e-8;
 
-/// Height over the chord, in mm, up to which an arc may become a line where its centre is too far away: programs print no difference.
+/// Height in mm over the chord up to which an arc may become a line if its centre is too far away: the difference is invisible in printed
+/// programs.
 const INVISIBLE: f64 = 0.0005;
 
 #[derive(Clone, Copy, Debug)]

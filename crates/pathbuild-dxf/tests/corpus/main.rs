@@ -1,7 +1,6 @@
-//! Files of many CADs from the wild, compared with what ezdxf 1.4.5 reads from them. (book: reference/dxf)
+//! Compares what we read from files of many CAD programs with what ezdxf 1.4.5 reads. (book: reference/dxf)
 //!
-//! The files belong to others and are no part of the project: without them the test is skipped, unless `PATHBUILD_REQUIRE` names
-//! `shared`.
+//! The files belong to others and are not part of the project: without them the test is skipped, unless `PATHBUILD_REQUIRE` names `shared`.
 
 #![expect(clippy::disallowed_methods, reason = "the corpus is not where System could find it")]
 
@@ -31,7 +30,7 @@ fn read_all(bytes: &[u8]) -> Drawing {
     read(bytes, &options)
 }
 
-/// Files that we read otherwise: how many differences they have, and why ours is right.
+/// Files that we read differently: the number of differences, and why ours are right.
 const KNOWN: &[(&str, usize, &str)] = &[
     ("0b94b2f2ceaf.dxf", 1, UTF_8),
     ("0e3b61bf4451.dxf", 1, UTF_8),

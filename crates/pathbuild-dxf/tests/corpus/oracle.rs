@@ -1,4 +1,4 @@
-//! What ezdxf reads. The columns are those of the corpus' README.
+//! Results of ezdxf. The columns are described in the README of the corpus.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -8,16 +8,16 @@ use serde_json::Value;
 
 use crate::seen::{Seen, SeenLayers};
 
-/// What ezdxf reads from one file.
+/// The result of ezdxf for a file.
 pub(crate) struct Expected {
     pub(crate) file: String,
-    /// Not repaired by guesses, and no error.
+    /// Whether ezdxf neither failed nor had to repair the file.
     pub(crate) is_strict: bool,
     pub(crate) layers: SeenLayers,
     pub(crate) entities: Vec<Seen>,
 }
 
-/// All of it.
+/// The results for all files.
 pub(crate) fn expected(corpus: &Path) -> Vec<Expected> {
     let packed = std::fs::read(corpus.join("ezdxf.jsonl.gz")).expect("the oracle");
     let mut lines = String::new();
@@ -99,7 +99,7 @@ impl Columns<'_> {
         }
     }
 
-    /// Anchor, height, rotation, alignment, mirrored.
+    /// Anchor, height, rotation, alignment, mirroring.
     fn one_line(&self) -> Vec<f64> {
         let [horizontal, vertical] = [9, 10].map(|column| self.number(column));
         let [x, y] = match horizontal {
@@ -118,7 +118,7 @@ impl Columns<'_> {
     }
 }
 
-/// ezdxf leaves `\U+XXXX` as it stands in files that it takes for UTF-8.
+/// Decodes `\U+XXXX`, which ezdxf leaves unchanged in files that it considers UTF-8.
 fn unescaped(text: &str) -> String {
     let mut pieces = text.split("\\U+");
     let mut decoded = pieces.next().unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! An entity as both readers see it.
+//! A common representation of entities for both readers.
 
 use std::collections::BTreeMap;
 
@@ -11,13 +11,13 @@ pub(crate) type SeenLayers = BTreeMap<String, bool>;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Seen {
     pub(crate) kind: String,
-    /// Upper case.
+    /// The layer in upper case.
     pub(crate) layer: String,
-    /// Resolved, upper case.
+    /// The resolved line type in upper case.
     pub(crate) line_type: String,
-    /// Empty when the entity has none.
+    /// Empty if the entity has no handle.
     pub(crate) handle: String,
-    /// The string; of an MTEXT, then the plain text.
+    /// The string; for an MTEXT, followed by the plain text.
     pub(crate) texts: Vec<String>,
     pub(crate) numbers: Vec<f64>,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Seen {
 const NEAR: f64 = 2e-9;
 
 impl Seen {
-    /// In what the two differ; `None` when they agree.
+    /// The property in which the two differ; `None` if they are equal.
     pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
         let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= NEAR + 1e-15 * a.abs();
         if self.kind != other.kind || self.numbers.len() != other.numbers.len() {
@@ -48,14 +48,14 @@ impl Seen {
     }
 }
 
-/// The entities that stand in ENTITIES as such: no parts of polylines, of curves or of blocks.
+/// The entities directly in ENTITIES: no parts of polylines, curves or blocks.
 pub(crate) fn of_drawing(drawing: &Drawing, is_inserted: impl Fn(u32) -> bool) -> Vec<Seen> {
     let all = drawing.entities.iter().zip(&drawing.origins);
     let own = all.filter(|(entity, origin)| entity.group.is_none() && !is_inserted(origin.line));
     own.map(|(entity, origin)| seen(drawing, entity, *origin)).collect()
 }
 
-/// The layers that are used.
+/// The layers in use.
 pub(crate) fn layers_of(drawing: &Drawing) -> SeenLayers {
     drawing.layers.iter().map(|layer| (layer.name.to_uppercase(), layer.hidden)).collect()
 }
@@ -124,7 +124,7 @@ fn mtext(text: &MText) -> Vec<f64> {
     vec![text.anchor.x, text.anchor.y, row + column, text.height, text.rotation]
 }
 
-/// ezdxf's plain text has these replaced.
+/// Replaces codes by characters, as in ezdxf's plain text.
 fn with_signs(plain: &str) -> String {
     plain.replace("%%c", "Ø").replace("%%d", "°").replace("%%p", "±")
 }

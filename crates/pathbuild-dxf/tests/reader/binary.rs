@@ -1,4 +1,4 @@
-//! Binary files: the same drawing as their ASCII form.
+//! Binary files give the same drawing as their ASCII form.
 
 use pathbuild_dxf::{Drawing, Geometry};
 

@@ -1,4 +1,4 @@
-//! INSERT: blocks in the place of their insertions. (book: language/layers-and-names; book: reference/dxf)
+//! INSERT: insertions are replaced by the contents of their blocks. (book: language/layers-and-names; book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, EntityKind, Handle, Lang, Point};
 use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, Options, Origin, Point3, read};
@@ -30,7 +30,7 @@ fn lines(drawing: &Drawing) -> Vec<[f64; 4]> {
     drawing.entities.iter().map(|entity| ends(&entity.geometry)).collect()
 }
 
-/// The ends of the line that the insertion with these groups makes.
+/// The ends of the line that an insertion with these groups produces.
 fn inserted(groups: &str) -> Vec<[f64; 4]> {
     lines(&drawing(
         &block("B", "10 1\n20 0\n30 0", LINE),
@@ -145,7 +145,7 @@ fn blocks_are_nested() {
     assert_eq!(layers, ["P", "Q"]);
 }
 
-/// Layer 0 in layer 0: everything lies on the layer of the outermost insertion.
+/// Layer 0 within layer 0: everything belongs to the layer of the outermost insertion.
 #[test]
 fn blocks_on_layer_0_are_nested() {
     let blocks = block("INNER", "", &LINE.replace("8 P", "8 0"))
@@ -159,7 +159,7 @@ fn blocks_on_layer_0_are_nested() {
     }
 }
 
-/// Object coordinates of an insertion with the extrusion (0, 0, -1) run the other way in x, its columns too.
+/// With the extrusion (0, 0, -1), the object coordinates of an insertion, including its columns, are mirrored in x.
 #[test]
 fn columns_and_rows_of_a_mirrored_insertion_are_mirrored() {
     let copies = |groups: &str| {

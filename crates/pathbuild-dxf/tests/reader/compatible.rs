@@ -1,4 +1,4 @@
-//! As PathDxf2GCode reads: nothing but lines, arcs, circles and texts outside of blocks. (book: language/layers-and-names)
+//! Reads like PathDxf2GCode: nothing but lines, arcs, circles and texts outside of blocks. (book: language/layers-and-names)
 
 use pathbuild_dxf::{Drawing, Geometry, Options, read};
 

@@ -1,4 +1,4 @@
-//! ELLIPSE and SPLINE as arcs within a tolerance. (book: reference/configuration, `approximate-curves`)
+//! Approximates ELLIPSE and SPLINE by arcs within a tolerance. (book: reference/configuration, `approximate-curves`)
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ fn distance(a: XY, b: XY) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
-/// The point of a piece at a part of its way.
+/// The point at a fraction of a piece.
 fn at(piece: &Geometry, part: f64) -> XY {
     match piece {
         Geometry::Line(line) => [
@@ -32,7 +32,7 @@ fn at(piece: &Geometry, part: f64) -> XY {
     }
 }
 
-/// Degrees from start to end, negative when clockwise.
+/// The angle from start to end in degrees, negative if clockwise.
 fn sweep(arc: &Arc) -> f64 {
     let turn = (arc.end_angle - arc.start_angle).rem_euclid(360.0);
     if arc.clockwise { turn - 360.0 } else { turn }
@@ -47,7 +47,7 @@ fn direction(piece: &Geometry, part: f64) -> XY {
     [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
 }
 
-/// How far a point is from a piece.
+/// The distance of a point from a piece.
 fn to_piece(point: XY, piece: &Geometry) -> f64 {
     let to_ends = distance(point, at(piece, 0.0)).min(distance(point, at(piece, 1.0)));
     match piece {
@@ -62,7 +62,8 @@ fn to_piece(point: XY, piece: &Geometry) -> f64 {
     }
 }
 
-/// How far the points of a curve are from the pieces at most. Points of the pieces must be about as near to the curve: no loops.
+/// The maximum distance of the curve's points from the pieces. Points of the pieces must be about as near to the curve, which excludes
+/// loops.
 fn deviation(pieces: &[Geometry], curve: impl Fn(f64) -> XY) -> f64 {
     let points: Vec<XY> = (0..=1500).map(|step| curve(f64::from(step) / 1500.0)).collect();
     for piece in pieces {
@@ -75,7 +76,7 @@ fn deviation(pieces: &[Geometry], curve: impl Fn(f64) -> XY) -> f64 {
     points.iter().map(to_pieces).fold(0.0, f64::max)
 }
 
-/// Distance of a point from the polygon through points.
+/// The distance of a point from a polygon.
 fn to_polygon(point: XY, polygon: &[XY]) -> f64 {
     let to_side = |side: &[XY]| {
         let [dx, dy] = [side[1][0] - side[0][0], side[1][1] - side[0][1]];
@@ -87,7 +88,7 @@ fn to_polygon(point: XY, polygon: &[XY]) -> f64 {
     polygon.windows(2).map(to_side).fold(f64::INFINITY, f64::min)
 }
 
-/// The pieces of the only curve, which join; where the curve is smooth they do so without a bend.
+/// The pieces of the only curve. They must join, and do so without a bend if the curve is smooth.
 fn pieces(drawing: &Drawing, is_smooth: bool) -> Vec<Geometry> {
     assert_eq!((faults(drawing), &drawing.left_out, &drawing.diagnostics), (vec![], &vec![], &vec![]));
     let pieces: Vec<Geometry> = drawing.entities.iter().map(|entity| entity.geometry.clone()).collect();
@@ -112,7 +113,7 @@ fn ellipse(groups: &str) -> String {
     entities(&format!("0 ELLIPSE\n8 A\n10 5\n20 6\n11 30\n21 40\n{groups}"))
 }
 
-/// A point of that ellipse.
+/// A point of the ellipse.
 fn on_ellipse(ratio: f64, parameter: f64) -> XY {
     let (sin, cos) = libm::sincos(parameter);
     [5.0 + 30.0 * cos - 40.0 * ratio * sin, 6.0 + 40.0 * cos + 30.0 * ratio * sin]
@@ -191,7 +192,7 @@ fn broken_ellipses_are_faults() {
     assert_eq!(drawing.faults.len(), 1);
 }
 
-/// One that lies or reaches too far is not cut into pieces first, of which there would be too many.
+/// A curve that reaches too far is rejected before it is approximated, which would take too many pieces.
 #[test]
 fn curves_out_of_bounds_are_faults() {
     let ellipse = |length: &str| entities(&format!("0 ELLIPSE\n8 A\n10 0\n20 0\n11 {length}\n21 0\n40 1"));
@@ -225,7 +226,7 @@ fn a_curve_in_a_scaled_block_is_approximated_where_it_ends_up() {
     });
 }
 
-/// The point of a B-spline by the definition of its basis functions.
+/// The point of a B-spline, computed from the definition of the basis functions.
 fn on_spline(degree: usize, knots: &[f64], points: &[[f64; 3]], parameter: f64) -> XY {
     fn basis(index: usize, degree: usize, knots: &[f64], at: f64) -> f64 {
         if degree == 0 {
@@ -255,11 +256,11 @@ fn spline(degree: usize, knots: &[f64], points: &[[f64; 3]], groups: &str) -> St
     entities(&format!("0 SPLINE\n8 A\n71 {degree}\n{}\n{}\n{groups}", knots.join("\n"), points.join("\n")))
 }
 
-/// Checks it against its definition.
+/// Compares a spline with its definition.
 fn check_spline(degree: usize, knots: &[f64], points: &[[f64; 3]], tolerance: f64) -> usize {
     let drawing = approximated(&spline(degree, knots, points, ""), tolerance);
     let [from, to] = [knots[degree], knots[points.len()]];
-    // The last basis function of an unclamped spline is 0 at the end of the last knot: stay a hair before.
+    // The last basis function of an unclamped spline is 0 at the end of the last knot, so stay slightly before it.
     check(&drawing, tolerance, |part| {
         on_spline(degree, knots, points, (from + (to - from) * part).min(to - (to - from) * 1e-12))
     })
@@ -283,7 +284,7 @@ fn a_spline_stays_within_the_tolerance() {
     check_spline(5, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0], &WAVE, 0.01);
 }
 
-/// A parameter that runs ten times as fast, or slower, makes the same curve.
+/// The range of the parameter does not affect the curve.
 #[test]
 fn knots_may_be_of_any_size() {
     let knots = |size: f64| [0.0, 0.0, 0.0, 0.0, 1.0, 2.5, 3.0, 3.0, 3.0, 3.0].map(|knot| size * knot);
@@ -330,7 +331,7 @@ fn straight_splines_are_lines() {
 
 #[test]
 fn corners_and_cusps_stay_within_the_tolerance() {
-    // A knot as often as the degree is a corner; this control polygon has a cusp.
+    // A knot repeated as often as the degree gives a corner; this control polygon has a cusp.
     let corner = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
     let points = [[0.0, 0.0], [5.0, 9.0], [9.0, 5.0], [10.0, 0.0], [12.0, 9.0], [15.0, 9.0], [20.0, 0.0]]
         .map(|[x, y]| [x, y, 1.0]);

@@ -1,4 +1,4 @@
-//! LINE, ARC and CIRCLE: what is read of them, and what is wrong with them. (book: reference/dxf)
+//! LINE, ARC and CIRCLE: correct and faulty entities. (book: reference/dxf)
 
 use crate::support::{entities, faults, file, only, only_geometry, options, read_all};
 use pathbuild_diagnostic::Handle;

@@ -1,4 +1,4 @@
-//! Which records of LAYER are read: those that a wanted layer may be found by. Of all others nothing is said. (book: reference/dxf)
+//! Only those LAYER records are read that may belong to a wanted layer; problems of all others are ignored. (book: reference/dxf)
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ fn drawing(tables: &str, layers: &[&str]) -> String {
     file("", tables, "", &layers.iter().map(circle).collect::<String>())
 }
 
-/// The LAYER table with these records, among others.
+/// The LAYER table with these records, and further tables around it.
 fn table(records: &str) -> String {
     format!("{LTYPE}0 TABLE\n2 LAYER\n70 3\n{records}\n0 ENDTAB\n{STYLE}")
 }
@@ -25,7 +25,7 @@ fn read_layers_with_1(file: impl AsRef<[u8]>) -> Drawing {
     read(file.as_ref(), &Options { keep_layer: &|name| name.contains('1'), ..options() })
 }
 
-/// The line types of the entities, or what is said of the file.
+/// The line types of the entities, or the findings about the file.
 fn line_types(file: impl AsRef<[u8]>) -> String {
     let drawing = read_layers_with_1(file);
     let said = drawing
@@ -122,7 +122,7 @@ fn what_is_broken_in_its_own_record_is_an_error() {
     }
 }
 
-/// Where names are written with escapes, all records are read: what is lost shows there as well.
+/// If names contain escapes, all records are read, and damage to them is reported.
 #[test]
 fn a_record_whose_beginning_is_lost_is_an_error_where_all_are_read() {
     let text =
@@ -132,7 +132,7 @@ fn a_record_whose_beginning_is_lost_is_an_error_where_all_are_read() {
     assert!(said.starts_with("PB002") && said.contains("a group code should stand here"), "{said}");
 }
 
-/// Each of these would take hours if what has been looked at once were looked at again.
+/// These would take hours if anything were examined twice.
 #[test]
 fn tables_full_of_the_name_are_read_in_time() {
     let many = |line: &str| line.repeat(100_000);

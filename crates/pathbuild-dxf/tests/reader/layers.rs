@@ -1,4 +1,4 @@
-//! Layers and line types: names, tables, what hides a layer. (book: reference/dxf)
+//! Layers and line types: names, tables, and hidden layers. (book: reference/dxf)
 
 use std::cell::RefCell;
 
@@ -93,7 +93,7 @@ fn a_record_is_found_by_a_name_of_any_length_and_not_by_one_that_is_almost_the_s
     let records: Vec<_> = records.iter().map(String::as_str).collect();
     for length in 1..40 {
         let layer = name(length);
-        // These two characters differ in the same bit as upper and lower case do.
+        // These two characters differ in the same bit as upper and lower case.
         for (layer, line_type) in [
             (layer.to_uppercase(), format!("T{length}")),
             (layer.to_lowercase(), format!("T{length}")),
@@ -122,7 +122,7 @@ fn of_several_records_of_a_name_the_first_counts() {
     }
 }
 
-/// As many as anybody may put into a file.
+/// A very large number of records.
 #[test]
 fn records_are_found_among_thousands_that_are_almost_the_same() {
     const BITS: usize = 11;
@@ -187,7 +187,7 @@ fn layers_that_differ_in_one_character_are_not_the_same() {
     let of_length = |length: usize| (0..=length).map(move |place| with_other(length, place));
     for lengths in (1..=18).map(|length| length..=length).chain([1..=18]) {
         let layers: Vec<_> = lengths.flat_map(of_length).collect();
-        // Each a second time, when all are known.
+        // Each a second time, when all are cached.
         let twice: Vec<_> = layers.iter().chain(&layers).map(String::as_str).collect();
         let drawing = circles(&twice, "");
         assert_eq!(names(&drawing), layers.iter().map(|layer| (layer.as_str(), false)).collect::<Vec<_>>());

@@ -29,7 +29,7 @@ fn entities_are_limited() {
     }
 }
 
-/// Ten thousand count as one entity each, the others as twenty.
+/// Ten thousand faults count as one entity each, the others as twenty.
 #[test]
 fn many_faults_count_as_more_than_entities() {
     let broken = "0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n";

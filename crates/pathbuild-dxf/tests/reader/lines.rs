@@ -1,4 +1,4 @@
-//! Bytes to pairs: line ends, padding, remarks, codes. (book: reference/dxf)
+//! Parsing of pairs: line ends, padding, comments, codes. (book: reference/dxf)
 
 use crate::support::{entities, faults, file_faults, only, read_all};
 
@@ -14,7 +14,7 @@ fn all_line_ends_are_read() {
     }
 }
 
-/// Most programs pad codes to three characters. Others do not, or to six, whatever ends their lines.
+/// Most programs pad codes to three characters. Others use none or six, with any line ends.
 #[test]
 fn codes_are_read_in_any_width() {
     let lf = entities(&[LINE; 50].join("\n"));

@@ -1,10 +1,10 @@
-//! Texts on unwanted layers that are to be noted, without being read.
+//! Notes texts on unwanted layers without decoding them.
 
 use pathbuild_dxf::{Options, read};
 
 use crate::support::{file, options};
 
-/// Whether a drawing in which only layer P is wanted has a text that contains "B2".
+/// Whether a drawing with layer P as its only wanted layer has a text that contains "B2".
 fn is_noted(blocks: &str, entities: &str) -> bool {
     is_noted_with(blocks, entities, false)
 }

@@ -1,11 +1,11 @@
-//! Numbers as CADs write them. (book: reference/dxf: "numbers")
+//! Numbers as CAD programs write them. (book: reference/dxf: "numbers")
 
 use pathbuild_dxf::Geometry;
 use proptest::prelude::*;
 
 use crate::support::{entities, faults, read_all};
 
-/// What is read from a number's text: of an angle, which may be any number.
+/// The number read from a text, in the place of an angle, which may have any value.
 fn number(text: &str) -> Result<f64, String> {
     let drawing = read_all(entities(&format!("0 TEXT\n8 A\n50 {text}\n10 0\n20 0\n40 1\n1 x")));
     match drawing.entities.first().map(|entity| &entity.geometry) {
@@ -65,7 +65,7 @@ fn numbers_that_are_not_finite_are_errors() {
     assert_eq!(number("1e308"), Ok(1e308));
 }
 
-/// Beyond a kilometre nothing is drawn that a machine could reach.
+/// No machine could reach anything beyond a kilometre.
 #[test]
 fn coordinates_and_lengths_are_at_most_a_kilometre() {
     let is_sound = |entity: &str| read_all(entities(entity)).faults.is_empty();
@@ -108,7 +108,7 @@ fn whole_numbers_may_be_written_as_reals() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
-    /// The short way of plain decimals gives what the general one does.
+    /// The fast path for plain decimals gives the same result as the general parser.
     #[test]
     fn decimals_are_exact(text in "-?[0-9]{0,12}(\\.[0-9]{0,12})?") {
         match text.parse::<f64>() {

@@ -1,4 +1,4 @@
-//! Small drawings for tests: the furniture around a few pairs of interest.
+//! Builds small files around a few pairs of interest.
 
 use std::fmt::Write;
 
@@ -18,12 +18,12 @@ pub(crate) fn options() -> Options<'static> {
     }
 }
 
-/// A section of pairs, which are given as `code value` lines.
+/// A section with pairs, which are given as `code value` lines.
 pub(crate) fn section(name: &str, pairs: &str) -> String {
     format!("  0\nSECTION\n  2\n{name}\n{}  0\nENDSEC\n", lines(pairs))
 }
 
-/// Pairs, given one a line as `code value`, as DXF has them.
+/// Pairs in DXF form, given as `code value` lines.
 pub(crate) fn lines(pairs: &str) -> String {
     let mut text = String::new();
     for line in pairs.lines().map(str::trim_start).filter(|line| !line.is_empty()) {
@@ -38,7 +38,7 @@ pub(crate) fn entities(pairs: &str) -> String {
     section("ENTITIES", pairs) + "  0\nEOF\n"
 }
 
-/// A file with the variables of a header, records of tables, blocks and entities.
+/// A file with header variables, table records, blocks and entities.
 pub(crate) fn file(header: &str, tables: &str, blocks: &str, entities: &str) -> String {
     section("HEADER", header)
         + &section("TABLES", tables)
@@ -47,12 +47,12 @@ pub(crate) fn file(header: &str, tables: &str, blocks: &str, entities: &str) -> 
         + "  0\nEOF\n"
 }
 
-/// Reads with everything kept.
+/// Reads a file and keeps all layers.
 pub(crate) fn read_all(file: impl AsRef<[u8]>) -> Drawing {
     read(file.as_ref(), &options())
 }
 
-/// Reads a sound drawing of one entity.
+/// Reads a drawing with a single entity and no findings.
 pub(crate) fn only(file: impl AsRef<[u8]>) -> Entity {
     let drawing = read_all(file);
     assert_eq!((&drawing.faults, &drawing.left_out, &drawing.diagnostics), (&vec![], &vec![], &vec![]));
@@ -80,7 +80,7 @@ pub(crate) fn faults(drawing: &Drawing) -> Vec<String> {
     drawing.faults.iter().map(show).collect()
 }
 
-/// Diagnostics of the file as code, line and message.
+/// Findings about the file as code, line and message.
 pub(crate) fn file_faults(drawing: &Drawing) -> Vec<String> {
     let show = |it: &pathbuild_diagnostic::Diagnostic| {
         format!("{} {} {}", it.code(), it.place.line.unwrap_or(0), it.text(Lang::En))

@@ -78,7 +78,7 @@ fn all_lengths_are_converted() {
     }
 }
 
-/// Miles and kilometres: what is drawn in them lies too far off.
+/// Drawings in miles and kilometres are too far from the origin.
 #[test]
 fn coordinates_count_in_millimetres() {
     for number in [3, 7] {

@@ -1,4 +1,4 @@
-//! What counts although it is not seen, and what does not. (book: reference/dxf)
+//! Which invisible entities count, and which do not. (book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, Severity};
 
