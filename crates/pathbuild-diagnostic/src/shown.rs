@@ -2,31 +2,13 @@
 //! CI runner, or marks that reverse the direction of writing. All such characters are escaped when displayed; this is the only module that
 //! knows them.
 //!
-//! | function
-//! for
-//! line feeds
-//! special characters |
+//! | function | for | line feeds | special characters |
 //! | --- | --- | --- | --- |
-//! | [`line()`]
-//! a name or a text within a line
-//! `\n`
-//! `\u{1b}` |
-//! | [`framed`]
-//! a text in a frame
-//! kept
-//! `\u{1b}` |
-//! | [`lines`]
-//! a complete output for humans
-//! kept
-//! `\u{1b}` |
-//! | [`colored_lines`]
-//! a complete output with colours
-//! kept
-//! `\u{1b}`, except for colours |
-//! | [`json`]
-//! a complete output in JSON
-//! kept
-//! `\u001b` |
+//! | [`line()`] | a name or a text within a line | `\n` | `\u{1b}` |
+//! | [`framed`] | a text in a frame | kept | `\u{1b}` |
+//! | [`lines`] | a complete output for humans | kept | `\u{1b}` |
+//! | [`colored_lines`] | a complete output with colours | kept | `\u{1b}`, except for colours |
+//! | [`json`] | a complete output in JSON | kept | `\u001b` |
 
 use std::borrow::Cow;
 use std::fmt::Write;

@@ -1,5 +1,5 @@
-//! Effective parameters: the value of a letter on an element, and what provides it. Binding, the fold, closures and the lists of
-//! parameters all ask this module, so that each rule stands once. (book: language/letters)
+//! Effective parameters: the value of a letter on an element, and what provides it. Binding, the fold, closures and the lists of parameters
+//! all use this module, so that each rule has a single implementation. (book: language/letters)
 
 use pathbuild_diagnostic::{Word, words};
 
@@ -8,29 +8,29 @@ use crate::matrix::{ElementClass, Use};
 use crate::name::PathName;
 use crate::values::{Given, Values};
 
-/// Option values that apply where a drawing gives none. Feeds in mm/min, lengths in mm.
+/// Option values that apply if a drawing gives none. Feeds are in mm/min, lengths in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PathOptions {
     /// --feed: F. Paths that need it must not be folded without it.
     pub feed: Option<f64>,
-    /// --sweep-height: S of the emitted path; likewise.
+    /// --sweep-height: S of the emitted path, with the same requirement.
     pub sweep_height: Option<f64>,
     /// --probe-feed: Z. Probes without it fall back on feeds.
     pub probe_feed: Option<f64>,
-    /// Whether the program is that of `PathDxf2GCode` also where it deviates from its manuals. (book: program/compatible)
+    /// Whether to follow `PathDxf2GCode` even where it deviates from its manuals. (book: program/compatible)
     pub compatible: bool,
 }
 
-/// How a path is used: its sweep height depends on it.
+/// The use of a path, which determines its sweep height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathRole {
-    /// It is the path that a program is written for.
+    /// A program is written for it.
     Emitted,
     /// It is embedded, or checked on its own.
     Embedded,
 }
 
-/// The numbers of a path from which fallbacks follow.
+/// The parameters of a path from which defaults follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PathNumbers {
     /// O in mm.
@@ -41,7 +41,7 @@ pub struct PathNumbers {
     pub feed: Option<f64>,
 }
 
-/// What provides a parameter.
+/// The origin of a parameter's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Provider {
     /// The element's own text.
@@ -50,7 +50,7 @@ pub enum Provider {
     Chain,
     /// The text of the path's start.
     Path,
-    /// The text of the path that @ names.
+    /// The text of the path named by @.
     Lender(PathName),
     /// An option, by its name without hyphens.
     Option(&'static str),
@@ -62,16 +62,16 @@ pub enum Provider {
 #[derive(Clone, Copy)]
 pub(crate) struct Texts<'v, 't> {
     pub(crate) class: ElementClass,
-    /// The element's own.
+    /// The element's own text.
     pub(crate) own: &'v Values<'t>,
-    /// That of the first segment of its chain, where that is another element.
+    /// The text of the first segment of its chain, if that is another element.
     pub(crate) chain: Option<&'v Values<'t>>,
-    /// That of its path.
+    /// The text of its path.
     pub(crate) path: &'v Values<'t>,
 }
 
 impl Provider {
-    /// A word for machines.
+    /// The name in JSON.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Own => "own",
@@ -83,7 +83,7 @@ impl Provider {
         }
     }
 
-    /// The same for people.
+    /// The name in messages.
     pub fn word(&self) -> &'static Word {
         match self {
             Self::Own => &words::OWN_TEXT,
@@ -95,7 +95,7 @@ impl Provider {
         }
     }
 
-    /// Which path, or which option.
+    /// The path or option, if it has a name.
     pub fn which(&self) -> Option<&str> {
         match self {
             Self::Lender(path) => Some(path.as_str()),
@@ -106,12 +106,12 @@ impl Provider {
 }
 
 impl<'v, 't> Texts<'v, 't> {
-    /// The values that give a letter, and whose text they are; `None` where no text that counts has it.
+    /// The values that contain a letter, and their origin; `None` if no applicable text contains it.
     pub(crate) fn source(&self, letter: Letter) -> Option<(&'v Values<'t>, Provider)> {
         let own = match use_of(self.class, letter) {
             Use::Unknown | Use::Ignored => return None,
             Use::PathOnly => None,
-            // The path's text is the start's own.
+            // The element's own text is the path's text.
             Use::Needed | Use::Allowed if self.class == ElementClass::PathStart => None,
             Use::ChainNeeded | Use::Chain => {
                 Some(self.chain.map_or((self.own, Provider::Own), |chain| (chain, Provider::Chain)))
@@ -127,13 +127,13 @@ impl<'v, 't> Texts<'v, 't> {
         own.filter(has).or_else(|| path().filter(has))
     }
 
-    /// The number that the texts give a letter.
+    /// The number that the texts give for a letter.
     #[inline]
     pub(crate) fn number(&self, letter: Letter) -> Given {
         self.source(letter).map_or(Given::Absent, |(values, _)| values.number(letter))
     }
 
-    /// The number that a letter has, given or by the language's default; options aside.
+    /// The number of a letter, given or by the language's default, without regard to options.
     pub(crate) fn number_or_default(&self, letter: Letter) -> Option<f64> {
         match self.number(letter) {
             Given::Absent => {
@@ -153,7 +153,7 @@ impl PathNumbers {
     }
 }
 
-/// The use of a letter on an element. Elements whose text is not read are swept along at the path's height.
+/// The use of a letter on an element. Elements whose text is ignored are swept at the path's height.
 fn use_of(class: ElementClass, letter: Letter) -> Use {
     match (class, letter) {
         (ElementClass::Unread, Letter::S) => Use::PathOnly,
@@ -162,7 +162,7 @@ fn use_of(class: ElementClass, letter: Letter) -> Use {
     }
 }
 
-/// The value of a letter that no text gives, and what provides it; [`Provider::Path`] where it follows from another letter of the path.
+/// The value of a letter that no text gives, and its origin, which is [`Provider::Path`] if it follows from another letter of the path.
 pub fn fallback(
     letter: Letter,
     class: ElementClass,
