@@ -1,6 +1,5 @@
-//! Links the program at a fixed address on Linux: relocating a position-independent one at every start takes longer than compiling
-//! most drawings does (benches/README.md, "Start"). Not with musl: what is linked statically there starts as a position-independent
-//! program only.
+//! Links the program at a fixed address on Linux: relocating a position-independent executable at every start takes longer than compiling
+//! most drawings (benches/README.md, "Start"). Not with musl, where statically linked programs must be position-independent to start.
 
 #![expect(clippy::disallowed_methods, reason = "this is how cargo talks to a build script")]
 

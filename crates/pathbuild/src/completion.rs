@@ -1,5 +1,5 @@
-//! What a shell offers to complete: names of paths, posts, dialects and codes. The script of `completions` asks the program itself, by an
-//! environment variable, whenever somebody presses the tab key.
+//! Dynamic shell completion of path names, posts, dialects and codes. The script printed by `completions` calls the program whenever the
+//! user presses the tab key, with an environment variable set.
 
 use std::ffi::{OsStr, OsString};
 
@@ -15,10 +15,10 @@ use crate::args::{Cli, Command, CommonArgs};
 use crate::exit::ExitStatus;
 use crate::{context_of, german, lang_of};
 
-/// The variable by which a shell asks.
+/// Environment variable that requests completions.
 pub(crate) const VARIABLE: &str = "PATHBUILD_COMPLETE";
 
-/// Answers a shell that wants to complete a command line; `None`: this is a run of its own.
+/// Answers a completion request of a shell; `None` if this is an ordinary run.
 pub(crate) fn answer(arguments: &[OsString]) -> Option<ExitStatus> {
     let definition = || german::command(lang_of(arguments));
     match CompleteEnv::with_factory(definition).var(VARIABLE).try_complete(arguments, None) {
@@ -28,10 +28,10 @@ pub(crate) fn answer(arguments: &[OsString]) -> Option<ExitStatus> {
     }
 }
 
-/// Names of paths, drawings and directories.
+/// Completes names of paths, drawings and directories.
 pub(crate) fn paths() -> ArgValueCompleter {
     ArgValueCompleter::new(|current: &OsStr| {
-        #[expect(clippy::disallowed_methods, reason = "what a shell completes is no input of a run")]
+        #[expect(clippy::disallowed_methods, reason = "completions are no input of a run")]
         let files = PathCompleter::any().filter(|path| {
             path.is_dir() || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
         });
@@ -41,7 +41,7 @@ pub(crate) fn paths() -> ArgValueCompleter {
     })
 }
 
-/// Built-in posts, and files.
+/// Completes built-in posts and files.
 pub(crate) fn posts() -> ArgValueCompleter {
     ArgValueCompleter::new(|current: &OsStr| {
         let begins = |name: &str| name.starts_with(&*current.to_string_lossy());
@@ -52,21 +52,21 @@ pub(crate) fn posts() -> ArgValueCompleter {
     })
 }
 
-/// Names of dialects.
+/// Completes names of dialects.
 pub(crate) fn dialects() -> ArgValueCandidates {
     ArgValueCandidates::new(|| {
         Dialect::ALL.iter().map(|dialect| CompletionCandidate::new(dialect.name())).collect()
     })
 }
 
-/// Codes of diagnostics.
+/// Completes codes of diagnostics.
 pub(crate) fn codes() -> ArgValueCandidates {
     let candidate = |code: &Code| CompletionCandidate::new(code.to_string()).help(Some(code.name().into()));
     ArgValueCandidates::new(move || Code::ALL.iter().map(candidate).collect())
 }
 
-/// Names that may be put into a command line as they are: nothing in them acts on a terminal or means anything to a shell. The shell's own
-/// completion of files knows how to quote the others.
+/// Candidates that can be inserted into a command line as they are: they contain nothing that controls a terminal or is special to a shell.
+/// For other names, the shell's own file completion adds the quotes.
 fn harmless(candidates: Vec<CompletionCandidate>) -> impl Iterator<Item = CompletionCandidate> {
     candidates.into_iter().filter(|candidate| candidate.get_value().to_str().is_some_and(is_harmless))
 }
@@ -76,7 +76,7 @@ fn is_harmless(name: &str) -> bool {
     !name.chars().any(|c| shown::acts(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
 }
 
-/// The paths of the working directory's library that begin so.
+/// Paths of the working directory's library that begin with the current word.
 fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
     let cli = Cli { command: Command::Man, common: CommonArgs { quiet: 2, ..CommonArgs::default() } };
     let (context, faults) = context_of(&cli);

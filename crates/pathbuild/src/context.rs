@@ -1,4 +1,4 @@
-//! What every command is handed.
+//! The context that is passed to every command.
 
 use std::ops::Deref;
 use std::rc::Rc;
@@ -20,18 +20,18 @@ use crate::render::{View, json as lines, render};
 use crate::report::Findings;
 use crate::usage;
 
-/// The surroundings of a run.
+/// Everything that a command needs besides its arguments.
 #[derive(Debug)]
 pub struct Context {
-    /// Where everything is printed.
+    /// The only access to stdout and stderr.
     pub printer: Rc<Printer>,
-    /// How diagnostics are shown.
+    /// Format of diagnostics.
     pub format: Format,
-    /// What programs read of the run.
+    /// The machine-readable document and reports of the run.
     pub(crate) output: Output,
-    /// What the command line says beside the configuration.
+    /// Values from the command line that override the configuration.
     pub overrides: Overrides,
-    /// What the run works in.
+    /// Settings, files and directories.
     pub workspace: Workspace,
 }
 
@@ -44,13 +44,13 @@ impl Deref for Context {
 }
 
 impl Context {
-    /// What a command line works in.
+    /// The context of a command line.
     pub fn new(cli: &Cli, overrides: Overrides, printer: Rc<Printer>, workspace: Workspace) -> Self {
         let output = Output::new(&cli.command, &cli.common);
         Self { printer, format: output.format, output, overrides, workspace }
     }
 
-    /// What a run in another tree works in: its own configuration holds, and nothing is kept for later. Also what is wrong with that.
+    /// A workspace for another tree, with that tree's configuration and without a cache. Also returns diagnostics of that configuration.
     pub fn elsewhere(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
         let (settings, faults) =
             config::load(&OsSystem::shared(), &self.overrides, inputs, &self.working_directory);
@@ -67,7 +67,7 @@ impl Context {
         (workspace, faults)
     }
 
-    /// Shows findings: to people on stderr, to programs in the document of the run.
+    /// Shows findings: to users on stderr, in machine-readable formats in the document of the run.
     pub fn show(&self, findings: &Findings) {
         if let Some((stream, text)) = self.output.take(findings, |stream| self.view(stream)) {
             if self.format.is_for_machines() {
@@ -78,27 +78,27 @@ impl Context {
         }
     }
 
-    /// Shows some of the findings to people; reports have all.
+    /// Shows only some of the findings to users; reports contain all of them.
     pub(crate) fn show_some(&self, findings: &Findings, some: &Findings) {
         _ = self.output.take(findings, |stream| self.view(stream));
         let view = self.view(Stream::Stderr);
         self.printer.diagnostics(Stream::Stderr, &render(self.format, some, &view));
     }
 
-    /// Begins the document that programs read.
+    /// Begins the machine-readable document.
     pub(crate) fn begin(&self) {
         if let Some(header) = self.output.header() {
             self.printer.json(self.output.stream, header);
         }
     }
 
-    /// A result of a kind, in JSON: a line of the document.
-    #[expect(clippy::needless_pass_by_value, reason = "a row is made for this")]
+    /// Prints a result as a line of JSON in the document.
+    #[expect(clippy::needless_pass_by_value, reason = "callers create the row just for this call")]
     pub(crate) fn row(&self, kind: &str, row: Value) {
         self.printer.json(self.output.stream, lines::typed(kind, &row));
     }
 
-    /// The same where it is in JSON that the results are wanted.
+    /// Like [`row`](Self::row), but only if the format is JSON.
     pub(crate) fn row_of_json(&self, row: impl FnOnce() -> (&'static str, Value)) {
         if self.format == Format::Json {
             let (kind, row) = row();
@@ -106,12 +106,12 @@ impl Context {
         }
     }
 
-    /// The name of a file in a document: from the repository's root.
+    /// Name of a file in the document, relative to the repository's root.
     pub(crate) fn file(&self, file: &Utf8Path) -> String {
         self.machine_view().raw_name(file).into_owned()
     }
 
-    /// Ends the document, and writes reports; a report that cannot be written is an error.
+    /// Ends the document and writes the reports. A report that cannot be written is an error.
     pub(crate) fn end(&self, status: ExitStatus) -> ExitStatus {
         let (status, view) = (self.write_reports(status), self.machine_view());
         if let Some(text) = self.output.end(status.code(), &view) {
@@ -138,13 +138,13 @@ impl Context {
         if failed.is_empty() { status } else { status.max(self.fail(failed)) }
     }
 
-    /// The view of a program: names of files from the repository's root.
+    /// The view for machine-readable formats: file names are relative to the repository's root.
     fn machine_view(&self) -> View {
         let directory = self.settings.directory().unwrap_or(&self.working_directory);
         View { root: Some(config::repository(&OsSystem, directory).to_owned()), ..self.plain_view() }
     }
 
-    /// The view of somebody who reads a file.
+    /// The view for text files: no colours, no wrapping.
     fn plain_view(&self) -> View {
         View {
             lang: self.lang(),
@@ -155,19 +155,19 @@ impl Context {
         }
     }
 
-    /// Shows why nothing can be done at all. `diagnostics` are those of the configuration or of options.
+    /// Shows errors of the configuration or of options, which prevent the run.
     pub fn refuse(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         self.show(&Findings::new(diagnostics));
         ExitStatus::Usage
     }
 
-    /// Shows what went wrong and ends with that.
+    /// Shows errors and ends the run with them.
     pub fn fail(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         self.show(&Findings::new(diagnostics));
         ExitStatus::Errors
     }
 
-    /// Refuses to run without anything to work on.
+    /// Refuses to run because nothing was named to work on.
     pub fn nothing_named(&self) -> ExitStatus {
         let advice = match self.settings.file {
             Some(_) => {
@@ -186,12 +186,12 @@ impl Context {
         self.usage(&(reason + advice))
     }
 
-    /// Says what is wrong with the command line.
+    /// Reports wrong usage.
     pub fn usage(&self, reason: &str) -> ExitStatus {
         usage::wrong(reason, self.lang(), &self.printer)
     }
 
-    /// The view of somebody who looks at that stream.
+    /// The view for a stream in the chosen format.
     pub fn view(&self, stream: Stream) -> View {
         if self.format.is_for_machines() {
             return self.machine_view();
@@ -204,7 +204,7 @@ impl Context {
     }
 }
 
-/// The files that a run with these settings sees.
+/// The files that a run with these settings may access.
 pub(crate) fn system_of(settings: &Settings) -> Arc<dyn System> {
     match &settings.confined {
         Some(confined) => Arc::new(confined.clone()),

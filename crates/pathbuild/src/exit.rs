@@ -1,4 +1,4 @@
-//! What a run tells the shell. The numbers are part of the interface and never change. (book: reference/diagnostics)
+//! Exit status of the program. The numbers are part of the interface and never change. (book: reference/diagnostics)
 
 use std::process::ExitCode;
 
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[must_use]
 pub enum ExitStatus {
-    /// 0: nothing is wrong; there may be warnings.
+    /// 0: no errors; there may be warnings.
     Success,
     /// 1: errors were found, or something could not be written.
     Errors,

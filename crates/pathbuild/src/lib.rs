@@ -1,5 +1,5 @@
-//! The program `pathbuild`: arguments, configuration, how results are shown, exit status. What drawings mean is decided in the
-//! crates below; this one holds no logic of theirs. (book: reference/commands, book: reference/configuration)
+//! The program `pathbuild`: arguments, configuration, output and exit status. The meaning of drawings is decided in other crates; this one
+//! holds none of that logic. (book: reference/commands, book: reference/configuration)
 
 pub mod args;
 pub mod commands;
@@ -40,7 +40,7 @@ use commands::compat::{self, Translated};
 use output::Output;
 use printer::{ColorChoice, Printer};
 
-/// Runs the program with the arguments that the shell gave it, the first being its own name.
+/// Runs the program with its command-line arguments, of which the first is the program's own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     let arguments = compat::guarded(arguments.into_iter().collect());
     if let Some(status) = completion::answer(&arguments) {
@@ -51,14 +51,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
         Ok(cli) => execute(&cli),
         Err(error) => {
             let lang = lang_of(&arguments);
-            // The definition in German says what it finds in German.
+            // Parse again with the German definition to get the error message in German.
             let said = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
             print(|printer| usage::answer(&said, lang, printer))
         }
     }
 }
 
-/// Runs what a command line of another program comes to.
+/// Translates a command line of another program and runs the resulting commands.
 fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
     let lang = lang_of(arguments);
     let translated = match compat::translate(&args.arguments, lang) {
@@ -80,13 +80,13 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
     each.max().unwrap_or(ExitStatus::Success)
 }
 
-/// The language of what is said about a command line that is not run: as for every other.
+/// Language of messages about a command line that is not run; determined like that of any other.
 pub(crate) fn lang_of(arguments: &[OsString]) -> Lang {
     let common = CommonArgs { lang: Cli::lang(arguments), ..CommonArgs::default() };
     context_of(&Cli { command: Command::Man, common }).0.lang()
 }
 
-/// Prints what needs no configuration.
+/// Prints something that needs no configuration.
 fn print(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
     let printer = Printer::default();
     let status = answer(&printer);
@@ -113,12 +113,12 @@ fn execute(cli: &Cli) -> ExitStatus {
     context.printer.finish(status)
 }
 
-/// Why options or the environment ask for what there is not.
+/// Why options or the environment ask for something impossible.
 fn refusal(context: &Context) -> Option<String> {
     context.output.refusal(context).or_else(|| surroundings::refusal(context))
 }
 
-/// Who works in a tree with a configuration expects that it holds: where it does not, that is said.
+/// Warns if the working directory's configuration does not apply to this run.
 fn say_configuration_not_used(context: &Context) {
     if let Some(file) = context.configuration_not_used() {
         let line = context.phrase(
@@ -130,7 +130,7 @@ fn say_configuration_not_used(context: &Context) {
     }
 }
 
-/// The surroundings, and what is wrong with the configuration.
+/// Creates the context. Also returns diagnostics of the configuration.
 fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
     let Cli { command, common } = cli;
     let working_directory = working_directory();
@@ -157,8 +157,8 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
     (context, faults)
 }
 
-/// The working directory; empty, so that relative names stay relative, where the system does not tell it or it is no UTF-8.
-#[expect(clippy::disallowed_methods, reason = "this is where the program asks once")]
+/// The working directory; empty if it is unknown or not UTF-8, so that relative names stay relative.
+#[expect(clippy::disallowed_methods, reason = "the only place where the program queries it")]
 fn working_directory() -> Utf8PathBuf {
     let directory = std::env::current_dir().ok();
     directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).map(spelt).unwrap_or_default()

@@ -1,8 +1,8 @@
-//! Numbers as people of a language write them.
+//! Formats numbers in the conventions of a language.
 
 use pathbuild_diagnostic::{Lang, in_prose};
 
-/// A count with its thousands set apart: `2,014`, in German `2.014`.
+/// Formats a count with thousands separators: `2,014`, in German `2.014`.
 pub(crate) fn count(number: usize, lang: Lang) -> String {
     let separator = match lang {
         Lang::En => ',',
@@ -19,12 +19,12 @@ pub(crate) fn count(number: usize, lang: Lang) -> String {
     grouped
 }
 
-/// A count with its noun: `1 path`, `2,014 paths`.
+/// Formats a count with its noun: `1 path`, `2,014 paths`.
 pub(crate) fn counted(number: usize, lang: Lang, [one, many]: [&str; 2]) -> String {
     format!("{} {}", count(number, lang), if number == 1 { one } else { many })
 }
 
-/// A number with so many decimals, without zeros at its end: `12.5`, in German `12,5`.
+/// Formats a number with up to `places` decimals and without trailing zeros: `12.5`, in German `12,5`.
 pub(crate) fn decimal(number: f64, places: usize, lang: Lang) -> String {
     let text = format!("{number:.places$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

@@ -1,4 +1,4 @@
-//! What a program reads of a run: one document, on stdout unless that holds something else, and reports in files.
+//! Machine-readable output of a run: one document, on stdout unless the command needs stdout itself, and reports in files.
 
 use std::cell::RefCell;
 
@@ -12,15 +12,15 @@ use crate::printer::Stream;
 use crate::render::{Rendered, View, json as lines, page, render};
 use crate::report::{Findings, pictures};
 
-/// The document of a run, and everything that goes into it at the end.
+/// The document of a run, with everything to be written at its end.
 #[derive(Debug)]
 pub(crate) struct Output {
     pub(crate) command: &'static str,
     pub(crate) format: Format,
-    /// Where a format for programs goes.
+    /// Stream of machine-readable formats.
     pub(crate) stream: Stream,
     pub(crate) reports: Vec<ReportFile>,
-    /// Whether the command has findings: others have no document.
+    /// Whether the command has findings; other commands have no document.
     is_document: bool,
     found: RefCell<Findings>,
     figures: RefCell<Map<String, Value>>,
@@ -40,7 +40,7 @@ impl Output {
         }
     }
 
-    /// Why the options ask for what there is not.
+    /// Why the options ask for something impossible.
     pub(crate) fn refusal(&self, workspace: &Workspace) -> Option<String> {
         let on_stdout = self.reports.iter().filter(|report| report.is_stdout()).count();
         let taken = usize::from(self.format.is_for_machines() || self.stream == Stream::Stderr);
@@ -68,18 +68,18 @@ impl Output {
         })
     }
 
-    /// Whether stdout is a program's, so that people's lines go elsewhere.
+    /// Whether stdout carries the document, so that text for users goes elsewhere.
     pub(crate) fn takes_stdout(&self) -> bool {
         let reports = self.reports.iter().any(ReportFile::is_stdout);
         self.is_document && self.stream == Stream::Stdout && (reports || self.format.is_for_machines())
     }
 
-    /// The first line in JSON.
+    /// The first line of JSON.
     pub(crate) fn header(&self) -> Option<String> {
         (self.is_document && self.format == Format::Json).then(|| lines::header(self.command))
     }
 
-    /// Takes findings; what is to be shown of them now, and where.
+    /// Collects findings. Returns what to show of them now, and on which stream.
     pub(crate) fn take(
         &self,
         findings: &Findings,
@@ -97,12 +97,12 @@ impl Output {
         Some((stream, render(self.format, findings, &view(stream))))
     }
 
-    /// A number for the last line in JSON.
+    /// Adds a number to the last line of JSON.
     pub(crate) fn figure(&self, name: &str, value: impl Into<Value>) {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }
 
-    /// What is left to be printed at the end.
+    /// The rest of the document, printed at the end.
     pub(crate) fn end(&self, status: u8, view: &View) -> Option<Rendered> {
         match self.format {
             _ if !self.is_document => None,
@@ -112,7 +112,7 @@ impl Output {
         }
     }
 
-    /// The page of a report.
+    /// An HTML report.
     pub(crate) fn page(&self, context: &Context, view: &View) -> Rendered {
         let found = self.found.borrow();
         page(&found, &pictures(context, &found.diagnostics), view)

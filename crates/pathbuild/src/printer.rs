@@ -3,18 +3,18 @@
 //! | what | stream | at |
 //! | --- | --- | --- |
 //! | results: what the command was asked for | stdout | always |
-//! | the document of a run in a machine's format | stdout, unless that holds a program | always |
+//! | the machine-readable document of a run | stdout, unless that holds a program | always |
 //! | all other diagnostics | stderr | up to `-q` |
 //! | wrong usage | stderr | always |
 //! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
 //! | details: what was found, read, taken from the cache | stderr | with `-v` |
 //!
-//! Everything passes `pathbuild_diagnostic::shown` on the way: names and texts of strangers can neither move the cursor nor begin a
-//! command of a CI runner. A status line and a line of results stay one line whatever names hold; names within longer results are
-//! escaped by who puts them there. Bytes that are asked for as they are (a program, a script for the shell) are printed as they are.
+//! All output passes through `pathbuild_diagnostic::shown`, so that names and texts from untrusted files can neither move the cursor nor
+//! start a command of a CI runner. Status lines and single-line results stay single lines whatever names they contain; names within longer
+//! results are escaped by the caller. Bytes that are requested unchanged (a program, a shell script) are printed unchanged.
 //!
-//! A closed pipe is no error: what is left of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other
-//! failure to write is kept and makes the run end with [`ExitStatus::Errors`].
+//! A closed pipe is no error: the rest of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other write error is
+//! remembered and makes the run end with [`ExitStatus::Errors`].
 
 use std::cell::RefCell;
 use std::fmt::Display;
@@ -27,7 +27,7 @@ use crate::exit::ExitStatus;
 use crate::progress::Progress;
 use crate::render::Rendered;
 
-/// When to colour.
+/// When to use colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum ColorChoice {
     /// On a terminal.
@@ -39,7 +39,7 @@ pub enum ColorChoice {
     Never,
 }
 
-/// How much is said.
+/// How much is printed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verbosity {
     /// `-qq`: results only.
@@ -54,7 +54,7 @@ pub enum Verbosity {
 }
 
 impl Verbosity {
-    /// The level for so many `-q` and so many `-v`.
+    /// The level for these numbers of `-q` and `-v`.
     pub fn from_counts(quiet: u8, verbose: u8) -> Self {
         match (quiet, verbose) {
             (0, 0) => Self::Normal,
@@ -65,24 +65,24 @@ impl Verbosity {
     }
 }
 
-/// The two streams, and what may be shown on them.
+/// Prints to both streams, respecting verbosity and colours.
 #[derive(Debug, Default)]
 pub struct Printer {
     verbosity: Verbosity,
     color: ColorChoice,
-    /// Stdout is a document that a program reads: people's results go to stderr.
+    /// Whether stdout carries a machine-readable document, so that results for users go to stderr.
     is_stdout_taken: bool,
     failures: RefCell<Failures>,
 }
 
-/// Why a stream no longer takes text.
+/// The first write error of each stream. After it, nothing more is written there.
 #[derive(Debug, Default)]
 struct Failures {
     stdout: Option<io::Error>,
     stderr: Option<io::Error>,
 }
 
-/// One of the two streams.
+/// An output stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
     /// For results.
@@ -92,7 +92,7 @@ pub enum Stream {
 }
 
 impl Stream {
-    /// Whether a person looks at it.
+    /// Whether the stream is a terminal.
     pub fn is_terminal(self) -> bool {
         match self {
             Self::Stdout => io::stdout().is_terminal(),
@@ -102,12 +102,12 @@ impl Stream {
 }
 
 impl Printer {
-    /// A printer that says so much, in such colours.
+    /// A printer with this verbosity and choice of colours.
     pub fn new(verbosity: Verbosity, color: ColorChoice) -> Self {
         Self { verbosity, color, ..Self::default() }
     }
 
-    /// The same where stdout is a document that a program reads.
+    /// Redirects results for users to stderr if stdout carries a machine-readable document.
     pub(crate) fn with_stdout_taken(self, is_stdout_taken: bool) -> Self {
         Self { is_stdout_taken, ..self }
     }
@@ -121,7 +121,7 @@ impl Printer {
         self.verbosity
     }
 
-    /// Whether text for that stream is coloured.
+    /// Whether text on the stream is coloured.
     pub fn is_colored(&self, stream: Stream) -> bool {
         match self.color {
             ColorChoice::Always => true,
@@ -130,7 +130,7 @@ impl Printer {
         }
     }
 
-    /// The width of that stream in columns, where a person looks at it.
+    /// Width of the stream's terminal in columns; `None` if it is no terminal.
     pub fn width(&self, stream: Stream) -> Option<usize> {
         let size = match stream {
             Stream::Stdout => terminal_size::terminal_size_of(io::stdout()),
@@ -139,27 +139,27 @@ impl Printer {
         size.map(|(width, _)| usize::from(width.0))
     }
 
-    /// Prints a result of whole lines to stdout.
+    /// Prints results that consist of whole lines.
     pub fn result(&self, text: impl Display) {
         self.write(self.results(), &shown::lines(&text.to_string()));
     }
 
-    /// Prints a result of one line to stdout.
+    /// Prints a single-line result.
     pub fn result_line(&self, line: impl Display) {
         self.write_line(self.results(), line);
     }
 
-    /// Prints a result in JSON to stdout.
+    /// Prints a result as JSON to stdout.
     pub fn result_json(&self, json: impl Display) {
         self.json(Stream::Stdout, json);
     }
 
-    /// Prints a line in JSON.
+    /// Prints a line of JSON.
     pub(crate) fn json(&self, stream: Stream, json: impl Display) {
         self.write(stream, &shown::json(&format!("{json}\n")));
     }
 
-    /// Prints a result that is wanted byte for byte to stdout.
+    /// Prints a result to stdout, byte for byte.
     pub fn result_bytes(&self, bytes: &[u8]) {
         let failed = &mut self.failures.borrow_mut().stdout;
         if failed.is_none() {
@@ -175,38 +175,38 @@ impl Printer {
         }
     }
 
-    /// Prints what a program reads, at any verbosity.
+    /// Prints a machine-readable document, regardless of verbosity.
     pub(crate) fn document(&self, stream: Stream, text: &Rendered) {
         self.write(stream, text.as_str());
     }
 
-    /// Prints a line about the run.
+    /// Prints a line about the status of the run.
     pub fn status(&self, line: impl Display) {
         if self.verbosity >= Verbosity::Normal {
             self.write_line(Stream::Stderr, line);
         }
     }
 
-    /// Prints whole lines about the run.
+    /// Prints several lines about the status of the run.
     pub(crate) fn status_lines(&self, lines: impl Display) {
         if self.verbosity >= Verbosity::Normal {
             self.write(Stream::Stderr, &shown::lines(&lines.to_string()));
         }
     }
 
-    /// Prints a line that few want to know.
+    /// Prints a line of detail, shown with `-v` only.
     pub fn detail(&self, line: impl Display) {
         if self.verbosity >= Verbosity::Verbose {
             self.write_line(Stream::Stderr, line);
         }
     }
 
-    /// Prints what is wrong about the way the program was called.
+    /// Prints an error about wrong usage.
     pub fn usage(&self, text: impl Display) {
         self.write(Stream::Stderr, &shown::lines(&text.to_string()));
     }
 
-    /// Ends the output: says what could not be written, and lets that decide over the status.
+    /// Reports write errors, and returns the final status.
     pub fn finish(&self, status: ExitStatus) -> ExitStatus {
         let failures = self.failures.take();
         let is_serious = |error: &io::Error| error.kind() != io::ErrorKind::BrokenPipe;
@@ -243,7 +243,7 @@ impl Reporter for Printer {
         Self::detail(self, line);
     }
 
-    /// A progress bar, where somebody looks at it.
+    /// A progress bar if stderr is a terminal.
     fn progress(&self, total: usize) -> Box<dyn Advance> {
         if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
             return Box::new(Silent);
@@ -254,7 +254,7 @@ impl Reporter for Printer {
 
 fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &str) {
     if failed.is_none() {
-        // In one piece: standard error has no buffer, and lines of programs side by side must not mix.
+        // Write in one piece: stderr is unbuffered, and lines of concurrent processes must not mix.
         *failed = stream.write_all(text.as_bytes()).and_then(|()| stream.flush()).err();
     }
 }

@@ -8,14 +8,14 @@ use std::time::Duration;
 
 use pathbuild_workspace::Advance;
 
-/// The work is worth a bar after this time.
+/// Time after which the bar appears.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// How often the bar is drawn.
+/// Interval at which the bar is redrawn.
 const INTERVAL: Duration = Duration::from_millis(100);
-/// Columns of the bar itself.
+/// Width of the bar in columns.
 const WIDTH: usize = 30;
 
-/// A bar that counts work. It is drawn by a thread of its own, and gone when this is dropped.
+/// A progress bar, drawn by its own thread and erased when dropped.
 #[derive(Debug)]
 pub struct Progress {
     counters: Arc<Counters>,
@@ -31,7 +31,7 @@ struct Counters {
 }
 
 impl Progress {
-    /// Counts up to `total`, drawn on `stream`; without one nothing is drawn.
+    /// Counts up to `total` and draws on `stream`, if there is one.
     pub fn new(total: usize, stream: Option<Box<dyn Write + Send>>) -> Self {
         let over = Condvar::new();
         let counters =
@@ -57,7 +57,7 @@ impl Drop for Progress {
         *self.counters.is_over.lock().unwrap_or_else(PoisonError::into_inner) = true;
         self.counters.over.notify_all();
         if let Some(drawing) = self.drawing.take() {
-            // A bar that could not be drawn is no reason to say anything.
+            // A bar that could not be drawn is not worth reporting.
             _ = drawing.join();
         }
     }

@@ -1,7 +1,7 @@
-//! Where a person's configuration is, and where results are kept for later runs. (book: reference/configuration)
+//! Locations of the user's configuration and cache, and the user's language. (book: reference/configuration)
 #![expect(
     clippy::disallowed_methods,
-    reason = "the environment is asked where a person's own files are, which no result depends on"
+    reason = "the environment tells where the user's own files are; no result depends on them"
 )]
 
 use std::env::{self, VarError};
@@ -11,10 +11,10 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::clean;
 use pathbuild_workspace::{CacheHome, Workspace};
 
-/// Names the directory of kept results, as `--cache-dir` does.
+/// Names the cache directory, like `--cache-dir`.
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
 
-/// A person's `config.toml`, there or not; `None` where nobody says where it would be.
+/// Path of the user's `config.toml`, whether it exists or not; `None` if its directory is unknown.
 pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
     let below_home = |directory: &str| absolute("HOME").map(|home| home.join(directory));
     let directory = if cfg!(windows) {
@@ -27,19 +27,19 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
     directory.map(|directory| directory.join("pathbuild").join("config.toml"))
 }
 
-/// The language that a person has chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
+/// Language chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
 pub(crate) fn lang() -> Option<Lang> {
     named_lang(&env::var("PATHBUILD_LANG").ok()?)
 }
 
-/// The language of the system's locale: by the variables of POSIX on every system, else the user's language on Windows and macOS.
+/// Language of the system's locale: from the POSIX variables on every system, else the user's language on Windows and macOS.
 pub(crate) fn system_lang() -> Option<Lang> {
     let variables = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter();
     let named = variables.filter_map(|variable| env::var(variable).ok()).find(|name| !name.is_empty());
     named_lang(&named.or_else(sys_locale::get_locale)?)
 }
 
-/// The language of a name such as `de`, `de-AT` or `de_DE.UTF-8`, where it is one of ours.
+/// The language of a name such as `de`, `de-AT` or `de_DE.UTF-8`, if it is supported.
 pub(crate) fn named_lang(name: &str) -> Option<Lang> {
     match name.split(['_', '-', '.', '@']).next()?.to_ascii_lowercase().as_str() {
         "de" => Some(Lang::De),
@@ -48,14 +48,14 @@ pub(crate) fn named_lang(name: &str) -> Option<Lang> {
     }
 }
 
-/// Why the environment asks for what there is not: kept results would lie elsewhere than its owner believes.
+/// Refuses an unreadable variable: otherwise results would be cached in another place than the user expects.
 pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
     let is_unreadable = matches!(env::var(CACHE_DIR), Err(VarError::NotUnicode(_)));
     is_unreadable.then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR))
 }
 
-/// The directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, else the person's own, which `config.toml` may name; `None` where nobody says
-/// where it is.
+/// The directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, else the user's cache directory, which `config.toml` may name; `None` if it is
+/// unknown.
 pub(crate) fn cache_home(
     named: Option<&Utf8Path>,
     configured: Option<Utf8PathBuf>,
@@ -68,7 +68,7 @@ pub(crate) fn cache_home(
     }
 }
 
-/// As XDG says, or the system's own rules.
+/// The user's cache directory, according to XDG or the conventions of the system.
 fn user_caches() -> Option<Utf8PathBuf> {
     if cfg!(windows) {
         return absolute("LOCALAPPDATA").map(|local| local.join("pathbuild").join("cache"));
@@ -78,7 +78,7 @@ fn user_caches() -> Option<Utf8PathBuf> {
     caches.map(|caches| caches.join("pathbuild"))
 }
 
-/// XDG: what is not absolute does not count.
+/// The absolute directory in a variable. XDG requires that relative ones are ignored.
 fn absolute(variable: &str) -> Option<Utf8PathBuf> {
     directory(variable).filter(|directory| directory.is_absolute())
 }

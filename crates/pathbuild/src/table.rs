@@ -1,12 +1,12 @@
-//! Tables for people: a line a row, columns set apart by two blanks, numbers to the right.
+//! Tables for users: one line per row, columns separated by two blanks, numbers aligned to the right.
 
 use comfy_table::{Cell, CellAlignment, Table};
 use pathbuild_diagnostic::shown;
 
-/// A column's heading, and whether it holds numbers.
+/// A column's heading, and whether the column holds numbers.
 pub(crate) type Column<'a> = (&'a str, bool);
 
-/// The table with its headings, each line without blanks at its end. Names in it are escaped.
+/// Formats a table with headings, without trailing blanks. Names are escaped.
 pub(crate) fn table(columns: &[Column<'_>], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let aligned = |(text, (_, is_number)): (&str, &Column<'_>)| {
         let alignment = if *is_number { CellAlignment::Right } else { CellAlignment::Left };

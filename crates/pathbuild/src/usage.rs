@@ -1,4 +1,4 @@
-//! Wrong usage: what the program was called with cannot be done, whatever the drawings say. (exit status 2)
+//! Errors of usage: the arguments cannot be processed, whatever the drawings contain. (exit status 2)
 
 use clap::error::ErrorKind;
 use pathbuild_diagnostic::Lang;
@@ -7,7 +7,7 @@ use crate::exit::ExitStatus;
 use crate::german;
 use crate::printer::Printer;
 
-/// Prints what clap found by the definition in that language: help and version, which were asked for, or an error of usage.
+/// Prints clap's answer in this language: help and version, or an error of usage.
 pub(crate) fn answer(error: &clap::Error, lang: Lang, printer: &Printer) -> ExitStatus {
     let text = error.render().to_string();
     let text = if lang == Lang::De { german::shown(&text) } else { text };
@@ -23,13 +23,13 @@ pub(crate) fn answer(error: &clap::Error, lang: Lang, printer: &Printer) -> Exit
     }
 }
 
-/// Prints help that was asked for.
+/// Prints requested help.
 pub(crate) fn help(text: &str, printer: &Printer) -> ExitStatus {
     printer.result(text);
     ExitStatus::Success
 }
 
-/// Prints why the program cannot do what it was called for.
+/// Prints an error of usage.
 pub(crate) fn wrong(reason: &str, lang: Lang, printer: &Printer) -> ExitStatus {
     let (error, advice) = match lang {
         Lang::En => ("error", "For more information, try '--help'."),

@@ -1,4 +1,4 @@
-//! `watch` from configuration to configuration: each change of it begins anew, and one that is wrong for a moment ends nothing.
+//! `watch` across changes of the configuration: each change restarts it, and a temporarily invalid configuration does not end it.
 
 use std::thread;
 use std::time::Duration;
@@ -13,16 +13,17 @@ use crate::surroundings::user_configuration;
 use crate::{context_of, refusal};
 use camino::Utf8PathBuf;
 
-/// How often a configuration that is wrong is looked at.
+/// Interval at which an invalid configuration is checked again.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// Watches until nothing can be watched. What is wrong at the beginning ends the run; later it is waited for somebody who puts it right.
+/// Runs `watch` until it ends. An invalid configuration ends the run at the beginning; later the run waits until the configuration is valid
+/// again.
 pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
     let mut had_file = false;
     let mut server = None;
     loop {
-        // Before it is read for good: what changes from here on is noticed.
+        // Taken before the configuration is read, so that later changes are noticed.
         let sources = Sources::of(&context_of(cli).0);
         let (context, faults) = context_of(cli);
         if let Some(refusal) = refusal(&context) {
@@ -80,12 +81,12 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     }
 }
 
-/// Why nothing is checked once there is no configuration any more.
+/// Tells that nothing is checked because the configuration has disappeared.
 fn lost(context: &Context) -> &'static str {
     context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt")
 }
 
-/// What a configuration consists of.
+/// The files that make up a configuration, with their contents.
 #[derive(PartialEq, Eq)]
 struct Sources(Vec<(Utf8PathBuf, Option<Vec<u8>>)>);
 

@@ -1,32 +1,33 @@
-//! Where `watch --serve` is to be found.
+//! Address of `watch --serve`.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
 /// An address of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Which of its names or addresses.
+    /// Name or IP address.
     pub host: Host,
-    /// `None`: the usual one, or a free one where that is taken.
+    /// Port; `None` means the default port, or a free one if that is taken.
     pub port: Option<u16>,
 }
 
-/// A name or an address of this machine.
+/// A name or an IP address of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "self-explanatory")]
 pub enum Host {
     Ip(IpAddr),
     Name(String),
 }
 
 impl Address {
-    /// Where nobody but this machine comes to.
+    /// The loopback address, which only this machine can reach.
     pub const LOOPBACK: Self = Self { host: Host::Ip(IpAddr::V4(Ipv4Addr::LOCALHOST)), port: None };
 
-    /// Reads `8080`, `127.0.0.1`, `[::1]:8080`, `localhost` or `name:8080`. A name alone could as well be a path or a directory.
+    /// Parses `8080`, `127.0.0.1`, `[::1]:8080`, `localhost` or `name:8080`. Another name without a port is refused, because it could as
+    /// well be a path or a directory.
     ///
     /// # Errors
-    /// What it should be.
+    /// What is accepted.
     pub fn parse(text: &str) -> Result<Self, String> {
         if let Ok(port) = text.parse() {
             return Ok(Self { port: Some(port), ..Self::LOOPBACK });
@@ -50,7 +51,7 @@ impl Address {
 
 const ADVICE: &str = "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)";
 
-/// Whether it can be the name of a machine.
+/// Whether the text can be a host name.
 fn is_name(text: &str) -> bool {
     let is_part = |part: &str| {
         !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')

@@ -1,5 +1,5 @@
-//! Options that stand before or after any command. Values that a configuration may give as well stay text here: whether they are
-//! right is decided in one place for both. (book: reference/commands, book: reference/configuration)
+//! Options that are accepted before and after any command. Values that the configuration can also set stay text here, so that they are
+//! validated in one place. (book: reference/commands, book: reference/configuration)
 
 use camino::Utf8PathBuf;
 use clap::{Args, ValueEnum};
@@ -81,7 +81,7 @@ pub struct CommonArgs {
 const FORMATS: &str = "full|concise|json|sarif|github|gitlab|junit";
 
 impl CommonArgs {
-    /// What is held over the configuration.
+    /// The values that override the configuration.
     pub fn overrides(&self) -> Overrides {
         Overrides {
             feed: self.feed.clone(),
@@ -101,13 +101,13 @@ impl CommonArgs {
         }
     }
 
-    /// How much is said.
+    /// How much to print.
     pub fn verbosity(&self) -> Verbosity {
         Verbosity::from_counts(self.quiet, self.verbose)
     }
 }
 
-/// A language, as it is written.
+/// A language, as written on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LangArg {
     /// English

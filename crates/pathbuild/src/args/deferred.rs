@@ -1,10 +1,10 @@
-//! Arguments of commands that are not defined before they are needed: to define those of every command takes a third of the time of a short run.
+//! Arguments of commands that are defined on demand: defining those of every command takes a third of the time of a short run.
 
 use std::ops::Deref;
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches};
 
-/// Arguments of one command among many.
+/// Arguments of a command, defined only if the command is used.
 #[derive(Clone, Debug)]
 pub struct Deferred<T>(T);
 
@@ -36,7 +36,7 @@ impl<T: FromArgMatches> FromArgMatches for Deferred<T> {
     }
 }
 
-/// Defines the arguments of a command. What is said about it was said with the command.
+/// Defines the arguments of a command, keeping the description that the command already has.
 fn define<T: Args>(command: Command) -> Command {
     let about = command.get_about().cloned().unwrap_or_default();
     let long_about = command.get_long_about().cloned();

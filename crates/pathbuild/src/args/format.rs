@@ -33,33 +33,33 @@ pub enum Format {
 }
 
 impl Format {
-    /// Whether it shows diagnostics; the others show graphs.
+    /// Whether the format shows diagnostics; the others show graphs.
     pub fn shows_diagnostics(self) -> bool {
         !matches!(self, Self::Dot | Self::Mermaid)
     }
 
-    /// Whether a program reads it, so that it is the result of a run.
+    /// Whether the format is machine-readable, so that it is the result of a run.
     pub fn is_for_machines(self) -> bool {
         self == Self::Json || self.is_report()
     }
 
-    /// Whether it holds findings and nothing else.
+    /// Whether the format contains only findings.
     pub fn is_report(self) -> bool {
         matches!(self, Self::Sarif | Self::Github | Self::Gitlab | Self::Junit)
     }
 
-    /// Whether it can only be written when everything is known.
+    /// Whether the format can only be written once all findings are known.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Sarif | Self::Gitlab | Self::Junit)
     }
 }
 
-/// A report to write beside what is printed: `FORMAT=FILE`.
+/// A report to write besides the printed output: `FORMAT=FILE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReportFile {
-    /// What to write.
+    /// Format of the report.
     pub format: Format,
-    /// Where.
+    /// File to write.
     pub file: Utf8PathBuf,
 }
 
@@ -69,7 +69,7 @@ impl ReportFile {
         self.file == "-"
     }
 
-    /// Reads `FORMAT=FILE`.
+    /// Parses `FORMAT=FILE`.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;
         let format = Format::from_str(format, false).ok().filter(|format| format.shows_diagnostics());

@@ -72,7 +72,7 @@ pub struct VerifyArgs {
 }
 
 impl VerifyArgs {
-    /// The programs, then the path: its configuration holds for programs that lie elsewhere.
+    /// The programs, followed by the path, whose configuration applies to programs outside its tree.
     pub(super) fn inputs(&self) -> Inputs {
         let mut inputs = Inputs::places(&self.files);
         inputs.inputs.extend(self.against.clone());

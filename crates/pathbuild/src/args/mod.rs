@@ -1,5 +1,5 @@
-//! Commands and options as they are written on the command line, and nothing more: no defaults that depend on the configuration,
-//! no checks that need a file. (book: reference/commands)
+//! Definition of commands and options, and nothing more: no defaults that depend on the configuration, no checks that need a file. (book:
+//! reference/commands)
 
 mod address;
 mod check;
@@ -105,7 +105,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// The drawings and paths that it works on; of other commands than those none.
+    /// The drawings and paths that the command works on; empty for other commands.
     pub fn inputs(&self) -> Inputs {
         match self {
             Self::Check(args) => (*args.inputs).clone(),
@@ -133,19 +133,19 @@ impl Command {
         }
     }
 
-    /// Whether a configuration with faults stops it.
+    /// Whether an invalid configuration prevents the command.
     pub fn needs_configuration(&self) -> bool {
         !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
     }
 
-    /// Whether it has findings or results that programs may want to read.
+    /// Whether the command has findings or results in machine-readable formats.
     pub fn has_document(&self) -> bool {
         !matches!(self, Self::Explain(_) | Self::Init(_) | Self::Completions(_) | Self::Man | Self::Compat(_))
             && !matches!(self, Self::Config(args) if matches!(args.command, ConfigCommand::Schema))
             && !matches!(self, Self::Post(args) if matches!(args.command, Some(PostCommand::Show { .. })))
     }
 
-    /// Whether standard output is a program's text or the like, so that all else goes to standard error.
+    /// Whether stdout carries a program or other raw output, so that everything else goes to stderr.
     pub fn owns_stdout(&self) -> bool {
         match self {
             Self::Emit(args) => args.output.is_some(),
@@ -154,7 +154,7 @@ impl Command {
         }
     }
 
-    /// The name that it is called by.
+    /// Name of the command.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Check(_) => "check",

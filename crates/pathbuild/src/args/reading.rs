@@ -1,4 +1,4 @@
-//! Reading a command line.
+//! Parses a command line.
 
 use std::ffi::OsString;
 
@@ -12,10 +12,10 @@ use super::common::LangArg;
 use super::{Cli, Command, CommonArgs};
 
 impl Cli {
-    /// What a command line says, the program's own name first.
+    /// Parses a command line, which begins with the program's own name.
     ///
     /// # Errors
-    /// What is to be said instead: that it is wrong, the help, the version.
+    /// An error of usage, or the requested help or version.
     pub fn read(arguments: &[OsString]) -> Result<Self, Error> {
         if let Some(read) = Self::read_command(arguments) {
             return Ok(read);
@@ -24,10 +24,10 @@ impl Cli {
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
     }
 
-    /// The same by a definition in some language, as clap has it.
+    /// Parses a command line with a definition in some language.
     ///
     /// # Errors
-    /// What is to be said instead, in that language.
+    /// An error of usage, or the requested help or version, in that language.
     pub fn matches(definition: &Definition, arguments: &[OsString]) -> Result<ArgMatches, Error> {
         let read = |arguments: &[OsString]| definition.clone().try_get_matches_from(arguments);
         read(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
@@ -36,7 +36,7 @@ impl Cli {
         })
     }
 
-    /// The language that a command line asks for, right or wrong as it may be otherwise.
+    /// The language requested by a command line, even if the command line has errors.
     pub fn lang(arguments: &[OsString]) -> Option<LangArg> {
         let texts: Vec<&str> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
         let apart = texts.windows(2).filter(|pair| pair[0] == "--lang").map(|pair| pair[1]);
@@ -44,8 +44,8 @@ impl Cli {
         apart.chain(joined).find_map(|name| LangArg::from_str(name, false).ok())
     }
 
-    /// The same where the command comes first, as it nearly always does, and nothing else is to be said: without all other commands, each of which
-    /// would get the common options for itself. To define them takes a quarter of the time of a short run.
+    /// Fast path for a command line that begins with a command and has no errors: defines only that command. Every command gets its own
+    /// copy of the common options, and defining all of them takes a quarter of the time of a short run.
     fn read_command(arguments: &[OsString]) -> Option<Self> {
         let commands = Command::augment_subcommands(Definition::new("pathbuild"));
         let command = commands.find_subcommand(arguments.get(1)?)?.clone();
@@ -54,13 +54,13 @@ impl Cli {
     }
 }
 
-/// The command line with `check` before the drawing that stands where the command should.
+/// Inserts `check` before a drawing that is given in place of a command.
 fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
     let named = error.get(ContextKind::InvalidSubcommand);
     let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) = (error.kind(), named) else {
         return None;
     };
-    Utf8Path::new(named).extension().filter(|it| it.eq_ignore_ascii_case("dxf"))?;
+    Utf8Path::new(named).extension().filter(|extension| extension.eq_ignore_ascii_case("dxf"))?;
     let place = arguments.iter().position(|argument| argument == named.as_str())?;
     let (before, after) = arguments.split_at(place);
     Some([before, &["check".into()], after].concat())

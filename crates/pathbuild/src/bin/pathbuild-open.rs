@@ -1,10 +1,7 @@
-//! Opens the page of `pathbuild watch --serve` without a console: for what was dropped on it, or for the folder in which it lies. It does
-//! nothing else: the program `pathbuild` beside it does the work, and never has to guess how it was started. (book: program/live)
+//! Opens the page of `pathbuild watch --serve` without a console: for files dropped on it, or for the folder that it lies in. All work is
+//! done by the program `pathbuild` beside it, which therefore never has to guess how it was started. (book: program/live)
 #![windows_subsystem = "windows"]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "it asks where it lies and what was dropped on it, which no result depends on"
-)]
+#![expect(clippy::disallowed_methods, reason = "no result depends on its own location and arguments")]
 
 use std::env;
 use std::ffi::OsString;
@@ -24,7 +21,7 @@ fn main() -> ExitCode {
 
 const MISSING: &str = "pathbuild-open needs the program pathbuild in its own folder.\npathbuild-open braucht das Programm pathbuild im selben Ordner.\n";
 
-/// Does the work; what there is to read where that failed without a page.
+/// Starts `pathbuild`. Returns its error output if it failed without opening a page.
 fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
     let mut command = Command::new(program(own));
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
@@ -41,19 +38,19 @@ fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
     }
     let output = command.spawn()?.wait_with_output()?;
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    // A program with errors is shown with them.
+    // A program with errors is displayed together with them.
     let is_shown = said.lines().any(|line| ends_in(Path::new(line), "html"));
     Ok(if output.status.success() || is_shown { None } else { Some(said) })
 }
 
-/// The program beside this one, else the one that the system finds.
+/// The program beside this one, or else the one on the search path.
 fn program(own: Option<&Path>) -> PathBuf {
     let name = format!("pathbuild{}", env::consts::EXE_SUFFIX);
     let beside = own.map(|own| own.join(&name)).filter(|beside| beside.is_file());
     beside.unwrap_or_else(|| PathBuf::from(name))
 }
 
-/// A name alone could mean a path.
+/// Makes an argument absolute: a bare name could be taken for a path of a drawing.
 fn absolute(argument: OsString) -> PathBuf {
     path::absolute(&argument).unwrap_or_else(|_| argument.into())
 }
@@ -77,7 +74,7 @@ fn without_console(command: &mut Command) {
 #[cfg(not(windows))]
 fn without_console(_: &mut Command) {}
 
-/// Shows a text to somebody who has no console, as a file that the system opens; it stays among the temporary files.
+/// Shows a text to a user without a console, as a temporary file that the system opens. The file is kept.
 fn show(text: &str) -> ExitCode {
     let shown = || -> io::Result<()> {
         let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".txt").tempfile()?;
@@ -85,7 +82,7 @@ fn show(text: &str) -> ExitCode {
         let (_, path) = file.keep()?;
         open::that_detached(path)
     };
-    // Whoever started it from a console reads it there.
+    // For users who started it from a console.
     _ = io::stderr().write_all(text.as_bytes());
     _ = shown();
     ExitCode::FAILURE

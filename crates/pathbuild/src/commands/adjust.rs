@@ -1,4 +1,4 @@
-//! `pathbuild adjust`: measured heights put into programs. (book: language/probes)
+//! `pathbuild adjust`: inserts measured heights into programs. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
@@ -22,7 +22,7 @@ use pathbuild_workspace::emit::{Current, current};
 use pathbuild_workspace::files::{cannot_write, unreadable};
 use pathbuild_workspace::session::Session;
 
-/// Runs the command. Of several programs each is written unless something is wrong with it.
+/// Runs the command. Each of several programs is written unless it has errors itself.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     let mut adjustment = match Adjustment::new(context, args) {
         Ok(adjustment) => adjustment,
@@ -66,10 +66,10 @@ struct Adjustment<'a> {
     has_failed: bool,
 }
 
-/// The files of one program.
+/// Files of one program.
 #[derive(Clone, Debug)]
 struct Job {
-    /// Where the argument is one.
+    /// The drawing, if the argument names one.
     drawing: Option<Utf8PathBuf>,
     clean: Utf8PathBuf,
     values: Utf8PathBuf,
@@ -80,11 +80,11 @@ pub(super) const CLEAN: &str = "_Clean.gcode";
 pub(super) const VALUES: &str = "_Z.txt";
 
 impl Job {
-    /// What an argument means: a file of a program, or a drawing, whose programs are where emit writes them. Their names may have more in
-    /// them than the drawing's (R, or the path of a drawing of several): then their headers tell.
+    /// The programs that an argument refers to: a file of a program, or a drawing, whose programs are where `emit` writes them. Their names
+    /// may contain more than the drawing's name (R, or the path in a drawing with several); then their headers identify the drawing.
     ///
     /// # Errors
-    /// PB006 where the directory of the programs shows a bug.
+    /// PB006 if listing the programs' directory triggers a bug.
     fn all(
         context: &Context,
         argument: &Utf8Path,
@@ -95,7 +95,7 @@ impl Job {
         let Some(drawing) = drawing_of(argument).filter(|_| !is_there(&job)) else {
             return Ok(vec![job]);
         };
-        // A program that lies elsewhere than where this configuration writes.
+        // The program may lie elsewhere than where this configuration would write it.
         let beside = Self::new(Utf8Path::new(&format!("{argument}{CLEAN}")), out_dir);
         if is_there(&beside) {
             return Ok(vec![beside]);
@@ -134,7 +134,7 @@ impl Job {
     }
 }
 
-/// The drawing's name of an argument that is a drawing or its name; `None` where it is a file of a program.
+/// File name of the drawing that an argument names, with or without extension; `None` for a file of a program.
 fn drawing_of(argument: &Utf8Path) -> Option<String> {
     let name = argument.file_name()?;
     let is_file = [CLEAN, VALUES].iter().any(|suffix| without(name, suffix).is_some());
@@ -148,7 +148,7 @@ fn is_of(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
     Provenance::of_head(&text).is_some_and(|(_, title)| native::is_title_of(&title, drawing))
 }
 
-/// A name without its suffix, which may be in any case.
+/// Strips a suffix from a name, ignoring case.
 pub(super) fn without<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
     let (stem, end) = name.split_at_checked(name.len().checked_sub(suffix.len())?)?;
     end.eq_ignore_ascii_case(suffix).then_some(stem)
@@ -161,7 +161,7 @@ impl<'a> Adjustment<'a> {
         Ok(Self {
             context,
             max_correction,
-            // It was checked above.
+            // Validated above.
             shown: shown.and_then(|pattern| Regex::new(pattern).ok()),
             log: args.log.as_deref(),
             errors: Vec::new(),
@@ -196,7 +196,7 @@ impl<'a> Adjustment<'a> {
         Ok(())
     }
 
-    /// Refuses a program whose drawing gives another one now. Whether it is known to be what `emit` writes.
+    /// Refuses a program whose drawing now produces a different one. Returns whether the program is known to be what `emit` writes.
     fn compare(&self, job: &Job, clean: &[u8]) -> Result<bool, Vec<Diagnostic>> {
         let context = self.context;
         let not_compared =
@@ -240,7 +240,7 @@ impl<'a> Adjustment<'a> {
         Ok(false)
     }
 
-    /// PB608 where the program is current with `--compatible`, or without it, and only that is the reason.
+    /// PB608 if the program is up to date with the other setting of `--compatible`.
     fn other_mode(&self, job: &Job, clean: &[u8]) -> Option<Diagnostic> {
         let is_compatible = self.context.settings.general.compatible.value;
         let workspace = self.context.in_mode(!is_compatible);
@@ -253,8 +253,8 @@ impl<'a> Adjustment<'a> {
         matches!(found, Current::Same).then(problem)
     }
 
-    /// The program, the values and the log; all that cannot be read is told.
-    #[expect(clippy::type_complexity, clippy::result_large_err, reason = "taken apart at its one caller")]
+    /// Reads program, values and log. Reports every file that cannot be read.
+    #[expect(clippy::type_complexity, clippy::result_large_err, reason = "destructured by its only caller")]
     fn read(&self, job: &Job) -> Result<(Vec<u8>, Vec<u8>, Option<Vec<u8>>), Vec<Diagnostic>> {
         let limit = self.context.settings.limits.file_size.value;
         let read = |file: &Utf8Path| {
@@ -300,7 +300,7 @@ impl<'a> Adjustment<'a> {
             .status(format_args!("{file}: {state}, {count} {heights} {lowest} {to} {highest} mm"));
     }
 
-    /// Errors stay what they are, whatever the configuration says: nothing is written of what has one.
+    /// Errors keep their severity regardless of the configuration, since they prevent a program from being written.
     fn conclude(self) -> ExitStatus {
         let mut diagnostics = self.context.findings(self.warnings).diagnostics;
         diagnostics.extend(self.errors);

@@ -1,4 +1,4 @@
-//! `pathbuild cache`: what is kept between runs. (book: reference/configuration)
+//! `pathbuild cache`: manages the cached results. (book: reference/configuration)
 
 use pathbuild_cache::{Entry, Key, NotRemoved, Unusable};
 use pathbuild_db::system::spelt;
@@ -54,7 +54,7 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     ExitStatus::Success
 }
 
-/// Says how much was removed.
+/// Reports how many files were removed.
 fn report(context: &Context, removed: Result<usize, NotRemoved>) -> ExitStatus {
     match removed {
         Ok(count) => {
@@ -69,7 +69,7 @@ fn report(context: &Context, removed: Result<usize, NotRemoved>) -> ExitStatus {
     }
 }
 
-/// Says of each file whether it is whole. One of another build is: it is only not for this one.
+/// Reports the state of each results file. A file of another build is not an error; this build just cannot use it.
 fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
     let mut is_whole = true;
     for Entry { path, size, fault } in entries {

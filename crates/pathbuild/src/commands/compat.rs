@@ -1,6 +1,6 @@
-//! `pathbuild compat`: the command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`, for batch files that have been in use for years.
+//! `pathbuild compat`: translates command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`, for existing batch files.
 //!
-//! | theirs | ours |
+//! | original | pathbuild |
 //! | --- | --- |
 //! | `/f` `/v` `/s` `/z` | `--feed`, `--rapid`, `--sweep-height`, `--probe-feed` |
 //! | `/d` `/n` `/p` `/e` `/l` | `--search`, `--path-pattern`, `--file-pattern`, `--restrict`, `--lang` |
@@ -9,7 +9,9 @@
 //! | `/m`, or a file `..._Clean.gcode` or `..._Z.txt` | `adjust --max-correction` |
 //! | `/h` `/?` | this table, in the language of `/l` |
 //!
-//! Programs are those of the original tool: `--compatible`. A value may be glued to its option, also with `=` or `:` between (but for regular
+//! Programs are written with `--compatible`. A value may follow its option or be attached to it, optionally with `=` or `:` between (except
+//! for regular expressions, which may begin with these characters). Case is ignored, and `-` may replace `/`. Options with two hyphens are
+//! those of pathbuild. On systems other than Windows, `\` in file names is read as `/`.
 //! expressions, which may begin so), or follow it. Case does not count, and `-` stands for `/` as well. Options with two hyphens are ours. Elsewhere than on Windows, `\` in names of files is read as `/`.
 
 use std::ffi::OsString;
@@ -34,16 +36,16 @@ const VALUES: &[(char, &str)] = &[
     ('l', "--lang"),
 ];
 
-/// What a command line of theirs comes to.
+/// The translation of a command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Translated {
-    /// Command lines of ours, without the program's name, one after the other.
+    /// Command lines of pathbuild without the program's name, to be run in order.
     Commands(Vec<Vec<String>>),
-    /// Their help was asked for, in this language where one was named.
+    /// The help was requested, in this language if one was given.
     Help(Option<Lang>),
 }
 
-/// The help that is printed for `/h`.
+/// The help printed for `/h`.
 pub(crate) fn help(lang: Lang) -> &'static str {
     match lang {
         Lang::En => HELP,
@@ -77,10 +79,10 @@ pathbuild compat [/OPTION[WERT]]... DATEIEN
 `pathbuild compat --print ...` gibt die Befehlszeilen von pathbuild aus, statt sie auszuführen.
 ";
 
-/// Translates a command line.
+/// Translates a command line of the original tools.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Why the command line is invalid.
 pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, String> {
     let say = |en: &str, de: &str, argument: &str| {
         let phrase = if lang == Lang::De { de } else { en };
@@ -113,7 +115,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
             }
         }
     }
-    // Without arguments ours would take the whole library.
+    // Without arguments, pathbuild would process the whole library.
     if read.files.is_empty() {
         return Err(say("no file is named", "es ist keine Datei genannt", ""));
     }
@@ -127,7 +129,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
     Ok(Translated::Commands(read.commands()))
 }
 
-/// The language of the last `/l`, wherever it stands.
+/// The language of the last `/l` in the command line.
 fn named_lang_in(arguments: &[String]) -> Option<Lang> {
     let named = |(at, argument): (usize, &String)| match option(argument)? {
         ('l', "") => named_lang(arguments.get(at + 1)?),
@@ -137,26 +139,27 @@ fn named_lang_in(arguments: &[String]) -> Option<Lang> {
     arguments.iter().enumerate().filter_map(named).next_back()
 }
 
-/// The arguments of the shell where `compat` comes first: what follows with one hyphen is theirs, `-v` and `-h` too.
+/// Inserts `--` after `compat`, so that options with one hyphen, such as `-v` and `-h`, are those of the original tools.
 pub(crate) fn guarded(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let text = |at: usize| arguments.get(at).and_then(|argument| argument.to_str());
-    let Some(mut at) = (1..arguments.len()).find(|at| text(*at).is_none_or(|it| !it.starts_with('-'))) else {
+    let Some(mut at) = (1..arguments.len()).find(|at| text(*at).is_none_or(|text| !text.starts_with('-')))
+    else {
         return arguments;
     };
     if text(at) != Some("compat") {
         return arguments;
     }
     at += 1;
-    while let Some(option) = text(at).filter(|it| it.starts_with("--") && it.len() > 2) {
+    while let Some(option) = text(at).filter(|option| option.starts_with("--") && option.len() > 2) {
         at += if takes_value(option) { 2 } else { 1 };
     }
-    if text(at).is_some_and(|it| it.starts_with('-') && !it.starts_with("--")) {
+    if text(at).is_some_and(|option| option.starts_with('-') && !option.starts_with("--")) {
         arguments.insert(at, "--".into());
     }
     arguments
 }
 
-/// The words as one line for a shell.
+/// Formats arguments as a line for a shell.
 pub(crate) fn shown(arguments: &[String]) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,".contains(c);
     let quoted = |word: &String| {
@@ -166,7 +169,7 @@ pub(crate) fn shown(arguments: &[String]) -> String {
     arguments.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
-/// The arguments of the shell with what `compat` was given replaced: options before `compat` stay.
+/// Replaces the arguments of `compat` by the translated ones; options before `compat` stay.
 pub(crate) fn spliced(arguments: &[OsString], given: usize, translated: &[String]) -> Vec<OsString> {
     let before = &arguments[..arguments.len() - given];
     let end = before.iter().rposition(|argument| argument == "compat").unwrap_or(before.len());
@@ -179,13 +182,13 @@ struct Read {
     options: Vec<String>,
     shown: Option<String>,
     max_correction: Option<String>,
-    /// Options of ours.
+    /// Options of pathbuild itself.
     own: Vec<String>,
     files: Vec<String>,
 }
 
 impl Read {
-    /// Whether there is such an option.
+    /// Takes an option; returns whether it exists.
     fn take(&mut self, letter: char, value: &str) -> bool {
         match letter {
             'x' => self.shown = Some(value.to_owned()),
@@ -203,7 +206,7 @@ impl Read {
         true
     }
 
-    /// Whether programs are adjusted: by an option, or by what the files are.
+    /// Whether programs are adjusted, judging by the options and file names.
     fn adjusts(&self) -> bool {
         let is_adjusted = |file: &String| {
             [adjust::CLEAN, adjust::VALUES].iter().any(|suffix| adjust::without(file, suffix).is_some())
@@ -211,7 +214,7 @@ impl Read {
         self.max_correction.is_some() || self.files.iter().any(is_adjusted)
     }
 
-    /// Whether nobody says how far heights may be off.
+    /// Whether the largest allowed correction is missing.
     fn lacks_correction(&self) -> bool {
         let is_ours = self.own.iter().any(|option| option.starts_with("--max-correction"));
         self.adjusts() && self.max_correction.is_none() && !is_ours
@@ -236,7 +239,7 @@ impl Read {
     }
 }
 
-/// Whether the word behind an option of ours is its value.
+/// Whether the word after an option of pathbuild is its value.
 fn takes_value(option: &str) -> bool {
     let name = option.trim_start_matches('-');
     let has = |command: &clap::Command| {
@@ -245,23 +248,27 @@ fn takes_value(option: &str) -> bool {
     };
     let command = german::command(Lang::En);
     let ours = ["emit", "check", "texts", "adjust"];
-    has(&command) || command.get_subcommands().any(|it| ours.contains(&it.get_name()) && has(it))
+    has(&command)
+        || command
+            .get_subcommands()
+            .any(|subcommand| ours.contains(&subcommand.get_name()) && has(subcommand))
 }
 
-/// The language of a name such as `de-AT`.
+/// The language in a name such as `de-AT`.
 fn language(name: &str) -> String {
     name.split(['-', '_']).next().unwrap_or(name).to_ascii_lowercase()
 }
 
-/// The value that is glued to an option.
+/// The value attached to an option.
 fn value(letter: char, glued: &str) -> &str {
     let is_pattern = matches!(letter, 'x' | 'n' | 'p' | 'e');
     if is_pattern { glued } else { glued.strip_prefix(['=', ':']).unwrap_or(glued) }
 }
 
-/// The letter of an option and what is glued to it. A drawing whose name begins at the root, or with a hyphen, is none.
+/// The letter of an option with the attached text. A drawing whose name begins with `/` or a hyphen is not an option.
 fn option(argument: &str) -> Option<(char, &str)> {
-    let is_drawing = Utf8Path::new(argument).extension().is_some_and(|it| it.eq_ignore_ascii_case("dxf"));
+    let is_drawing =
+        Utf8Path::new(argument).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
     let option = match argument.strip_prefix('-') {
         Some(option) if is_drawing || option.starts_with('-') => return None,
         Some(option) => option,
@@ -272,7 +279,7 @@ fn option(argument: &str) -> Option<(char, &str)> {
     }
     match option.chars().next() {
         Some(letter) => Some((letter.to_ascii_lowercase(), &option[letter.len_utf8()..])),
-        // A lone slash names no option that there is, and must not be taken for the root directory.
+        // A lone slash is an unknown option, and must not be taken for the root directory.
         None => Some(('/', "-")),
     }
 }

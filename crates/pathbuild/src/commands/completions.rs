@@ -1,4 +1,4 @@
-//! `pathbuild completions`: a script that lets a shell complete commands, options, and names of paths, posts and codes.
+//! `pathbuild completions`: a script for shells that completes commands, options, and names of paths, posts and codes.
 
 use clap_complete::env::Shells;
 
@@ -12,7 +12,7 @@ pub fn run(context: &Context, args: &CompletionsArgs) -> ExitStatus {
     let mut script = Vec::new();
     let shell = Shells::builtins();
     let Some(shell) = shell.completer(&args.shell) else { return ExitStatus::Usage };
-    // Writing into memory cannot fail.
+    // Writing to memory cannot fail.
     _ = shell.write_registration(VARIABLE, "pathbuild", "pathbuild", "pathbuild", &mut script);
     context.printer.result_bytes(&script);
     ExitStatus::Success

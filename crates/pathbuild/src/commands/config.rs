@@ -7,7 +7,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{Setting, schema, settings, show};
 
-/// Prints what holds, or what can be written.
+/// Prints the settings, or the schema.
 pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
     match args.command {
         ConfigCommand::Show { .. } if context.format == Format::Json => {

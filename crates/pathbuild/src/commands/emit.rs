@@ -1,4 +1,4 @@
-//! `pathbuild emit`: the files of one or more paths. (book: reference/commands, book: program/gcode)
+//! `pathbuild emit`: writes the programs of paths. (book: reference/commands, book: program/gcode)
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,7 +29,7 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
     }
 }
 
-/// Options that mean something only where programs are written through a post.
+/// Refuses options that require a post-processor.
 fn refusal<'a>(context: &'a Context, args: &EmitArgs, poster: Option<&PostProcessor>) -> Option<&'a str> {
     let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
     match poster {
@@ -56,7 +56,7 @@ fn emit(context: &Context, args: &EmitArgs, poster: Option<&PostProcessor>) -> E
     };
     let mut session = request.session(context);
     let emission = request.run(&mut session);
-    // The run is over: to give back what every query holds, piece by piece, takes a twelfth of the time of a short one.
+    // Leak instead of dropping: freeing all query results takes a twelfth of the time of a short run.
     std::mem::forget(session);
     match emission {
         Ok(emission) => conclude(context, request.task, emission),
@@ -74,7 +74,7 @@ fn task(args: &EmitArgs) -> Task {
     }
 }
 
-/// Says what was found, and what became of the files; the status of the run.
+/// Shows findings and the outcome of all files, and returns the exit status.
 fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     let Emission { delivered, removed, outdated, mut diagnostics } = emission;
     let mut is_current = show_all(context, &delivered);
@@ -103,7 +103,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// What is drawn on the layers of paths and no part of programs: types and numbers of entities, path by path.
+/// Entities on the layers of paths that are not part of the programs: counts by type, for each path.
 fn left_out(diagnostics: &[Diagnostic]) -> Vec<String> {
     let curves = diagnostics.iter().filter(|found| found.code() == Code::UnsupportedCurve);
     let curves: BTreeSet<_> = curves.map(|found| (&found.path, &found.file, &found.place)).collect();
@@ -119,7 +119,7 @@ fn left_out(diagnostics: &[Diagnostic]) -> Vec<String> {
     counts.iter().map(|(path, kinds)| format!("{} ({path})", entities(kinds))).collect()
 }
 
-/// Says what became of all files, and what posts note; whether all files are as they should be.
+/// Shows the outcome of all files, and the notes of post-processors. Returns whether all files are up to date.
 pub(super) fn show_all(context: &Context, delivered: &[Delivered]) -> bool {
     let mut is_current = true;
     let mut notes: Vec<&Note> = Vec::new();
@@ -133,7 +133,7 @@ pub(super) fn show_all(context: &Context, delivered: &[Delivered]) -> bool {
     is_current
 }
 
-/// Runs what posts want to be run on what they wrote; what went wrong.
+/// Runs the commands that post-processors request for their output, and returns errors.
 fn post_builds(delivered: &[Delivered]) -> Vec<Diagnostic> {
     let wanted = delivered.iter().filter_map(|delivered| {
         delivered.post_build.as_ref().filter(|(_, file)| delivered.has_written(file))
@@ -141,12 +141,12 @@ fn post_builds(delivered: &[Delivered]) -> Vec<Diagnostic> {
     wanted.filter_map(|(command, file)| run_post_build(command, file).err()).map(|failure| *failure).collect()
 }
 
-/// Says what became of the files of a path; whether all of them are as they should be.
+/// Shows the outcome of a program's files. Returns whether all of them are up to date.
 fn show(context: &Context, delivered: &Delivered) -> bool {
     let mut is_current = true;
     for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
-        // The program comes first; what belongs to its probes has no length of its own.
+        // The program comes first; the files of its probes have no length of their own.
         context.row_of_json(|| row(context, path, state, Some(delivered), index == 0));
         match state {
             State::Written | State::Unchanged => {
@@ -171,7 +171,7 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
     is_current
 }
 
-/// Says how many files are current.
+/// Shows how many files are up to date.
 fn count_current(context: &Context, delivered: &[Delivered], outdated: usize) {
     let states = || delivered.iter().flat_map(|delivered| &delivered.files);
     let current = states().filter(|(_, state)| matches!(state, State::Current)).count();
@@ -185,7 +185,7 @@ fn count_current(context: &Context, delivered: &[Delivered], outdated: usize) {
     });
 }
 
-/// A file in JSON.
+/// A file as JSON.
 fn row(
     context: &Context,
     path: &Utf8Path,
@@ -202,12 +202,12 @@ fn row(
         State::Printed(_) => "printed",
     };
     let program = delivered.filter(|_| is_program);
-    let (length, minutes) = (program.map(|it| it.length), program.map(|it| it.minutes));
-    let (file, path) = (context.file(path), delivered.map(|it| &*it.path));
+    let (length, minutes) = (program.map(|outcome| outcome.length), program.map(|outcome| outcome.minutes));
+    let (file, path) = (context.file(path), delivered.map(|outcome| &*outcome.path));
     ("output", json!({ "file": file, "path": path, "state": state, "length": length, "minutes": minutes }))
 }
 
-/// What a comparison says of a file: what is current needs no line.
+/// Shows the result of comparing a file; files that are up to date are shown with `-v` only.
 fn show_state(context: &Context, path: &Utf8Path, state: &State) {
     if context.format == Format::Json {
         return;

@@ -1,4 +1,4 @@
-//! `pathbuild explain`: the page on a code, or the list of all codes.
+//! `pathbuild explain`: shows the page about a code, or the list of all codes.
 
 use pathbuild_diagnostic::{Code, Lang, Severity, page};
 
@@ -8,7 +8,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::nearest_code;
 
-/// Prints the pages one after the other; a code that does not exist stops everything.
+/// Prints the pages of the given codes; an unknown code prevents all output.
 pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
     if args.codes.is_empty() {
         context.printer.result(list(context));
@@ -24,7 +24,7 @@ pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
     }
 }
 
-/// A code by its name, or by its number with or without the letters.
+/// Finds a code by its name, or by its number with or without letters.
 fn code(name: &str) -> Option<Code> {
     name.parse().or_else(|()| format!("PB{name}").parse()).ok()
 }
@@ -49,7 +49,7 @@ fn list(context: &Context) -> String {
     Code::ALL.iter().map(line).chain([String::new()]).collect::<Vec<_>>().join("\n")
 }
 
-/// The page; a code that is too new to have one says what it is called.
+/// The page about a code, or just the name of a code without a page.
 fn text(context: &Context, code: Code) -> String {
     page(code, context.lang()).map_or_else(|| format!("# {code} {}\n", code.name()), str::to_owned)
 }

@@ -1,5 +1,5 @@
-//! What Git says of revisions, for `check --changed-since` and `diff`. The repository may be a stranger's: Git only reads objects in it, and
-//! starts nothing that the repository names (filters, hooks, monitors, transports).
+//! Reads Git revisions for `check --changed-since` and `diff`. The repository may be untrusted: Git only reads objects, and runs nothing
+//! that the repository configures (filters, hooks, monitors, transports).
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{ChildStdout, Command, Stdio};
@@ -10,11 +10,11 @@ use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Word;
 use pathbuild_workspace::{Workspace, config};
 
-/// A repository, and the tree that is checked out of it.
+/// A repository with its working tree.
 #[derive(Debug)]
 pub(super) struct Repository<'a> {
     workspace: &'a Workspace,
-    /// The tree, as it really lies.
+    /// Real path of the working tree.
     pub(super) root: Utf8PathBuf,
 }
 
@@ -22,28 +22,28 @@ pub(super) struct Repository<'a> {
 #[derive(Debug)]
 pub(super) struct Entry {
     pub(super) kind: EntryKind,
-    /// Of its blob.
+    /// Object id of its blob.
     pub(super) id: String,
-    /// From the root, as Git spells it: it may be hostile.
+    /// Path from the root, as stored by Git; it may be hostile.
     pub(super) name: String,
 }
 
-/// What Git's mode says.
+/// Kind of an entry, from its Git mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum EntryKind {
     File,
     Link,
-    /// Of another repository, of which only the commit is known.
+    /// Another repository, of which only the commit is known.
     Submodule,
 }
 
-/// What is done with a blob's bytes; of one that has too many, with how many those are.
+/// Receives the bytes of a blob, or its size if that exceeds the limit.
 pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
-/// Bytes of a `.git` that is a file, and of what Git says before a blob and of a file: systems have no longer names.
+/// Upper bound in bytes on a `.git` file, and on the header of a blob or file in Git's output: no system has longer file names.
 const LONGEST_LINE: u64 = 4096;
 
-/// Bytes of blobs that are handed out at once: a few of Git's own can hold any number.
+/// Upper bound in bytes on the blobs of a single request: a few Git objects can expand to any size.
 const MOST_BYTES: u64 = 4 << 30;
 
 static TOO_MANY_FILES: Word = Word {
@@ -56,14 +56,14 @@ static LONG_NAME: Word = Word {
     de: "der Name einer Datei in der Revision ist zu lang",
 };
 
-/// Bytes of what a link says.
+/// Upper bound in bytes on the target of a symbolic link.
 const LONGEST_LINK: u64 = 4096;
 
-/// Other repositories than the one that was found are not asked, whatever the environment says: in a hook it names that of the hook.
+/// Environment variables that could redirect Git to another repository, such as that of a hook.
 const NOT_INHERITED: [&str; 5] =
     ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
 
-/// A partial clone would fetch what it lacks, with commands that its configuration names. Older versions of Git know the second only.
+/// Keeps a partial clone from fetching missing objects with configured commands. Older versions of Git know only the second variable.
 const NO_FETCHES: [(&str, &str); 3] =
     [("GIT_NO_LAZY_FETCH", "1"), ("GIT_ALLOW_PROTOCOL", "none"), ("GIT_TERMINAL_PROMPT", "0")];
 
@@ -76,16 +76,16 @@ const OPTIONS: [&str; 10] = [
     if cfg!(windows) { "core.hooksPath=NUL" } else { "core.hooksPath=/dev/null" },
     "-c",
     "protocol.allow=never",
-    // Files of a tree can look like a repository without a working tree.
+    // Files of a tree can look like a bare repository.
     "-c",
     "safe.bareRepository=explicit",
 ];
 
 impl<'a> Repository<'a> {
-    /// That of a place: the nearest directory at or above it that has a `.git`. Without one Git itself says so.
+    /// The repository of a place: the nearest directory at or above it with a `.git`. Without one, Git itself reports the error.
     ///
     /// # Errors
-    /// It is a stranger's, and its `.git` leads elsewhere.
+    /// If the repository is untrusted and its `.git` refers to a directory outside.
     pub(super) fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
         let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
         let place = real(place);
@@ -103,7 +103,7 @@ impl<'a> Repository<'a> {
         Ok(repository)
     }
 
-    /// Whether `.git` means a repository elsewhere that knows nothing of this tree. One that `git worktree` made knows it.
+    /// Whether `.git` refers to a repository elsewhere that does not list this working tree. A repository of `git worktree` lists it.
     fn leads_out(&self) -> bool {
         let system = &self.workspace.system;
         let git = self.root.join(".git");
@@ -121,16 +121,16 @@ impl<'a> Repository<'a> {
         !directory.starts_with(&self.root) && !is_known()
     }
 
-    /// The tree of a revision.
+    /// Object id of a revision's tree.
     ///
     /// # Errors
-    /// What Git says where there is none.
+    /// Git's message if there is no such revision.
     pub(super) fn tree(&self, revision: &str) -> Result<String, String> {
         let id = self.run(&["rev-parse", "--verify", "--end-of-options", &format!("{revision}^{{tree}}")])?;
         Ok(String::from_utf8_lossy(&id).trim().to_owned())
     }
 
-    /// Whether a revision is the branch that is checked out, and that branch has no commit yet.
+    /// Whether the revision is the current branch, and that branch has no commits yet.
     pub(super) fn is_unborn(&self, revision: &str) -> bool {
         let refs = |name: &[u8]| {
             let name = String::from_utf8_lossy(name).trim().to_owned();
@@ -138,13 +138,13 @@ impl<'a> Repository<'a> {
         };
         let branch = || self.run(&["symbolic-ref", "--quiet", "HEAD"]).ok();
         matches!(revision, "HEAD" | "@")
-            && branch().and_then(|name| refs(&name)).is_some_and(|it| it.is_empty())
+            && branch().and_then(|name| refs(&name)).is_some_and(|output| output.is_empty())
     }
 
-    /// Every file in a tree.
+    /// All files in a tree.
     ///
     /// # Errors
-    /// There are more than may be looked at: a few objects can hold any number. Or Git cannot read the tree.
+    /// If there are more files than the limit allows (a few objects can describe any number), or if Git cannot read the tree.
     pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
@@ -153,10 +153,10 @@ impl<'a> Repository<'a> {
         if is_whole { Ok(entries) } else { Err(self.failed("")) }
     }
 
-    /// Hands out the bytes of blobs, in their order, as they were committed; of one that has more than `most`, that there are too many.
+    /// Passes the contents of blobs to `take`, in order. For a blob larger than `most`, passes only its size.
     ///
     /// # Errors
-    /// One is not there, they are too many bytes together, or whoever takes the bytes fails.
+    /// If a blob is missing, if the total size is too large, or if `take` fails.
     pub(super) fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
         let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
         let (sizes, _) =
@@ -180,10 +180,10 @@ impl<'a> Repository<'a> {
         .map(|_| ())
     }
 
-    /// What links say, by the ids of their blobs; nothing of one that says too much, or is no UTF-8.
+    /// Targets of symbolic links, given by the ids of their blobs; `None` for a target that is too long or not UTF-8.
     ///
     /// # Errors
-    /// One is not there.
+    /// If a blob is missing.
     pub(super) fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
         let mut targets = Vec::with_capacity(ids.len());
         self.each_blob(ids, LONGEST_LINK, &mut |_, bytes| {
@@ -195,20 +195,20 @@ impl<'a> Repository<'a> {
         Ok(targets)
     }
 
-    /// The ids that the bytes of files have as blobs; fewer where one of them cannot be read. They must be regular files without line breaks in
-    /// their names.
+    /// The blob ids of the current contents of files; fewer if one of them cannot be read. The files must be regular files without line
+    /// breaks in their names.
     pub(super) fn ids(&self, files: &[&Utf8Path]) -> Vec<String> {
         let lines: String = files.iter().flat_map(|file| [plain(file), "\n"]).collect();
         let arguments = ["hash-object", "--no-filters", "--stdin-paths"];
         let mut ids = Vec::new();
-        // What cannot be told has changed: whoever asks sees that there are fewer.
+        // Callers treat files without an id as changed.
         _ = self.fed(&arguments, &lines, |answers| {
             answers.lines().try_for_each(|line| line.map(|line| ids.push(line)))
         });
         ids
     }
 
-    /// What to do where a clone does not reach a revision.
+    /// Advice if a shallow clone does not contain a revision.
     pub(super) fn too_shallow(&self, revision: &str) -> Option<String> {
         let is_shallow = self.run(&["rev-parse", "--is-shallow-repository"]).ok()?;
         let is_there = self.run(&["cat-file", "-e", &format!("{revision}^{{commit}}")]).is_ok();
@@ -231,12 +231,12 @@ impl<'a> Repository<'a> {
         Err(self.failed(&String::from_utf8_lossy(&output.stderr)))
     }
 
-    fn failed(&self, said: &str) -> String {
+    fn failed(&self, message: &str) -> String {
         let nothing = self.workspace.choose("it failed", "fehlgeschlagen");
-        format!("git: {}", said.lines().next().unwrap_or(nothing))
+        format!("git: {}", message.lines().next().unwrap_or(nothing))
     }
 
-    /// Runs Git with something to read, and hands out what it answers; with whether it ended well.
+    /// Runs Git with input, and passes its output to `take`. Also returns whether Git succeeded.
     fn fed<R>(
         &self,
         arguments: &[&str],
@@ -248,7 +248,7 @@ impl<'a> Repository<'a> {
         let mut child = command.spawn().map_err(|error| self.not_run(&error))?;
         let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
         let taken = thread::scope(|scope| {
-            // It answers while it is asked: who only listened afterwards would wait for ever.
+            // Git answers while it reads, so both must happen concurrently to avoid a deadlock.
             scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines.as_bytes())));
             stdout.map(|stdout| take(BufReader::new(stdout)))
         });
@@ -267,7 +267,7 @@ impl<'a> Repository<'a> {
         for name in NOT_INHERITED {
             command.env_remove(name);
         }
-        // The repository begins here, or there is none.
+        // Git must not search above the root.
         let above = self.root.parent().map(plain).unwrap_or_default();
         command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCHES);
         command.args(OPTIONS).args(arguments).stdin(Stdio::null());
@@ -281,7 +281,7 @@ impl<'a> Repository<'a> {
 }
 
 impl Entry {
-    /// Reads a line of `ls-tree`.
+    /// Parses a line of `ls-tree`.
     fn read(line: &str) -> Option<Self> {
         let (facts, name) = line.split_once('\t')?;
         let mut facts = facts.split(' ');
@@ -293,7 +293,7 @@ impl Entry {
         Some(Self { kind, id: facts.nth(1)?.to_owned(), name: name.to_owned() })
     }
 
-    /// Whether its name is that of a file below the root, on every system. One that is no UTF-8 is none here.
+    /// Whether the name is a safe relative path on every system. Names that are not UTF-8 are not.
     pub(super) fn is_plain(&self) -> bool {
         let is_foreign = |part: &str| cfg!(windows) && part.contains(['\\', ':']);
         let is_special = |part: &str| matches!(part, "" | "." | "..") || part.eq_ignore_ascii_case(".git");
@@ -302,10 +302,10 @@ impl Entry {
     }
 }
 
-/// Refuses what Git would take for an option.
+/// Refuses a revision that Git would take for an option.
 ///
 /// # Errors
-/// That it is no revision.
+/// If it is not a revision.
 pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a str, String> {
     if name.starts_with('-') {
         return Err(workspace.phrase("{} is not a revision", "{} ist keine Revision", &format!("{name:?}")));
@@ -313,7 +313,7 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
     Ok(name)
 }
 
-/// What `ls-tree -z` says, or why it is not gone through.
+/// Parses the output of `ls-tree -z`, unless a limit is exceeded.
 fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry>, &'static Word>> {
     let mut entries = Vec::new();
     let mut line = Vec::new();
@@ -330,7 +330,7 @@ fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry
     Ok(Ok(entries))
 }
 
-/// The end of a line that `cat-file` begins an answer with.
+/// Reads the header line of a blob in `cat-file` output, and returns the size.
 fn size_of(answers: &mut impl BufRead) -> io::Result<u64> {
     let mut head = String::new();
     answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
@@ -338,7 +338,7 @@ fn size_of(answers: &mut impl BufRead) -> io::Result<u64> {
     size.ok_or_else(|| io::Error::other(head.trim_end()))
 }
 
-/// One answer of `cat-file --batch`: a line that ends in the size, the bytes, and a line break.
+/// Reads one blob of `cat-file --batch`: a header line that ends in the size, the bytes, and a line break.
 fn blob(
     answers: &mut BufReader<ChildStdout>,
     take: &mut dyn FnMut(&mut dyn Read) -> io::Result<()>,
@@ -350,7 +350,7 @@ fn blob(
     answers.read_exact(&mut [0])
 }
 
-/// A path as Git reads it: it does not know how Windows marks long ones.
+/// A path without the prefix of long Windows paths, which Git does not understand.
 fn plain(path: &Utf8Path) -> &str {
     path.as_str().strip_prefix(r"\\?\").unwrap_or(path.as_str())
 }

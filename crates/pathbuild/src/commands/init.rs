@@ -1,4 +1,4 @@
-//! `pathbuild init`: a configuration with every key, commented; or a small library to learn on.
+//! `pathbuild init`: creates a commented configuration with every key, or a small example library.
 
 use camino::Utf8PathBuf;
 use pathbuild_db::system::join;
@@ -14,7 +14,7 @@ macro_rules! example {
     };
 }
 
-/// The library to learn on. Its drawings are written as text beside them, and held against it by the tests of the book.
+/// The example library. Its drawings are derived from text files beside them; the tests of the book keep both in sync.
 const EXAMPLE: &[(&str, &[u8])] = example![
     "pathbuild.toml",
     "starter.dxf",
@@ -26,7 +26,7 @@ const EXAMPLE: &[(&str, &[u8])] = example![
     "templates/qcad.dxf",
 ];
 
-/// Writes it into the working directory, unless a file is there already.
+/// Writes the files into the working directory, unless one of them exists.
 pub fn run(context: &Context, example: bool) -> ExitStatus {
     let template = template();
     let configuration = [(FILE_NAME, template.as_bytes())];

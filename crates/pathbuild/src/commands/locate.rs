@@ -1,4 +1,4 @@
-//! `pathbuild where`: where paths are defined. (book: reference/commands)
+//! `pathbuild where`: shows where paths are defined. (book: reference/commands)
 
 use std::cell::LazyCell;
 
@@ -15,7 +15,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::session::{Session, Wanted};
 
-/// Runs the command: a line for each definition, `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
+/// Runs the command. Prints one line per definition: `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
@@ -39,7 +39,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Where each path is; a path that is defined twice, which is an error, in both places.
+/// The definitions of each path. A path that is defined twice, which is an error, is listed at both places.
 fn definitions(
     session: &Session<'_>,
     args: &GraphArgs,
@@ -96,6 +96,6 @@ fn json(file: &str, place: &PathPlace) -> Value {
         x: place.point.map(|point| point.x.0),
         y: place.point.map(|point| point.y.0),
     };
-    // Only maps with keys that are no text can fail to become JSON.
+    // Serialization fails only for maps with keys that are not strings.
     serde_json::to_value(&object).unwrap_or_default()
 }

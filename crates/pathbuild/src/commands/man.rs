@@ -1,4 +1,4 @@
-//! `pathbuild man`: the manual as roff, every command in one page.
+//! `pathbuild man`: the manual as roff, with all commands on one page.
 
 use std::io;
 
@@ -13,7 +13,7 @@ use crate::german;
 /// Prints the page: `pathbuild man | man -l -`.
 pub fn run(context: &Context) -> ExitStatus {
     let mut page = Vec::new();
-    // Writing into memory cannot fail.
+    // Writing to memory cannot fail.
     _ = write(&german::command(context.lang()), &mut page);
     let page = String::from_utf8_lossy(&page).into_owned();
     let page = if context.lang() == Lang::De { with_german_headings(page) } else { page };
@@ -32,7 +32,7 @@ fn write(command: &Command, page: &mut Vec<u8>) -> io::Result<()> {
     man.render_extra_section(page)
 }
 
-/// The headings of a manual page.
+/// Translates the headings of a manual page.
 fn with_german_headings(page: String) -> String {
     let headings = [
         ("SYNOPSIS", "ÜBERSICHT"),
@@ -49,7 +49,9 @@ fn with_german_headings(page: String) -> String {
 }
 
 fn write_subcommands(command: &Command, prefix: &str, page: &mut Vec<u8>) -> io::Result<()> {
-    for subcommand in command.get_subcommands().filter(|it| !it.is_hide_set() && it.get_name() != "help") {
+    for subcommand in
+        command.get_subcommands().filter(|command| !command.is_hide_set() && command.get_name() != "help")
+    {
         let name = format!("{prefix}{}", subcommand.get_name());
         write_subcommand(subcommand, &name, page)?;
         write_subcommands(subcommand, &format!("{name} "), page)?;
@@ -57,7 +59,7 @@ fn write_subcommands(command: &Command, prefix: &str, page: &mut Vec<u8>) -> io:
     Ok(())
 }
 
-/// The command with its own options; the common ones stand in the program's section.
+/// A command with its own options; the common ones are listed once, for the program.
 fn write_subcommand(command: &Command, name: &str, page: &mut Vec<u8>) -> io::Result<()> {
     let own = command.clone().mut_args(|arg| if arg.is_global_set() { arg.hide(true) } else { arg });
     let man = Man::new(own);

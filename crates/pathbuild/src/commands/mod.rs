@@ -36,7 +36,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::usage;
 
-/// A file that was written, as a line in JSON.
+/// A written file, as a line of JSON.
 fn output_row(context: &Context, file: &Utf8Path, written: Written) -> (&'static str, Value) {
     let state = match written {
         Written::Changed => "written",
@@ -75,11 +75,11 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Cache(args) => cache::run(context, args),
         Command::Init(args) => init::run(context, args.example),
         Command::Config(args) => config::run(context, args),
-        Command::Watch(_) | Command::Compat(_) => unreachable!("they make their own surroundings"),
+        Command::Watch(_) | Command::Compat(_) => unreachable!("these commands create their own context"),
     }
 }
 
-/// Formats of graphs are for commands that print graphs.
+/// Refuses graph formats for commands that print no graphs.
 fn format_refusal(context: &Context, command: &Command) -> Option<String> {
     if context.format == Format::Html {
         let refusal = context.choose(

@@ -1,4 +1,4 @@
-//! Pictures and pages: into a file, or into the browser.
+//! Writes pictures and pages to a file, or shows them in the browser.
 
 use camino::Utf8Path;
 use pathbuild_db::system::Written;
@@ -8,10 +8,10 @@ use pathbuild_workspace::files::cannot_write;
 use super::output_row;
 use crate::context::Context;
 
-/// Writes a file, and says so.
+/// Writes a file and reports it.
 ///
 /// # Errors
-/// It cannot be made or written.
+/// If the content cannot be generated or written.
 pub(super) fn deliver(
     context: &Context,
     file: &Utf8Path,
@@ -28,26 +28,26 @@ pub(super) fn deliver(
     Ok(())
 }
 
-/// Gives a page to the browser.
+/// Shows a page in the browser.
 ///
 /// # Errors
-/// It cannot be made or shown.
+/// If the page cannot be generated or shown.
 pub(super) fn show(context: &Context, page: Result<Vec<u8>, String>) -> Result<(), Box<Diagnostic>> {
     let shown = page.and_then(|page| open_page(context, &page));
     shown.map_err(|reason| Box::new(cannot_write(Utf8Path::new(BROWSER), reason)))
 }
 
-/// What is at fault where the browser cannot be shown something.
+/// Stands for the file name in errors about the browser.
 const BROWSER: &str = "(browser)";
 
-/// The file stays, among the system's temporary files: the browser may read it at any time later.
+/// Keeps the temporary file, because the browser may read it later.
 #[cfg(feature = "pictures")]
 fn open_page(context: &Context, page: &[u8]) -> Result<(), String> {
     use std::io::Write;
 
-    let told = |error: std::io::Error| error.to_string();
-    let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".html").tempfile().map_err(told)?;
-    file.as_file().write_all(page).map_err(told)?;
+    let to_text = |error: std::io::Error| error.to_string();
+    let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".html").tempfile().map_err(to_text)?;
+    file.as_file().write_all(page).map_err(to_text)?;
     let (_, path) = file.keep().map_err(|error| error.to_string())?;
     context.printer.status(format_args!("{}", shown::line(&path.to_string_lossy())));
     let advice = context.choose(

@@ -1,4 +1,4 @@
-//! `pathbuild post`: a program written for another machine, and the posts that come with pathbuild. (book: program/posts)
+//! `pathbuild post`: rewrites a program for another machine, and shows the built-in posts. (book: program/posts)
 
 use camino::Utf8Path;
 use pathbuild_db::system::Written;
@@ -57,7 +57,7 @@ fn show(context: &Context, name: &str) -> ExitStatus {
     }
 }
 
-/// Writes a program through a post.
+/// Rewrites a program through a post-processor.
 fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     let wishes = PostArguments {
         date: args.date.as_deref().map(Into::into),
@@ -85,7 +85,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Reads the program, writes it and says so. Warnings are added to `diagnostics`; with errors nothing is written.
+/// Reads the program, writes it and reports that. Adds warnings to `diagnostics`; nothing is written if there are errors.
 fn written(
     context: &Context,
     file: &Utf8Path,
@@ -127,7 +127,7 @@ fn written(
     }
 }
 
-/// What the post makes of a program that has no errors, of material up to a height in mm, where that is known.
+/// The output of the post-processor for an error-free program. `surface` is the height of the material's upper face in mm, if known.
 fn output(
     program: &Program,
     steps: Vec<Step>,
@@ -148,7 +148,7 @@ fn output(
     let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
     drop(steps);
     if let Some((provenance, title)) = head {
-        // It is the same program in another dialect.
+        // The new program is the same one in another dialect.
         job.remarks = vec![Provenance { dialect: poster.reader(), ..provenance }.to_string().into(), title];
     }
     if let Some(surface) = surface {
@@ -164,7 +164,7 @@ fn output(
     Ok(output)
 }
 
-/// Says what a post notes about its output.
+/// Shows the notes of a post-processor.
 fn say(context: &Context, notes: &[Note]) {
     for note in notes {
         context.printer.status(format_args!("{}", note.text(context.lang())));

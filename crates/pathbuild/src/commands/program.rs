@@ -1,4 +1,4 @@
-//! Programs that commands are given: read from disk, their dialect guessed where nobody says it. (book: program/reading)
+//! Reads the G-code programs that commands are given, and guesses their dialect if it is not specified. (book: program/reading)
 
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -20,15 +20,15 @@ use pathbuild_workspace::files::unreadable;
 
 /// A program that was read.
 pub(super) struct Program {
-    /// As it was named.
+    /// File name as given.
     pub(super) file: Utf8PathBuf,
-    /// Its bytes.
+    /// Contents of the file.
     pub(super) text: Vec<u8>,
-    /// In which dialect it was read.
+    /// Dialect in which it was read.
     pub(super) dialect: Dialect,
-    /// Why that was guessed, where nobody said it.
+    /// The evidence for the dialect, if it was guessed.
     pub(super) evidence: Option<Evidence>,
-    /// What it does, and what is wrong with it.
+    /// Steps and diagnostics.
     pub(super) read: Interpretation,
     options: Options,
 }
@@ -37,7 +37,7 @@ impl Program {
     /// Reads a file and keeps its steps.
     ///
     /// # Errors
-    /// It cannot be read at all; what is wrong with its lines is in [`read`](Self::read).
+    /// If the file cannot be read at all; diagnostics of its lines are in [`read`](Self::read).
     pub(super) fn open(
         context: &Context,
         file: &Utf8Path,
@@ -62,10 +62,10 @@ impl Program {
         Ok(program)
     }
 
-    /// Reads a file and hands on its steps, as it is written, without keeping them: large programs are gone through again instead.
+    /// Reads a file and passes on its steps without keeping them; large programs are interpreted again instead.
     ///
     /// # Errors
-    /// It cannot be read at all.
+    /// If the file cannot be read at all.
     pub(super) fn open_each(
         context: &Context,
         file: &Utf8Path,
@@ -97,18 +97,18 @@ impl Program {
         Ok(Self { file: file.to_owned(), text, dialect, evidence, read, options })
     }
 
-    /// What it does at the heights that it was drawn with, where its own are corrected by formulas.
+    /// The program at its nominal heights, without the correction formulas.
     pub(super) fn drawn(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
         Text { text: &self.text, dialect: self.dialect, options }
     }
 
-    /// Shows under diagnostics where in the file they are.
+    /// Adds the file, and the line of text, to diagnostics.
     pub(super) fn place(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics, &self.file, &self.text);
     }
 
-    /// The same for those that know no file yet: of others the line is another file's.
+    /// The same for diagnostics that have no file yet; the others refer to lines of another file.
     pub(super) fn place_own(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
@@ -127,13 +127,13 @@ impl Program {
         text
     }
 
-    /// How many lines it has.
+    /// Number of lines.
     pub(super) fn lines(&self) -> usize {
         self.text.split_inclusive(|byte| *byte == b'\n').count()
     }
 }
 
-/// PB005: of a program's steps only so many may be kept, as many as an emitted program may have moves.
+/// PB005: the program has more steps than an emitted program may have moves.
 fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
     let count = count as u64;
     Diagnostic::new(&files::PROGRAM_TOO_LONG)
@@ -158,7 +158,7 @@ fn options(context: &Context, args: &ReadingArgs) -> Options {
 
 fn place<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &Utf8Path, text: &[u8]) {
     let mut all: Vec<&mut Diagnostic> = diagnostics.into_iter().collect();
-    // Lines are counted once for all.
+    // Count the lines once for all diagnostics.
     quote(all.iter_mut().map(|diagnostic| &mut **diagnostic), text);
     for diagnostic in all {
         diagnostic.file = Some(file.to_owned());

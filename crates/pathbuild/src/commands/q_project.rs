@@ -1,4 +1,4 @@
-//! `pathbuild q-project`: writes a drawing that embeds every path of another. (book: language/q-projects)
+//! `pathbuild q-project`: writes a drawing that embeds all paths of another drawing. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Written, spelt};
@@ -14,9 +14,9 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::session::Session;
 
-/// Runs the command. Nothing is written where the drawing is not in order, or what would be written would not be.
+/// Runs the command. Nothing is written if the drawing has errors, or if the resulting drawing would have any.
 pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
-    // Elsewhere that is standard output. A drawing is read by a CAD, from a file.
+    // `-` usually means stdout, but CAD programs read drawings from files.
     if args.output.as_deref() == Some(Utf8Path::new("-")) {
         return context.usage(context.choose(
             "`-o -`: q-project writes a drawing, name a file for it",
@@ -52,7 +52,7 @@ fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
     spelt(drawing.with_file_name(format!("{}_Q.dxf", drawing.file_stem().unwrap_or_default())))
 }
 
-/// The name of the Q-project's path: the one that was given, or the drawing's first number with `.0Q`.
+/// Name of the Q-project's path: the given one, or the drawing's first number with `.0Q`.
 fn path_name(session: &Session<'_>, drawing: SourceFile, given: Option<&str>) -> Result<PathName, String> {
     let name = given.map_or_else(|| default_name(drawing.path(session.db())), str::to_owned);
     let pattern = &Settings::get(session.db()).language(session.db()).path_pattern;
@@ -87,7 +87,7 @@ fn default_name(drawing: &Utf8Path) -> String {
     format!("{}.0Q", &number[..end])
 }
 
-/// The Q-project as DXF, and how many paths it embeds.
+/// Draws the Q-project as DXF. Also returns the number of embedded paths.
 fn drawn(
     context: &Context,
     session: &Session<'_>,
@@ -114,11 +114,11 @@ fn drawn(
             .with("reason", reason);
         vec![problem.in_file(drawing.path(session.db()))]
     })?;
-    let mut as_if = Session::with_drawing(context, output, bytes.clone());
-    let (there, written) = (as_if.file(drawing.path(session.db())), as_if.file(output));
-    let problems = as_if.settled(|as_if| {
-        let mut problems = faults(as_if, written);
-        problems.extend_from_slice(pathbuild_db::q_project_findings(as_if.db(), there, written));
+    let mut preview = Session::with_drawing(context, output, bytes.clone());
+    let (original, written) = (preview.file(drawing.path(session.db())), preview.file(output));
+    let problems = preview.settled(|preview| {
+        let mut problems = faults(preview, written);
+        problems.extend_from_slice(pathbuild_db::q_project_findings(preview.db(), original, written));
         problems
     });
     let is_wrong = |problem: &Diagnostic| problem.is_error() || problem.code() == Code::QProjectDiffers;
@@ -126,8 +126,8 @@ fn drawn(
     if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, count)) }
 }
 
-/// Names for the paths of a Q-project, one for each cutter: this one, and behind it those with the next higher last number that are free.
-/// `None` where there are not so many.
+/// Names for the paths of a Q-project, one per cutter: the first one, followed by free names with higher last numbers. `None` if there are
+/// not enough.
 fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) -> Option<Vec<PathName>> {
     let is_digit = |character: char| character.is_ascii_digit();
     let text = first.as_str();
@@ -140,10 +140,10 @@ fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) ->
     (names.len() >= count).then_some(names)
 }
 
-/// How many names are tried.
+/// Upper bound on the numbers that are tried.
 const MOST_TRIED: u64 = 1000;
 
-/// What is wrong with a drawing and all its paths; that it has none, too.
+/// Diagnostics of a drawing and all its paths, including PB513 if it has none.
 fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     let db = session.db();
     let mut problems = check_file(db, drawing).to_vec();

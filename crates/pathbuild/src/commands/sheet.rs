@@ -1,4 +1,4 @@
-//! `pathbuild sheet`: a path's sheet for who stands at the machine. (book: program/sheet)
+//! `pathbuild sheet`: creates a path's setup sheet for the machine operator. (book: program/sheet)
 
 use pathbuild_diagnostic::shown;
 use pathbuild_workspace::config::types::SheetFormat;

@@ -1,4 +1,4 @@
-//! `pathbuild watch`: keeps checking, and writing with `--emit`, as drawings change. (book: reference/commands)
+//! `pathbuild watch`: checks drawings, and with `--emit` writes programs, whenever drawings change. (book: reference/commands)
 
 use std::collections::HashSet;
 
@@ -21,7 +21,7 @@ use crate::serving::Server;
 /// Runs the command.
 ///
 /// # Errors
-/// Because of what everything has to begin anew, in a sentence.
+/// Why everything must be restarted, as a sentence.
 pub(crate) fn run(
     context: &Context,
     args: &WatchArgs,
@@ -33,7 +33,7 @@ pub(crate) fn run(
             server.halt(problems, reason);
         }
     };
-    // What is shown without a library is what `list` lists.
+    // Without a library, show everything that `list` lists.
     let is_everything = page.is_some() && args.inputs.inputs.is_empty() && !context.has_library();
     let here = Inputs { inputs: vec![".".to_owned()] };
     let inputs = if is_everything { &here } else { &*args.inputs };
@@ -77,7 +77,7 @@ pub(crate) fn run(
     })
 }
 
-/// Prints at the beginning what a check prints, then a line for each file that changed. A page, where one is served, hears of all too.
+/// Prints the first check like `check`, then one line per changed file. Forwards all events to the page, if one is served.
 struct Shown<'a> {
     context: &'a Context,
     page: Option<Box<dyn Listener + 'a>>,

@@ -1,4 +1,4 @@
-//! `pathbuild why`: why drawings would be compiled again. (book: reference/commands)
+//! `pathbuild why`: shows why drawings would be compiled again. (book: reference/commands)
 
 use std::collections::HashSet;
 
@@ -14,8 +14,8 @@ use crate::exit::ExitStatus;
 use pathbuild_workspace::check::kept_results;
 use pathbuild_workspace::session::Session;
 
-/// Runs the command: for each drawing whether what the last `check` of the library found still holds, and if not, what it was made from
-/// that is not as it was.
+/// Runs the command: for each drawing, shows whether the result of the last `check` of the library still holds, and otherwise which inputs
+/// have changed.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
@@ -43,10 +43,10 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// What is known of a drawing's results.
+/// State of a drawing's cached result.
 struct Answer<'a> {
     drawing: &'a Utf8PathBuf,
-    /// Why they do not hold; `None` where there are none.
+    /// Why it no longer holds; `None` if nothing is cached.
     reasons: Option<Vec<Reason>>,
 }
 
@@ -83,7 +83,7 @@ impl Answer<'_> {
             .collect();
         let holds = self.reasons.as_ref().map(Vec::is_empty);
         let object = Object { file: context.file(self.drawing), holds, reasons };
-        // Only maps with keys that are no text can fail to become JSON.
+        // Serialization fails only for maps with keys that are not strings.
         serde_json::to_value(&object).unwrap_or_default()
     }
 }
@@ -117,7 +117,7 @@ fn said(context: &Context, reason: &Reason) -> String {
 #[derive(Serialize)]
 struct Object<'a> {
     file: String,
-    /// `null`: nothing is kept of it.
+    /// `null` if nothing is cached.
     holds: Option<bool>,
     reasons: Vec<ReasonObject<'a>>,
 }
@@ -127,7 +127,7 @@ struct ReasonObject<'a> {
     file: String,
     /// `changed`, `gone`, `new` or `links`.
     change: &'static str,
-    /// The path that the file may hold or have held.
+    /// The path that the file may contain or have contained.
     path: Option<&'a str>,
 }
 

@@ -1,5 +1,4 @@
-//! The command line in German: its definition with German help, and what is wrong with one that was typed. The English is that of `args` and
-//! of clap.
+//! The command line in German: definitions with German help, and error messages. The English texts come from `args` and from clap.
 
 mod help;
 mod usage;
@@ -15,7 +14,7 @@ use crate::args::Cli;
 
 const TEMPLATE: &str = "{before-help}{about-with-newline}\nAufruf: {usage}\n\n{all-args}{after-help}";
 
-/// The whole definition of the command line with help in a language. The German one is for showing: what it parses are only the errors.
+/// The definition of the command line with help in a language. The German one is used to show help and errors only.
 pub fn command(lang: Lang) -> Command {
     let mut command = Cli::command();
     command.build();
@@ -25,18 +24,18 @@ pub fn command(lang: Lang) -> Command {
     }
 }
 
-/// The German of a text of the command line.
+/// The German translation of a text of the command line.
 pub fn german(english: &str) -> Option<&'static str> {
     CATALOGUE.iter().find(|(en, _)| *en == english).map(|(_, de)| *de)
 }
 
-/// Help with what clap itself puts between our texts.
+/// Translates the words that clap itself inserts into help texts.
 pub(crate) fn shown(help: &str) -> String {
     let words = [
         ("[OPTIONS]", "[OPTIONEN]"),
         ("\nArguments:\n", "\nArgumente:\n"),
         ("\nOptions:\n", "\nOptionen:\n"),
-        // The second line of a usage.
+        // Second line of a usage.
         ("\n       pathbuild ", "\n        pathbuild "),
     ];
     words.into_iter().fold(help.to_owned(), |help, (en, de)| help.replace(en, de))
@@ -63,7 +62,7 @@ fn argument(argument: Arg) -> Arg {
     if names.is_empty() { argument } else { argument.value_names(names) }
 }
 
-/// The help, and the possible values with theirs.
+/// Translates the help of an argument, including its possible values.
 fn with_help(argument: Arg) -> Arg {
     let help = argument.get_help().and_then(|help| german(&help.to_string())).unwrap_or_default();
     let values = argument.get_possible_values();

@@ -1,4 +1,4 @@
-//! What is wrong with a command line, in German, from the parts of clap's errors.
+//! German messages for errors of the command line, built from the parts of clap's errors.
 
 use std::error::Error as _;
 use std::fmt::Write as _;
@@ -8,10 +8,10 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::{german, shown};
 
-/// Where there is more to read.
+/// Points to the help.
 pub(crate) const ADVICE: &str = "Mehr dazu mit '--help'.";
 
-/// What is wrong, with tips and how the command is used.
+/// The error with tips and usage.
 pub(crate) fn reason(error: &Error) -> String {
     let mut text = what(error);
     let tips = tips(error);
@@ -77,7 +77,7 @@ fn tips(error: &Error) -> Vec<String> {
     near.chain(other.iter().filter_map(|tip| tip_of(&tip.to_string()))).collect()
 }
 
-/// The German of a tip that clap has put together.
+/// Translates a tip that clap has composed.
 fn tip_of(english: &str) -> Option<String> {
     match *english.split('\'').collect::<Vec<_>>() {
         ["to pass ", value, " as a value, use ", line, ""] => {
@@ -100,7 +100,7 @@ fn lines(items: &[String]) -> String {
     items.iter().flat_map(|item| ["\n  ", item.as_str()]).collect()
 }
 
-/// What an error says of something.
+/// Values that a clap error has in a certain context.
 fn said(error: &Error, kind: ContextKind) -> Vec<String> {
     match error.get(kind) {
         Some(ContextValue::String(text)) => vec![text.clone()],

@@ -1,4 +1,4 @@
-//! For a person: what is wrong and where, the faulty text underlined as a compiler shows source, help and notes, and what embeds it.
+//! Format for users: message, place, the faulty text underlined as compilers do, help, notes, and the embeddings that lead to the path.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -27,7 +27,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     for diagnostic in &findings.diagnostics {
         let page = Page::new(diagnostic, view);
         let mut report = String::new();
-        // Writing into a String cannot fail, and a label is cut to its text when it is made.
+        // Writing to a String cannot fail, and labels lie within their text.
         _ = handler.render_report(&mut report, &page);
         text.extend(report.split_inclusive('\n').map(|line| labelled(line, view)));
         for line in &page.further {
@@ -40,7 +40,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     text
 }
 
-/// A line of a report; before help stands miette's own word.
+/// Translates miette's label in front of the help.
 fn labelled<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
     let is_help = line.strip_prefix(HELP_COLOR).unwrap_or(line).starts_with(HELP);
     if is_help { line.replacen(HELP, view.choose(HELP, "  Tipp: "), 1).into() } else { line.into() }
@@ -49,7 +49,7 @@ fn labelled<'a>(line: &'a str, view: &View) -> Cow<'a, str> {
 const HELP: &str = "  help: ";
 const HELP_COLOR: &str = "\u{1b}[36m";
 
-/// A diagnostic in miette's terms. The first line says the code and the place, because most faults have no text to underline.
+/// A diagnostic as miette sees it. Code and place are in the header, because most faults have no text to underline.
 #[derive(Debug)]
 struct Page {
     header: String,
@@ -76,8 +76,8 @@ impl Page {
     }
 }
 
-/// What is shown of a faulty text, and where the fault is in that: a text of many kilobytes (something was pasted into it) is cut to
-/// the neighbourhood of the fault.
+/// The part of a faulty text that is shown, and the range of the fault in it. Very long texts (such as pasted files) are cut around the
+/// fault.
 fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     let (text, span) = (&*fault.text, fault.span());
     let start = if span.start <= AROUND { 0 } else { text.floor_char_boundary(span.start - AROUND) };
@@ -93,7 +93,7 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     (excerpt, from..to)
 }
 
-/// Bytes that are shown on each side of a fault, and of a fault at most.
+/// Number of bytes shown before, within and after a fault.
 const AROUND: usize = 400;
 
 fn header(diagnostic: &Diagnostic, view: &View) -> String {
@@ -108,7 +108,7 @@ fn header(diagnostic: &Diagnostic, view: &View) -> String {
     header
 }
 
-/// Notes, and the embeddings from the path outwards: nearest first, as a person goes looking.
+/// Notes, then the embeddings of the path from the inside out.
 fn further(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
     let note = view.choose("note", "Hinweis");
     let notes = diagnostic.notes.iter().map(|it| format!("{note}: {}", it.text(view.lang)));
@@ -151,7 +151,7 @@ impl miette::Diagnostic for Page {
     }
 }
 
-/// The faulty text. One from a text file is that file's line, so its lines are numbered as there; one from a drawing from 1.
+/// The faulty text. A line of a text file keeps its number; texts in drawings are numbered from 1.
 #[derive(Debug)]
 struct Source {
     text: String,

@@ -1,14 +1,13 @@
 //! Annotations of a GitHub workflow: `::error file=...,line=...::message`.
 //!
-//! GitHub shows ten errors and ten warnings of a step and drops the others, so those are written as plain lines of the log; errors of
-//! the whole run come first.
+//! GitHub shows only ten errors and ten warnings per step, so further ones are written as plain log lines. Errors come first.
 
 use pathbuild_diagnostic::{Diagnostic, Severity, shown};
 
 use super::{View, concise, place};
 use crate::report::Findings;
 
-/// How many of a severity GitHub shows for a step.
+/// Number of annotations per severity that GitHub shows for a step.
 const SHOWN: usize = 10;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
@@ -42,12 +41,12 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
     format!("::{command} {}::{}\n", properties.join(","), data(&text))
 }
 
-/// Text after the second `::`.
+/// Escapes the text after the second `::`.
 fn data(text: &str) -> String {
     shown::lines(text).replace('%', "%25").replace('\n', "%0A")
 }
 
-/// The value of a property.
+/// Escapes the value of a property.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

@@ -1,5 +1,5 @@
-//! GitLab code quality: a JSON list. What belongs to no file, such as an option's value, is put at the project itself, `.`, because
-//! GitLab wants a place.
+//! GitLab code quality: a JSON list. GitLab requires a location, so diagnostics without a file, such as those of option values, refer to
+//! the project itself (`.`).
 
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use serde_json::{Value as Json, json};

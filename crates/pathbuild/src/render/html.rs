@@ -1,4 +1,4 @@
-//! A page for people: findings by drawing, each with the cut-out of the drawing round its place. One file that asks the network for nothing.
+//! HTML page: findings by drawing, each with a detail picture of its place. A single file that loads nothing from the network.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use pathbuild_view::escaped;
 use super::{Rendered, View, place};
 use crate::report::Findings;
 
-/// The page. `pictures`: those of the findings, by their order.
+/// Renders the page. `pictures` has one entry per finding.
 pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> Rendered {
     let title = view.choose("Findings", "Meldungen");
     let mut text = format!("<!doctype html>\n<html lang=\"{}\">\n{HEAD}", view.choose("en", "de"));
@@ -39,7 +39,7 @@ fn summary(findings: &Findings, view: &View) -> String {
     format!("{error}: {errors} · {warning}: {warnings}")
 }
 
-/// A finding: picture, code, place, text, help.
+/// One finding: picture, code, message, help, place.
 fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
     let severity = place::severity(diagnostic.severity, view);
     let class = if diagnostic.is_error() { "error" } else { "warning" };
@@ -66,7 +66,7 @@ fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, vi
     text.push_str("</div>\n</article>\n");
 }
 
-/// Lines of a text, each escaped.
+/// Escapes a text and separates its lines by `<br>`.
 fn lines(text: &str) -> String {
     text.lines().map(escaped).collect::<Vec<_>>().join("<br>")
 }

@@ -1,7 +1,7 @@
-//! One JSON object a line, always with the same keys; what is not known is `null`. The keys and codes are English in any language.
+//! One JSON object per line, always with the same keys; unknown values are `null`. Keys and codes are English in every language.
 //!
-//! `span` is the faulty part of `text`: its first character and the one after its last, counted in characters from 0. `x` and `y`
-//! are millimetres in the drawing. `trace` lists the embeddings that led to the path, outermost first.
+//! `span` is the faulty part of `text`: the first character and the one after the last, counted in characters from 0. `x` and `y` are
+//! millimetres in the drawing. `trace` lists the embeddings that led to the path, outermost first.
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Severity, TextFault, TraceStep, shown};
 use serde::Serialize;
@@ -44,25 +44,25 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     findings.diagnostics.iter().map(|diagnostic| line(diagnostic, view)).collect()
 }
 
-/// The first line of a document: which form it has, and of which command it is.
+/// The first line of a document: version of the format, and name of the command.
 pub(crate) fn header(command: &str) -> String {
     let header =
         Header { r#type: "header", schema_version: VERSION, pathbuild: env!("CARGO_PKG_VERSION"), command };
-    // Only maps with keys that are no text can fail to become JSON.
+    // Serialization fails only for maps with keys that are not strings.
     serde_json::to_string(&header).unwrap_or_default()
 }
 
-/// An object with its type before all else.
+/// Serializes an object with its type as the first key.
 pub(crate) fn typed(kind: &str, object: &Value) -> String {
     format!("{{\"type\":\"{kind}\",{}", object.to_string().trim_start_matches('{'))
 }
 
-/// Lines in JSON that may be printed.
+/// Makes JSON lines printable.
 pub(crate) fn rendered(lines: &str) -> Rendered {
     Rendered(shown::json(lines).into_owned())
 }
 
-/// The version of docs/schemas/output.json.
+/// Version of docs/schemas/output.json.
 const VERSION: u32 = 2;
 
 #[derive(Serialize)]
@@ -95,7 +95,7 @@ fn line(diagnostic: &Diagnostic, view: &View) -> String {
         span: diagnostic.text.as_ref().map(span),
         trace: trace(diagnostic, view),
     };
-    // Only maps with keys that are no text can fail to become JSON.
+    // Serialization fails only for maps with keys that are not strings.
     format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
 }
 

@@ -1,5 +1,5 @@
-//! `JUnit` XML: a suite for each drawing, a test case for each of its paths, which fails when the path has errors. Errors of the file
-//! itself fail a case named after the file. Warnings are output of their case.
+//! `JUnit` XML: a test suite per drawing and a test case per path, which fails if the path has errors. Errors of the file itself fail a
+//! test case named after the file. Warnings are output of their test case.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -34,7 +34,7 @@ struct Case<'a> {
     warnings: Vec<&'a Diagnostic>,
 }
 
-/// Every path that was checked, and every file or path that something is wrong with.
+/// All checked paths, and all files and paths with findings.
 fn suites(findings: &Findings) -> Suites<'_> {
     let mut suites = Suites::new();
     for file in &findings.checked {
@@ -55,7 +55,7 @@ impl Case<'_> {
         let mut shown = TestCase::new(name, self.status(view));
         shown.set_classname(file);
         shown.extra.insert("file".into(), file.into());
-        // Surefire's schema wants a time; what is found does not depend on the clock.
+        // Surefire's schema requires a time; results must not depend on the clock.
         shown.set_time(Duration::ZERO);
         if !self.warnings.is_empty() {
             shown.set_system_out(lines(&self.warnings, view));
@@ -79,7 +79,7 @@ fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
     shown::lines(lines.trim_end()).into()
 }
 
-/// A line as in a log, and below it what to do.
+/// A line as in a log, followed by the help.
 fn body(diagnostic: &Diagnostic, view: &View) -> String {
     let mut body = concise::line(diagnostic, view);
     for line in view.help(diagnostic).iter().flat_map(|help| help.lines()) {

@@ -1,4 +1,4 @@
-//! Diagnostics as text: one file for each format, none of which decides what is shown. (book: reference/commands)
+//! Renders diagnostics as text, with one module per format. The selection of what is shown is made elsewhere. (book: reference/commands)
 
 mod concise;
 mod full;
@@ -19,7 +19,8 @@ use crate::report::Findings;
 pub(crate) use html::page;
 pub use view::View;
 
-/// Findings as text that may be printed: only [`render`] makes it, and nothing in it acts on who shows it but colours of ours.
+/// Rendered findings. Only [`render`] creates them; they contain no control sequences except our own colours, so that they are safe to
+/// print.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendered(String);
 
@@ -30,13 +31,14 @@ impl Rendered {
     }
 }
 
-/// The findings in a format. A format of graphs shows no diagnostics, a page needs pictures (the module `page`): they fall back on [`Format::Full`].
+/// Renders findings in a format. Graph formats show no diagnostics, and an HTML page needs pictures (see `page`): both fall back to
+/// [`Format::Full`].
 pub fn render(format: Format, findings: &Findings, view: &View) -> Rendered {
     let text = match format {
         Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
         Format::Json => shown::json(&json::render(findings, view)).into_owned(),
         Format::Sarif => shown::json(&sarif::render(findings, view)).into_owned(),
-        // Lines that begin with `::` are what it is made of; it keeps all others harmless itself.
+        // This format consists of lines beginning with `::`, and escapes all other such lines itself.
         Format::Github => shown::framed(&github::render(findings, view)).into_owned(),
         Format::Gitlab => shown::json(&gitlab::render(findings, view)).into_owned(),
         Format::Junit => shown::lines(&junit::render(findings, view)).into_owned(),

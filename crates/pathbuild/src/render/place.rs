@@ -1,4 +1,4 @@
-//! Where a diagnostic is, in words.
+//! Describes where a diagnostic is.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity, TraceStep, Value, shown};
 
 use super::View;
 
-/// `parts/2913.dxf:1234:5`, as far as it is known; editors find the place by it.
+/// `parts/2913.dxf:1234:5`, as far as known; editors can open this place.
 pub(super) fn location(diagnostic: &Diagnostic, view: &View) -> Option<String> {
     let mut location = view.file(diagnostic)?.into_owned();
     for number in [diagnostic.place.line, diagnostic.place.column].into_iter().flatten() {
@@ -15,7 +15,7 @@ pub(super) fn location(diagnostic: &Diagnostic, view: &View) -> Option<String> {
     Some(location)
 }
 
-/// `path 2913.1P, LINE 4A1 on layer 2913.1P~A at (12.5, 30)`, as far as it is known; empty when nothing is.
+/// `path 2913.1P, LINE 4A1 on layer 2913.1P~A at (12.5, 30)`, as far as known; may be empty.
 pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
     let place = &diagnostic.place;
     let mut parts = Vec::new();

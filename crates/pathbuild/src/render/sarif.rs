@@ -1,5 +1,5 @@
-//! SARIF 2.1.0, as GitHub code scanning and others read it: names of files relative to the source root, the path as a logical
-//! location, place and handle as properties.
+//! SARIF 2.1.0 for GitHub code scanning and others: file names are relative to the source root, the path is a logical location, point and
+//! handle are properties.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 use super::{View, place};
 use crate::report::{Findings, Fingerprint};
 
-/// GitHub refuses a run with more.
+/// Upper bound on results: GitHub refuses runs with more.
 const MOST_RESULTS: usize = 25_000;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
@@ -55,7 +55,7 @@ fn rule(code: Code, view: &View) -> Json {
     rule
 }
 
-/// A page's first paragraph.
+/// First paragraph of a page.
 fn description(page: &str) -> String {
     let text = page.lines().skip_while(|line| line.starts_with('#') || line.trim().is_empty());
     let text: Vec<&str> = text.take_while(|line| !line.trim().is_empty()).collect();
@@ -96,7 +96,7 @@ fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], vie
     })
 }
 
-/// The message, its help, and the place, which no reader of SARIF shows otherwise.
+/// Message, help, and place. SARIF viewers would not show the place otherwise.
 fn message(diagnostic: &Diagnostic, view: &View) -> String {
     let element = place::element(diagnostic, view);
     let parts =
@@ -125,7 +125,7 @@ fn artifact(file: &str) -> Json {
     }
 }
 
-/// A name of a file as part of a URI: every byte but those that need no escape is written as %XX.
+/// Percent-encodes a file name for a URI.
 fn encoded(name: &str) -> String {
     let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' | b'~' => {

@@ -4,23 +4,23 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::clean;
 
-/// What depends on who looks: a person at a terminal of some width, or a program.
+/// Properties of the output device: language, colours, width, and how file names are shown.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The language of messages.
+    /// Language of messages.
     pub lang: Lang,
-    /// Whether escape sequences for colours are understood.
+    /// Whether colour escape sequences are supported.
     pub color: bool,
-    /// Columns to wrap at; `None`: lines are as long as they are.
+    /// Column to wrap at; `None` disables wrapping.
     pub width: Option<usize>,
-    /// The directory that names of files are shown relative to.
+    /// Directory that displayed file names are relative to.
     pub base: Utf8PathBuf,
-    /// The directory that a program reads them relative to, which may lie above; `None`: as for people.
+    /// Directory that file names in machine-readable formats are relative to, possibly above `base`; `None` uses `base`.
     pub root: Option<Utf8PathBuf>,
 }
 
 impl View {
-    /// A file's name as people see it: relative to the base where it lies below, always with `/`, all that acts in it escaped.
+    /// A file name for users: relative to the base if inside it, with `/` as separator, and with control characters escaped.
     pub fn name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         match self.raw_name(file) {
             Cow::Borrowed(name) => shown::line(name),
@@ -28,7 +28,7 @@ impl View {
         }
     }
 
-    /// The same as it is, for formats that have an escape of their own for every character.
+    /// A file name for formats that escape characters themselves.
     pub fn raw_name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         match &self.root {
             None => Cow::Borrowed(file.strip_prefix(&self.base).unwrap_or(file).as_str()),
@@ -39,24 +39,24 @@ impl View {
         }
     }
 
-    /// The name of a diagnostic's file, as it is shown.
+    /// Name of a diagnostic's file for users.
     pub fn file<'a>(&self, diagnostic: &'a Diagnostic) -> Option<Cow<'a, str>> {
         diagnostic.file.as_deref().map(|file| self.name(file))
     }
 
-    /// The same as it is.
+    /// Name of a diagnostic's file for formats that escape characters themselves.
     pub fn raw_file<'a>(&self, diagnostic: &'a Diagnostic) -> Option<Cow<'a, str>> {
         diagnostic.file.as_deref().map(|file| self.raw_name(file))
     }
 
-    /// What to do about it, and what helps to see it, a line each.
+    /// Help and notes of a diagnostic, one per line.
     pub fn help(&self, diagnostic: &Diagnostic) -> Option<String> {
         let notes = diagnostic.notes.iter().map(|note| note.text(self.lang));
         let lines: Vec<String> = diagnostic.help(self.lang).into_iter().chain(notes).collect();
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
 
-    /// One of two phrases.
+    /// Picks the phrase in the view's language.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
         match self.lang {
             Lang::En => en,

@@ -1,5 +1,5 @@
-//! Known findings: a text file with one line each, which a person can read, merge and shorten. Only the fingerprint at the beginning
-//! of a line counts; what follows says what it was. Empty lines and lines that begin with `#` are remarks.
+//! Baselines: text files with one known finding per line, which users can read, merge and shorten. Only the fingerprint at the beginning of
+//! a line counts; the rest describes the finding. Empty lines and lines that begin with `#` are comments.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -14,31 +14,31 @@ use super::{Findings, Fingerprint};
 use crate::render::View;
 use pathbuild_workspace::files;
 
-/// The findings that are known and not to be reported.
+/// Known findings, which are not reported.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Baseline {
     fingerprints: BTreeSet<String>,
 }
 
-/// Findings without the known ones.
+/// Findings compared with a baseline.
 pub(super) struct Compared {
-    /// What is not known.
+    /// Findings that are not in the baseline.
     pub(super) new: Findings,
-    /// How many are known.
+    /// Number of findings that are in the baseline.
     pub(super) known: usize,
-    /// How many entries no longer stand for anything.
+    /// Number of entries in the baseline that match no finding.
     pub(super) gone: usize,
 }
 
 impl Baseline {
-    /// Reads a file of at most `limit` bytes.
+    /// Reads a baseline file of at most `limit` bytes.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Why it cannot be read.
     pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
         let text = files::read(system, file, limit).map_err(|reason| {
             vec![match system.read(file, limit) {
-                // The limit is named by its key, as that of every file is.
+                // Reports the configuration key of the limit, as for other files.
                 Err(error @ ReadError::TooLarge { .. }) => files::unreadable(file, &error, limit),
                 _ => Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason),
             }]
@@ -46,7 +46,7 @@ impl Baseline {
         Self::parse(file, &text)
     }
 
-    /// The text of a file that makes all these findings known.
+    /// The text of a baseline that contains all these findings.
     pub fn text(findings: &Findings, view: &View) -> String {
         let mut text = HEAD.to_owned();
         for (diagnostic, fingerprint) in
@@ -97,7 +97,7 @@ const HEAD: &str = "\
 # The fingerprint at the beginning of a line counts; the rest says what it was.
 ";
 
-/// What the finding is and where, without what changes whenever the CAD saves.
+/// Describes the finding without details that change whenever the CAD program saves the drawing.
 fn description(diagnostic: &Diagnostic, view: &View) -> String {
     let file = view.file(diagnostic).unwrap_or_default();
     let path = diagnostic.path.as_deref().unwrap_or_default();

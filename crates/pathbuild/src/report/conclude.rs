@@ -16,7 +16,8 @@ use crate::table::table;
 use pathbuild_workspace::check::Checked;
 use pathbuild_workspace::files;
 
-/// Ends a check that took so long: severities and baseline applied, findings shown, reports written, the summary, the exit status.
+/// Ends a check of the given duration: applies severities and baseline, shows findings, writes reports and the summary, and returns the
+/// exit status.
 pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Duration) -> ExitStatus {
     let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
     match &args.baseline {
@@ -32,7 +33,7 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Dur
             Err(faults) => context.refuse(faults),
         },
         None => {
-            // The run is over: what it looked at is not taken apart.
+            // Leak instead of dropping: freeing a million values takes longer than process exit.
             let compared = ManuallyDrop::new(Compared { new: findings, known: 0, gone: 0 });
             deliver(context, args, &compared, time)
         }
@@ -66,10 +67,10 @@ fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Durat
     if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// So many findings are more than anybody reads: they are counted by code.
+/// Number of findings beyond which they are counted by code, because nobody reads them all.
 const MANY: usize = 100;
 
-/// Shows findings; to people no more than so many errors, and what stands before the next.
+/// Shows findings. Text output stops after `most` errors.
 fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     let Some(most) = most.filter(|_| !context.format.is_for_machines()) else {
         return context.show(findings);
@@ -92,7 +93,7 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     }
 }
 
-/// How often each code was found, the most frequent first.
+/// A table of how often each code was found, the most frequent first.
 fn by_code(context: &Context, findings: &Findings) -> String {
     let mut counts: BTreeMap<(Code, Severity), usize> = BTreeMap::new();
     for found in &findings.diagnostics {
@@ -111,7 +112,7 @@ fn by_code(context: &Context, findings: &Findings) -> String {
 }
 
 fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus {
-    // In English, so that the file does not change with the language of who writes it.
+    // Always in English, so that the file does not depend on the user's language.
     let text = Baseline::text(findings, &plain_view(context, Lang::En));
     match files::replace(context, file, &text) {
         Ok(()) => {
@@ -127,7 +128,7 @@ fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus
     }
 }
 
-/// The view of somebody who reads a file.
+/// The view for text files: no colours, no wrapping.
 fn plain_view(context: &Context, lang: Lang) -> View {
     View { lang, color: false, width: None, base: context.working_directory.clone(), root: None }
 }

@@ -1,22 +1,21 @@
-//! What makes a finding the same finding in another run.
+//! Fingerprints, which identify a finding across runs.
 //!
-//! Hashed are: the code, the *name* of the file without its directories, the path (without regard to case),
-//! the type of the entity, its place to the micrometre, and the faulty characters of its text. So a fingerprint survives when
-//! files are moved, when lines and handles shift, when the CAD renumbers everything, in any language, and when a severity is
-//! changed. It does not survive when the element itself moves in the drawing: then it is worth another look.
-//! Findings that agree in all this are told apart by their number.
+//! Hashed are the code, the *name* of the file without directories, the path (ignoring case), the type of the entity, its place rounded to
+//! micrometres, and the faulty characters of its text. A fingerprint therefore survives moved files, shifted lines, renumbered handles,
+//! other languages and changed severities. It changes when the element itself moves in the drawing, which deserves another look. Findings
+//! that agree in all of this are distinguished by a counter.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use pathbuild_diagnostic::Diagnostic;
 
-/// 128 bits that stay the same as long as the finding does. Shown as 32 hexadecimal digits.
+/// A 128-bit hash that identifies a finding, displayed as 32 hexadecimal digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Those of findings that stand in their order.
+    /// Fingerprints of findings, in their order.
     pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
         let mut fingerprint = |diagnostic| {
@@ -47,7 +46,7 @@ fn hash(diagnostic: &Diagnostic) -> Hash {
         .and(fault.unwrap_or_default().as_bytes())
 }
 
-/// FNV-1a of 128 bits: it must only be the same everywhere and for ever.
+/// 128-bit FNV-1a, which is the same on every machine and in every version.
 #[derive(Clone, Copy)]
 struct Hash(u128);
 
@@ -55,7 +54,7 @@ impl Hash {
     const NEW: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
-    /// The bytes, and a separator that no text contains.
+    /// Adds bytes, followed by a separator that does not occur in UTF-8.
     fn and(self, bytes: &[u8]) -> Self {
         bytes
             .iter()

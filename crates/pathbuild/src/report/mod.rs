@@ -1,5 +1,4 @@
-//! Findings at the end of a run: the baseline, what is shown of them, the summary.
-//! (book: reference/commands, book: reference/diagnostics)
+//! Findings at the end of a run: baseline, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
 
 mod baseline;
 mod conclude;

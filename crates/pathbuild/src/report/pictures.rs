@@ -1,4 +1,4 @@
-//! Pictures of findings: cut-outs of the drawings that they are in. (book: reference/output)
+//! Pictures of findings: details of their drawings. (book: reference/output)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -9,13 +9,13 @@ use pathbuild_workspace::session::Session;
 use super::{Findings, Fingerprint};
 use crate::context::Context;
 
-/// So many findings have pictures: nobody looks at more.
+/// Upper bound on the number of findings that get a picture.
 const MOST: usize = 1000;
 
-/// So many bytes have all pictures together, and the one that reaches that: thousands of elements in each of them come to gigabytes.
+/// Size in bytes of all pictures after which no more are drawn: pictures with thousands of elements each could add up to gigabytes.
 const MOST_BYTES: usize = 256 << 20;
 
-/// The picture of each finding, in their order; none where it has no place in a drawing.
+/// One picture per finding; `None` if the finding has no place in a drawing.
 pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> = diagnostics.iter().take(MOST).filter_map(|it| drawing(it)).collect();
     files.sort_unstable();
@@ -34,14 +34,14 @@ pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Opt
     diagnostics.iter().enumerate().map(picture).collect()
 }
 
-/// The drawing that a finding has a place in.
+/// The drawing in which a finding has a place.
 fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     diagnostic.place.point?;
     let file = diagnostic.file.as_deref()?;
     file.extension().is_some_and(|it| it.eq_ignore_ascii_case("dxf")).then_some(file)
 }
 
-/// The place, and the places that its message and its notes name.
+/// The place of a finding, with further places named in its message and notes.
 fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
     let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
     let at = pair(diagnostic.place.point?);
@@ -64,7 +64,8 @@ fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
     Some(Spot { at, related, circle, is_error: diagnostic.is_error() })
 }
 
-/// Writes the picture of each finding that has a place into a directory; what went wrong. The same finding has the same name in every run.
+/// Writes a picture of each finding that has a place into a directory, and returns errors. The same finding has the same file name in every
+/// run.
 pub(crate) fn write(context: &Context, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
     let directory = context.working_directory.join(directory);
     let made = pictures(context, &findings.diagnostics);
@@ -81,7 +82,7 @@ pub(crate) fn write(context: &Context, directory: &Utf8Path, findings: &Findings
     problems
 }
 
-/// In bytes: a system counts those, and few of them.
+/// Upper bound in bytes on the part of a picture's name that stems from the drawing.
 const LONGEST_STEM: usize = 80;
 
 /// `2050.1P-PB401-3f2a9c0d.svg`

@@ -6,8 +6,8 @@ use pathbuild_diagnostic::{Lang, in_prose};
 use super::Findings;
 use crate::numbers;
 
-/// The line that a check ends with: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. The second number of
-/// errors is that of drawings with errors; `known` is how many findings a baseline held back.
+/// The last line of a check: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. `known` is the number of findings
+/// suppressed by a baseline.
 pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
     let words = match lang {
         Lang::En => &EN,
@@ -34,7 +34,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
 }
 
-/// How many drawings have errors.
+/// Number of drawings with errors.
 fn erroneous(findings: &Findings) -> usize {
     let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
     errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()

@@ -1,4 +1,4 @@
-//! Connections: so many at a time, and none that says nothing.
+//! Accepts connections, limited in number and in idle time.
 
 use std::convert::Infallible;
 use std::io;
@@ -13,20 +13,20 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 use tokio::time::sleep;
 
-/// So many are answered at a time; others wait until one ends. A page has two, and a third one for a moment.
+/// Upper bound on concurrent connections; further ones wait. A page uses two, and briefly a third.
 const MOST: usize = 256;
 
-/// So long a connection may take to ask, at its beginning and after each answer. An answer may take longer, as that of events does.
+/// Time that a connection may take to send a request. Responses, such as the event stream, may take longer.
 const SILENCE: Duration = Duration::from_secs(10);
 
-/// After an error of the system, which has no room for another connection perhaps.
+/// Pause after a system error, such as too many open files.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Answers whoever comes, for ever.
+/// Accepts and serves connections forever.
 pub(super) async fn answer(listener: TcpListener, router: Router) -> Infallible {
     let free = Arc::new(Semaphore::new(MOST));
     loop {
-        // Nobody closes the semaphore: there is always a permit to wait for.
+        // The semaphore is never closed, so a permit is always available eventually.
         let permit = Arc::clone(&free).acquire_owned().await.ok();
         let stream = next(&listener).await;
         let router = router.clone();
@@ -34,13 +34,13 @@ pub(super) async fn answer(listener: TcpListener, router: Router) -> Infallible 
             let _permit = permit;
             let mut http = http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(SILENCE);
-            // Who asks wrongly, or says nothing, is told by the end of the connection.
+            // Malformed or missing requests are answered by closing the connection.
             _ = http.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router)).await;
         });
     }
 }
 
-/// The next connection.
+/// Accepts the next connection.
 async fn next(listener: &TcpListener) -> TcpStream {
     loop {
         match listener.accept().await {
@@ -51,7 +51,7 @@ async fn next(listener: &TcpListener) -> TcpStream {
     }
 }
 
-/// Whether it ended before it was taken.
+/// Whether the connection ended before it was accepted.
 fn is_gone(error: &io::Error) -> bool {
     use io::ErrorKind::{ConnectionAborted, ConnectionRefused, ConnectionReset};
 

@@ -1,27 +1,27 @@
-//! Where the server listens, and by which names it may be called.
+//! Address on which the server listens, and the names by which it may be called.
 
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, ToSocketAddrs, UdpSocket};
 
 use crate::args::{Address, Host};
 
-/// The usual port.
+/// Default port.
 pub(super) const PORT: u16 = 8347;
 
-/// An open port.
+/// A listening socket with the names it answers to.
 pub(super) struct Door {
-    /// As which it was asked for.
+    /// The host that was requested.
     host: Host,
     local: SocketAddr,
-    /// What a page must know; `None`: nothing, since only this machine can come.
+    /// Secret that pages must present; `None` if only this machine can connect.
     token: Option<String>,
 }
 
 impl Door {
-    /// Begins to listen.
+    /// Starts listening.
     ///
     /// # Errors
-    /// Why that cannot be.
+    /// Why the address cannot be used.
     pub(super) fn open(address: &Address) -> io::Result<(TcpListener, Self)> {
         let listener = match address.port {
             Some(port) => bind(&address.host, port)?,
@@ -44,7 +44,7 @@ impl Door {
         self.token.as_deref()
     }
 
-    /// What to type into a browser. The token stands behind the `#`: browsers tell that to no server and no proxy.
+    /// The URL for a browser. The token is in the fragment, which browsers send to no server and no proxy.
     pub(super) fn link(&self) -> String {
         let host = match &self.host {
             Host::Name(name) => name.clone(),
@@ -55,8 +55,8 @@ impl Door {
         format!("http://{host}:{}/{fragment}", self.port())
     }
 
-    /// Whether a browser that means this server says `Host: AUTHORITY`. Of other names somebody else decides whose address they have: a page
-    /// from there would be allowed to read everything (DNS rebinding).
+    /// Whether `authority` in a `Host` header means this server. Other names must be refused: whoever controls such a name could point it
+    /// here, and pages from there would be allowed to read everything (DNS rebinding).
     pub(super) fn answers_to(&self, authority: &str) -> bool {
         let authority = authority.to_ascii_lowercase();
         let suffix = format!(":{}", self.port());
@@ -84,7 +84,7 @@ fn bind(host: &Host, port: u16) -> io::Result<TcpListener> {
     }
 }
 
-/// As it stands in a URL.
+/// Formats an address for a URL.
 fn literal(ip: IpAddr) -> String {
     match ip {
         IpAddr::V4(ip) => ip.to_string(),
@@ -92,13 +92,13 @@ fn literal(ip: IpAddr) -> String {
     }
 }
 
-/// Whether it is an address, which nobody can point elsewhere.
+/// Whether the host is an IP address, which cannot be redirected by DNS.
 fn is_literal(host: &str) -> bool {
     let inner = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
     inner.map_or_else(|| host.parse::<Ipv4Addr>().is_ok(), |host| host.parse::<Ipv6Addr>().is_ok())
 }
 
-/// By which address others come to this machine, which listens at all of them. Nothing is sent.
+/// The address by which others reach this machine if it listens on all addresses. Sends nothing.
 fn own_address(unspecified: IpAddr) -> IpAddr {
     let (from, to, loopback): (_, SocketAddr, IpAddr) = match unspecified {
         IpAddr::V4(_) => (unspecified, (Ipv4Addr::new(192, 0, 2, 1), 9).into(), Ipv4Addr::LOCALHOST.into()),
@@ -115,7 +115,7 @@ fn own_address(unspecified: IpAddr) -> IpAddr {
     route().unwrap_or(loopback)
 }
 
-/// 128 random bits.
+/// A random number of 128 bits in hexadecimal.
 pub(super) fn random() -> io::Result<String> {
     use std::fmt::Write;
 

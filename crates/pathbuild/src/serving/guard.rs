@@ -1,4 +1,4 @@
-//! Who is answered: pages that this server gave out, and nobody else.
+//! Admits only requests from pages that this server delivered.
 
 use axum::http::header::{self, HeaderMap, HeaderValue};
 use axum::http::request::Parts;
@@ -6,13 +6,13 @@ use axum::http::{Method, StatusCode};
 
 use super::door::Door;
 
-/// Below this lies what is in drawings.
+/// Prefix of routes that return data of drawings.
 pub(super) const DATA: &str = "/api/";
 
-/// Whether a request is answered.
+/// Decides whether a request is answered.
 ///
 /// # Errors
-/// Why not.
+/// Status of a refused request.
 pub(super) fn admit(door: &Door, request: &Parts) -> Result<(), StatusCode> {
     if request.method != Method::GET {
         return Err(StatusCode::METHOD_NOT_ALLOWED);
@@ -21,7 +21,7 @@ pub(super) fn admit(door: &Door, request: &Parts) -> Result<(), StatusCode> {
         Single::One(host) => door.answers_to(host),
         Single::None | Single::Other => false,
     };
-    // A request line may name another server than the header does.
+    // The request line may name another server than the header.
     let is_meant = request.uri.authority().is_none_or(|authority| door.answers_to(authority.as_str()));
     if !is_called_rightly || !is_meant {
         return Err(StatusCode::MISDIRECTED_REQUEST);
@@ -42,18 +42,18 @@ pub(super) fn admit(door: &Door, request: &Parts) -> Result<(), StatusCode> {
     }
 }
 
-/// Whether a request shows the token. Hashes are compared, which takes as long wherever they differ.
+/// Whether a request presents the token. Hashes are compared, so that timing reveals nothing about the token.
 fn shows(headers: &HeaderMap, token: &str) -> bool {
     let Single::One(given) = single(headers, header::AUTHORIZATION) else { return false };
     let Some(given) = given.strip_prefix("Bearer ") else { return false };
     blake3::hash(given.as_bytes()) == blake3::hash(token.as_bytes())
 }
 
-/// What stands in a header that may be there once.
+/// Value of a header that may occur only once.
 enum Single<'a> {
     None,
     One(&'a str),
-    /// There are several, or it is no text.
+    /// There are several values, or the value is not text.
     Other,
 }
 
@@ -66,7 +66,7 @@ fn single(headers: &HeaderMap, name: header::HeaderName) -> Single<'_> {
     }
 }
 
-/// What browsers are told with every answer: nothing is loaded from elsewhere, nothing is kept, no other page may use it.
+/// Headers of every response: nothing is loaded from elsewhere, nothing is cached, no other page may embed it.
 pub(super) const HEADERS: [(header::HeaderName, &str); 5] = [
     (
         header::CONTENT_SECURITY_POLICY,

@@ -1,4 +1,4 @@
-//! What the thread that watches and the server know of each other.
+//! State shared by the watching thread and the server.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -9,64 +9,64 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_workspace::watch::Bell;
 use tokio::sync::{oneshot, watch};
 
-/// What is published, and what is asked.
+/// Published state and pending questions.
 #[derive(Default)]
 pub(super) struct Hub {
     state: Mutex<State>,
     news: watch::Sender<u64>,
 }
 
-/// What is published.
+/// Published state.
 #[derive(Default)]
 pub(super) struct State {
-    /// Grows by one each time.
+    /// Number of the last change.
     revision: u64,
-    /// Who knows nothing later than this knows nothing that still counts.
+    /// Clients whose last revision is older than this must reload everything.
     base: u64,
     drawings: BTreeMap<Utf8PathBuf, Published>,
-    /// What all paths add up to, in JSON.
+    /// Totals of all paths, as JSON.
     pub(super) statistics: String,
-    /// What is wrong with the configuration or with directories, in JSON.
+    /// Diagnostics of the configuration and of directories, as JSON.
     problems: String,
     /// Whether everything has been checked once.
     pub(super) is_complete: bool,
-    /// Why nothing is checked before somebody puts that right, in JSON; empty: it is.
+    /// Why nothing is checked until the user fixes it, as JSON; empty while checks run.
     halted: String,
     bell: Option<Bell>,
     questions: Vec<Question>,
     is_over: bool,
 }
 
-/// What is known of a drawing.
+/// Published facts about a drawing.
 struct Published {
     revision: u64,
-    /// In JSON.
+    /// Its rows, as JSON.
     text: String,
 }
 
-/// What a page wants to see.
+/// A request of a page for a picture or a scene.
 pub(super) struct Question {
-    /// The drawing, as it is listed.
+    /// The drawing, by its name in the list.
     pub(super) file: String,
-    /// The path; `None`: all of the drawing.
+    /// The path; `None` for the whole drawing.
     pub(super) path: Option<String>,
-    /// As what.
+    /// Form of the answer.
     pub(super) form: Form,
-    /// Where the answer goes; `None`: there is no such path.
+    /// Receives the answer; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
 }
 
-/// As what something is seen.
+/// Form in which a drawing or path is returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// As data.
+    /// Scene as JSON.
     Scene,
-    /// As SVG.
+    /// Picture as SVG.
     Picture,
 }
 
 impl Hub {
-    /// Begins anew: nothing is known, and this bell wakes who knows.
+    /// Restarts with an empty state. `bell` wakes the watching thread.
     pub(super) fn begin(&self, bell: &Bell) {
         let is_over = self.publish(|state, revision| {
             *state = State {
@@ -83,7 +83,7 @@ impl Hub {
         }
     }
 
-    /// Nothing is checked for that reason.
+    /// Publishes why nothing is checked any more.
     pub(super) fn halt(&self, problems: &[Diagnostic], reason: &str) {
         self.publish(|state, _| {
             state.halted = serde_json::Value::from(reason).to_string();
@@ -92,14 +92,14 @@ impl Hub {
         self.leave();
     }
 
-    /// Nobody answers any more.
+    /// Drops pending questions, because nobody will answer them.
     pub(super) fn leave(&self) {
         let mut state = self.state();
         state.bell = None;
         state.questions.clear();
     }
 
-    /// Changes what is published; the number of the change is handed in.
+    /// Changes the published state. The closure gets the number of the change.
     pub(super) fn publish<R>(&self, change: impl FnOnce(&mut State, u64) -> R) -> R {
         let mut state = self.state();
         state.revision += 1;
@@ -110,17 +110,17 @@ impl Hub {
         result
     }
 
-    /// The number of the last change, each time there is a new one.
+    /// Notifies of new changes by their numbers.
     pub(super) fn news(&self) -> watch::Receiver<u64> {
         self.news.subscribe()
     }
 
-    /// What came after a change, in JSON; of drawings so many at most.
+    /// The changes since a revision as JSON, with at most `most` drawings.
     pub(super) fn library(&self, since: u64, most: usize) -> String {
         self.state().to_json(since, most)
     }
 
-    /// Asks for something to see. No answer comes where nobody is there to give one.
+    /// Asks the watching thread for a scene or picture. The channel is closed if there is no such thread.
     pub(super) fn ask(
         &self,
         file: String,
@@ -136,12 +136,12 @@ impl Hub {
         answered
     }
 
-    /// What was asked.
+    /// Takes the pending questions.
     pub(super) fn questions(&self) -> Vec<Question> {
         std::mem::take(&mut self.state().questions)
     }
 
-    /// Ends watching.
+    /// Requests the end of watching.
     pub(super) fn end(&self) {
         let mut state = self.state();
         state.is_over = true;
@@ -160,7 +160,7 @@ impl Hub {
 }
 
 impl State {
-    /// Publishes a drawing's rows, in JSON; `None`: it is gone.
+    /// Publishes a drawing's rows as JSON; `None` removes the drawing.
     pub(super) fn set(&mut self, drawing: &Utf8Path, file: &str, rows: Option<&str>, revision: u64) {
         let name = serde_json::Value::from(file);
         let text = format!("{{\"file\":{name},\"rows\":{}}}", rows.unwrap_or("null"));
@@ -169,7 +169,7 @@ impl State {
 
     pub(super) fn set_problems(&mut self, problems: &[Diagnostic]) {
         let problems = pathbuild_view::findings(problems, "");
-        // Only maps with keys that are no text can fail to become JSON.
+        // Serialization fails only for maps with keys that are not strings.
         self.problems = serde_json::to_string(&problems).unwrap_or_default();
     }
 

@@ -1,4 +1,4 @@
-//! `watch --serve` where the program was built without it.
+//! Replacement for `watch --serve` in builds without it.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_workspace::watch::Listener;
@@ -6,12 +6,12 @@ use pathbuild_workspace::watch::Listener;
 use crate::args::ServeArgs;
 use crate::context::Context;
 
-/// A page that is served; there can be none.
+/// A server that cannot exist.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Server {}
 
 impl Server {
-    /// Says what is missing.
+    /// Refuses `--serve`.
     pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
         let missing = context.choose(
             "--serve: this pathbuild was built without the feature `serve`",

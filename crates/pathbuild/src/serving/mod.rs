@@ -1,8 +1,8 @@
-//! `watch --serve`: the library as a page that is live. (book: program/live)
+//! `watch --serve`: the library as a live page. (book: program/live)
 //!
-//! The thread that watches has the one session. It publishes what there is to list, and answers what it is asked, in a [`Hub`]; the server
-//! works in a thread of its own and knows nothing but that. What is published has a number: a page hears of a new one by an event, and asks
-//! for all that came after the one that it has.
+//! The watching thread owns the session. It publishes the list of paths and answers questions through a [`Hub`]; the server runs in its own
+//! thread and knows only the hub. Every change has a number: pages are notified of new numbers by events, and request all changes since the
+//! one they know.
 
 mod connections;
 mod door;
@@ -26,17 +26,17 @@ use hub::Hub;
 use page::Page;
 use routes::Routes;
 
-/// A page that is served, from configuration to configuration.
+/// A running server, which outlives changes of the configuration.
 pub(crate) struct Server {
     hub: Arc<Hub>,
     waits: bool,
 }
 
 impl Server {
-    /// Serves what the arguments ask for, if anything.
+    /// Starts the server if the arguments request it.
     ///
     /// # Errors
-    /// Why that cannot be.
+    /// Why it cannot be started.
     pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
         let Some(address) = &args.serve else { return Ok(None) };
         let (listener, door) = Door::open(address).map_err(|reason| format!("--serve: {reason}"))?;
@@ -57,28 +57,28 @@ impl Server {
         Ok(Some(Self { hub, waits: args.until_closed }))
     }
 
-    /// What the thread that watches tells and answers, under one configuration.
+    /// The listener that feeds the page under one configuration.
     pub(crate) fn page<'a>(&self, context: &'a Context) -> Box<dyn Listener + 'a> {
         Box::new(Page::new(context, Arc::clone(&self.hub)))
     }
 
-    /// Shows why nothing is checked.
+    /// Shows on the page why nothing is checked.
     pub(crate) fn halt(&self, problems: &[Diagnostic], reason: &str) {
         self.hub.halt(problems, reason);
     }
 
-    /// Whether somebody ended it.
+    /// Whether the end was requested.
     pub(crate) fn is_over(&self) -> bool {
         self.hub.is_over()
     }
 
-    /// Whether what is wrong at the beginning is waited for too: nobody sees it but on the page.
+    /// Whether to wait for fixes even at the beginning, because the user only sees the page.
     pub(crate) fn waits(&self) -> bool {
         self.waits
     }
 }
 
-/// Where the page is. With a token in it the line is for people alone: what keeps standard error keeps the token.
+/// Prints the address of the page. The line may contain the token, so it must not be logged.
 fn tell(context: &Context, address: &Address, door: &Door) {
     if address.port.is_none() && door.port() != door::PORT {
         context.printer.status(match context.lang() {
@@ -90,7 +90,7 @@ fn tell(context: &Context, address: &Address, door: &Door) {
     context.printer.status(format_args!("{phrase} {}", door.link()));
 }
 
-/// Serves in a thread of its own, which ends with the program.
+/// Runs the server in a thread that ends with the program.
 fn serve(listener: TcpListener, routes: Routes, until_closed: bool) -> Result<(), String> {
     let work = move || routes.run(listener, until_closed);
     thread::Builder::new().name("server".to_owned()).spawn(work).map_err(|error| error.to_string())?;

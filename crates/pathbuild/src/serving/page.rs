@@ -1,4 +1,4 @@
-//! What the thread that watches tells the page, and answers it.
+//! Feeds the page from the watching thread.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
@@ -18,18 +18,18 @@ use serde_json::{Value, json};
 use super::hub::{Form, Hub, Question};
 use crate::context::Context;
 
-/// The page of a library that is watched.
+/// The page of a watched library.
 pub(super) struct Page<'a> {
     context: &'a Context,
     hub: Arc<Hub>,
     library: RefCell<Library>,
 }
 
-/// What is known.
+/// Published rows.
 #[derive(Default)]
 struct Library {
     rows: BTreeMap<Utf8PathBuf, Vec<Row>>,
-    /// The drawings by the names under which they are listed.
+    /// Drawings by their names in the list.
     by_file: HashMap<String, Utf8PathBuf>,
 }
 
@@ -38,7 +38,7 @@ impl<'a> Page<'a> {
         Self { context, hub, library: RefCell::default() }
     }
 
-    /// A path or a drawing that is listed; nothing else can be seen.
+    /// The scene or picture of a listed drawing or path; others are not accessible.
     fn seen(&self, session: &mut Session<'_>, file: &str, path: Option<&str>, form: Form) -> Option<String> {
         let drawing = self.library.borrow().by_file.get(file)?.clone();
         let scene = session.settled(|session| {
@@ -50,7 +50,7 @@ impl<'a> Page<'a> {
             };
             let file_name = file.path(session.db()).as_str();
             let poster = PostProcessor::of_run(self.context, None, PostArguments::default());
-            // A post that cannot be read is among the problems of the whole library.
+            // A broken post is already reported for the whole library.
             let text =
                 poster.as_ref().map_or(ShownText::Native, |poster| ShownText::Emitted(poster.as_ref()));
             Some(session.scene(file, &names, text).judged(self.context, file_name).0)
@@ -130,7 +130,7 @@ impl Listener for Page<'_> {
 
     fn rung(&self, session: &mut Session<'_>) {
         for Question { file, path, form, answer } in self.hub.questions() {
-            // Who asked may have gone.
+            // The client may have disconnected.
             if !answer.is_closed() {
                 _ = answer.send(self.seen(session, &file, path.as_deref(), form));
             }

@@ -1,4 +1,4 @@
-//! What the server answers, each under its name.
+//! Routes of the server.
 
 use std::convert::Infallible;
 use std::io;
@@ -26,34 +26,34 @@ use super::door::{Door, random};
 use super::guard::{HEADERS, admit};
 use super::hub::{Form, Hub};
 
-/// What answers.
+/// State of the routes.
 pub(super) struct Routes {
     door: Door,
     hub: Arc<Hub>,
     lang: Lang,
-    /// Which run this is: pages of another begin anew.
+    /// Identifies this run: pages of an earlier run reload everything.
     run: String,
-    /// How many pages are open.
+    /// Number of open pages.
     pages: watch::Sender<usize>,
 }
 
-/// So long a page may take to come back, as it does when it is loaded again.
+/// Time within which a page must reconnect, for example when it is reloaded.
 const GRACE: Duration = Duration::from_secs(5);
 
-/// So long a browser may take to start.
+/// Time that a browser may take to start.
 const START: Duration = Duration::from_secs(90);
 
 impl Routes {
-    /// Nothing is served yet.
+    /// Prepares the routes.
     ///
     /// # Errors
-    /// The system gives no random number.
+    /// If the system provides no random numbers.
     pub(super) fn new(door: Door, hub: Arc<Hub>, lang: Lang) -> Result<Self, String> {
         let run = random().map_err(|error| error.to_string())?;
         Ok(Self { door, hub, lang, run, pages: watch::Sender::new(0) })
     }
 
-    /// Serves, until the program ends.
+    /// Serves until the program ends.
     pub(super) fn run(self, listener: TcpListener, until_closed: bool) {
         let Ok(runtime) = runtime::Builder::new_current_thread().enable_all().build() else {
             return self.hub.end();
@@ -73,7 +73,7 @@ impl Routes {
     }
 }
 
-/// Ends at Ctrl+C what is watched, and at the second one everything.
+/// Ends watching on Ctrl+C, and the process on the second Ctrl+C.
 async fn end_by_key(hub: Arc<Hub>) {
     if tokio::signal::ctrl_c().await.is_ok() {
         hub.end();
@@ -82,7 +82,7 @@ async fn end_by_key(hub: Arc<Hub>) {
     }
 }
 
-/// Ends once no page has been open for a while.
+/// Ends watching once no page has been open for a while.
 async fn end_without_pages(hub: Arc<Hub>, mut pages: watch::Receiver<usize>) {
     let mut patience = START;
     while timeout(patience, pages.wait_for(|open| *open > 0)).await.is_ok_and(|open| open.is_ok()) {
@@ -107,7 +107,7 @@ fn router(routes: Arc<Routes>) -> Router {
         .with_state(routes)
 }
 
-/// Lets in who may come, and tells browsers what to do with any answer.
+/// Refuses requests that are not admitted, and adds the security headers to every response.
 async fn guarded(State(routes): State<Arc<Routes>>, request: Request, next: Next) -> Response {
     let (parts, body) = request.into_parts();
     let mut response = match admit(&routes.door, &parts) {
@@ -133,10 +133,10 @@ fn file(kind: &'static str, text: &'static str) -> impl IntoResponse {
 
 #[derive(Deserialize)]
 struct News {
-    /// What the page knows.
+    /// Number of the last change that the page knows.
     #[serde(default)]
     since: u64,
-    /// How many drawings it wants; `None`: all of them.
+    /// Maximum number of drawings to return; `None` means all.
     most: Option<usize>,
 }
 
@@ -166,12 +166,12 @@ async fn seen(routes: &Routes, Wanted { file, path }: Wanted, form: Form, kind: 
     match routes.hub.ask(file, path, form).await {
         Ok(Some(text)) => ([(CONTENT_TYPE, kind)], text).into_response(),
         Ok(None) => StatusCode::NOT_FOUND.into_response(),
-        // Who would answer has ended, or begins anew.
+        // The watching thread has ended or is restarting.
         Err(_) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
     }
 }
 
-/// The number of the last change, at once and whenever there is a new one.
+/// Stream of the numbers of changes, beginning with the last one.
 async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     let (news, run) = (routes.hub.news(), routes.run.clone());
     let open = Open::new(routes.pages.clone());
@@ -189,7 +189,7 @@ async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     Sse::new(numbers).keep_alive(KeepAlive::default())
 }
 
-/// A page that is open, until it is dropped.
+/// Counts as an open page until dropped.
 struct Open(watch::Sender<usize>);
 
 impl Open {

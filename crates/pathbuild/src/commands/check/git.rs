@@ -1,4 +1,4 @@
-//! `check --changed-since REV`: what changed since a revision of Git.
+//! `check --changed-since REV`: changes since a Git revision.
 
 use std::collections::BTreeMap;
 
@@ -12,31 +12,31 @@ use pathbuild_workspace::{Input, Inputs, files};
 use crate::commands::git::{self, EntryKind, Repository};
 use crate::context::Context;
 
-/// A revision, of which names and ids are known. Files are named from the root.
+/// The file names and blob ids of a revision. File names are relative to the root.
 #[derive(Debug)]
 pub(super) struct Since<'a> {
     context: &'a Context,
     repository: Repository<'a>,
     files: BTreeMap<Utf8PathBuf, String>,
     links: BTreeMap<Utf8PathBuf, String>,
-    /// The names of drawings, by directory.
+    /// File names of drawings, by directory.
     drawings: BTreeMap<Utf8PathBuf, Vec<String>>,
 }
 
-/// So many links after one another are followed, as systems do.
+/// Upper bound on symbolic links that are followed in a row, as in operating systems.
 const MOST_LINKS: usize = 40;
 
 impl<'a> Since<'a> {
-    /// What a revision holds, of the repository of what is checked.
+    /// Reads a revision from the repository of the inputs.
     ///
     /// # Errors
-    /// What Git says where it cannot tell.
+    /// Git's message if it cannot read the revision.
     pub(super) fn new(context: &'a Context, inputs: &Inputs, revision: &str) -> Result<Self, String> {
         let revision = git::revision(context, revision)?;
         let repository = Repository::of(context, &place(context, inputs))?;
         let entries = match repository.tree(revision) {
             Ok(tree) => repository.entries(&tree)?,
-            // Before the first commit everything is new.
+            // Before the first commit, everything is new.
             Err(_) if repository.is_unborn(revision) => Vec::new(),
             Err(reason) => return Err(repository.too_shallow(revision).unwrap_or(reason)),
         };
@@ -55,38 +55,38 @@ impl<'a> Since<'a> {
             self.drawings.entry(directory.to_owned()).or_default().push(name.to_owned());
         }
         match kind {
-            // Git for Windows writes links as files.
+            // Git for Windows writes links as plain files.
             EntryKind::Link if cfg!(unix) => self.links.insert(file, id),
             EntryKind::File | EntryKind::Link => self.files.insert(file, id),
-            // What changed in there is not known: every file of it is new.
+            // The contents of a submodule are unknown: all its files count as new.
             EntryKind::Submodule => None,
         };
     }
 
-    /// Where a file really lies.
+    /// Real path of a file.
     fn real(&self, file: &Utf8Path) -> Utf8PathBuf {
         self.context.system.canonical(&clean(&self.context.working_directory.join(file)))
     }
 
-    /// Its name from the root, if it lies below.
+    /// Path relative to the root, if the file is inside it.
     fn below_root(&self, real: &Utf8Path) -> Option<Utf8PathBuf> {
         Some(spelt(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
     }
 
-    /// A file that may be what it was: where it really lies, and the id that it had.
+    /// Real path and former blob id of a file that may be unchanged.
     fn known(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
         let real = self.real(file);
         let id = self.files.get(&self.below_root(&real)?)?;
-        // Git would wait for ever for what is no regular file or very large, and asks for one a line.
+        // Git would hang on special and very large files, and expects one file name per line.
         let largest = self.context.settings.limits.file_size.value;
         let is_regular = self.context.system.head(&real, 1).is_ok();
-        let is_asked = is_regular
+        let is_comparable = is_regular
             && !real.as_str().contains('\n')
             && files::size(&real).is_some_and(|size| size <= largest);
-        (is_asked && self.has_old_links(file, &real)).then_some((real, id))
+        (is_comparable && self.has_old_links(file, &real)).then_some((real, id))
     }
 
-    /// Whether a file is reached through links only that were there. What those say has not changed where this is asked.
+    /// Whether all symbolic links on the way to a file existed in the revision. Their targets are compared elsewhere.
     fn has_old_links(&self, file: &Utf8Path, real: &Utf8Path) -> bool {
         let spelt = clean(&self.context.working_directory.join(file));
         if spelt == real {
@@ -109,10 +109,10 @@ impl<'a> Since<'a> {
         false
     }
 
-    /// A link that was there and does not lead where it led.
+    /// A symbolic link whose target has changed.
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
-        // What cannot be told has changed.
+        // Unknown targets count as changed.
         let targets = self.repository.targets(&ids).unwrap_or_else(|_| vec![None; ids.len()]);
         let mut links = self.links.keys().map(|link| self.repository.root.join(link)).zip(targets);
         let is_same = |link: &Utf8Path, target: Option<&str>| {
@@ -121,11 +121,11 @@ impl<'a> Since<'a> {
         links.find(|(link, target)| !is_same(link, target.as_deref())).map(|(link, _)| link)
     }
 
-    /// The files that say what is checked and how: those of the revision, and those that hold now.
+    /// Files that determine what is checked and how: those of the revision, and the current ones.
     fn rules(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
         let is_rule = |file: &&Utf8PathBuf| {
             matches!(file.file_name(), Some(FILE_NAME | ".gitignore" | ".ignore"))
-                || file.extension().is_some_and(|it| it.eq_ignore_ascii_case("cbpp"))
+                || file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cbpp"))
         };
         let old = self.files.keys().filter(is_rule).map(|file| self.repository.root.join(file));
         let ignoring = directories.iter().flat_map(|directory| {
@@ -161,8 +161,8 @@ impl Past for Since<'_> {
     }
 }
 
-/// The place whose repository is asked: of a stranger's tree the one that is not left, else that of the first argument, of the configuration,
-/// or of the working directory.
+/// The place whose repository is used: the root of an untrusted tree; otherwise the first argument, the configuration's directory, or the
+/// working directory.
 fn place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
     if let Some(confined) = &context.settings.confined {
         return confined.root().to_owned();

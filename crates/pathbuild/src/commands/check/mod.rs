@@ -1,4 +1,4 @@
-//! `pathbuild check`: every path of drawings, paths or the library. Writes nothing. (book: reference/commands)
+//! `pathbuild check`: checks every path of drawings or of the library, without writing anything. (book: reference/commands)
 
 mod git;
 
@@ -45,7 +45,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
             context.printer.status(line);
         }
     }
-    // The run is over: to take a million values apart would take longer than to end.
+    // Leak instead of dropping: freeing a million values takes longer than process exit.
     std::mem::forget(session);
     status
 }

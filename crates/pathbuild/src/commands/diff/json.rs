@@ -1,4 +1,4 @@
-//! A comparison as data: lines of the run's document.
+//! A comparison as JSON lines of the document.
 
 use camino::Utf8Path;
 use pathbuild_view::{ChangeKind, Group};
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::context::Context;
 
-/// A line for each path that changed, and one for the whole.
+/// Prints a line for each changed path, and one for the whole comparison.
 pub(super) fn rows(context: &Context, comparison: &Comparison) {
     for changed in &comparison.paths {
         context.row("path_change", path(changed));

@@ -1,4 +1,4 @@
-//! A comparison as Markdown, for a pull request. Names come from drawings: nothing in them is markup.
+//! A comparison as Markdown for pull requests. Names come from drawings, so all markup in them is escaped.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use pathbuild_workspace::diff::{Comparison, Outcome};
 
 use super::text::{details, either, outcome, place, problems, summary};
 
-/// A table with a row for each path.
+/// A table with one row per path.
 pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
     let mut text = format!("**pathbuild**: {}\n", summary(comparison, lang));
     let problems = problems(comparison, lang);
@@ -35,7 +35,7 @@ fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
     }
 }
 
-/// A text as Markdown shows it: whatever could be markup or a mention is written as a character's number.
+/// Escapes everything that could be markup or a mention as character references.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in shown::line(text).chars() {
@@ -50,16 +50,16 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A name as code in a cell of a table.
+/// Formats a name as code in a table cell.
 fn cell_of(name: &str) -> String {
     code(name).replace('|', "\\|")
 }
 
-/// A text as code: GitHub makes links of addresses, numbers and hashes in any other, however they are written.
+/// Formats a text as code, since GitHub turns addresses, numbers and hashes in ordinary text into links, however they are escaped.
 fn code(text: &str) -> String {
     let text = shown::line(text);
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let ticks = "`".repeat(longest + 1);
-    // The blanks next to them are taken away again.
+    // Markdown strips the blanks next to the backticks.
     format!("{ticks} {text} {ticks}")
 }

@@ -1,4 +1,4 @@
-//! `pathbuild diff`: what a change of drawings does to the moves. (docs: "Comparing")
+//! `pathbuild diff`: shows how changed drawings change the moves. (docs: "Comparing")
 
 mod json;
 mod markdown;
@@ -19,7 +19,7 @@ use crate::exit::ExitStatus;
 use output::Output;
 use side::{Drawings, Failure, Side};
 
-/// Runs the command. Changes are no errors; paths that can no longer be compared are.
+/// Runs the command. Changes are not errors, but paths that can no longer be compared are.
 pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
     let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,
@@ -58,7 +58,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
     comparison
 }
 
-/// Two programs, or a program and a path.
+/// Compares two programs, or a program and a path.
 fn single(old: side::Seen, new: side::Seen, pictures: Option<Pictures>) -> Comparison {
     let changed = programs(&old.path, &new.path, pictures);
     let is_same = changed.groups.is_empty();

@@ -1,4 +1,4 @@
-//! Where a comparison goes beside what is printed.
+//! Writes a comparison to a file, besides printing it.
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::Written;
@@ -9,7 +9,7 @@ use pathbuild_workspace::files::cannot_write;
 use super::{markdown, page};
 use crate::context::Context;
 
-/// A file, and as what.
+/// A file to write with its format, if any.
 pub(super) struct Output(Option<(Format, Utf8PathBuf)>);
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -19,10 +19,10 @@ enum Format {
 }
 
 impl Output {
-    /// By the file's name.
+    /// Chooses the format by the extension.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If the extension is unknown.
     pub(super) fn of(context: &Context, file: Option<&Utf8Path>) -> Result<Self, String> {
         let Some(file) = file else { return Ok(Self(None)) };
         let format = match file.extension().unwrap_or_default().to_ascii_lowercase().as_str() {
@@ -39,15 +39,15 @@ impl Output {
         Ok(Self(Some((format, file.to_owned()))))
     }
 
-    /// Whether it shows pictures.
+    /// Whether the format shows pictures.
     pub(super) fn has_pictures(&self) -> bool {
         matches!(self.0, Some((Format::Html, _)))
     }
 
-    /// Writes it.
+    /// Writes the file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// If it cannot be written.
     pub(super) fn deliver(&self, context: &Context, comparison: &Comparison) -> Result<(), Box<Diagnostic>> {
         let Some((format, file)) = &self.0 else { return Ok(()) };
         let text = match format {

@@ -1,4 +1,4 @@
-//! A comparison as one HTML file that asks the network for nothing.
+//! A comparison as a single HTML file that loads nothing from the network.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use super::text::{details, either, outcome, place, problems, summary};
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// The page.
+/// Renders the page.
 pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
     let (before, behind) = TEMPLATE.split_once("{{paths}}").unwrap_or((TEMPLATE, ""));
     let code = either(lang, "en", "de");
@@ -47,7 +47,7 @@ fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: La
     page.push_str("</section>\n");
 }
 
-/// The pictures three ways. Without scripts the changes are seen.
+/// Shows the pictures in three ways. Without scripts, only the changes are visible.
 fn show(page: &mut String, PictureSet { changes, old, new }: &PictureSet, lang: Lang) {
     let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", either(lang, en, de));
     let label = either(lang, "old to new", "alt bis neu");

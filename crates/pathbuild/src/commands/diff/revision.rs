@@ -1,5 +1,5 @@
-//! Drawings as they were in a revision of Git: taken out into a directory of their own, which goes when it is no longer needed.
-#![expect(clippy::disallowed_methods, reason = "the directory is our own, among the system's temporary ones")]
+//! Checks out the drawings of a Git revision into a temporary directory.
+#![expect(clippy::disallowed_methods, reason = "the files are in our own temporary directory")]
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -13,19 +13,19 @@ use tempfile::TempDir;
 use crate::commands::git::{self, Entry, EntryKind, Repository};
 use crate::context::Context;
 
-/// What was taken out.
+/// A checked-out revision; its files are removed when it is dropped.
 pub(super) struct Revision {
-    /// As it was named.
+    /// Name as given.
     pub(super) name: String,
-    /// What the working directory was in it.
+    /// Counterpart of the working directory in the revision.
     pub(super) root: Utf8PathBuf,
     _files: TempDir,
 }
 
-/// Takes out a revision of the repository that the working directory lies in. Neither that nor its index is touched.
+/// Checks out a revision of the working directory's repository. Touches neither the working tree nor the index.
 ///
 /// # Errors
-/// What Git says where it knows no such revision.
+/// Git's message if there is no such revision.
 pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, String> {
     let name = git::revision(context, name)?;
     let repository = Repository::of(context, Utf8Path::new(""))?;
@@ -41,9 +41,9 @@ pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, Str
     let files = tempfile::Builder::new().prefix("pathbuild-").tempdir().map_err(|error| error.to_string())?;
     let place = place_of(context, &files)?;
     let whole = place.join("tree");
-    // It is a repository as much as the one it comes from: ignore files count, and nothing is followed out of it.
+    // Mark it as a repository like the original, so that ignore files apply and no link leads out of it.
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
-    // What is above is another's: a tree without a configuration has this one, which says nothing.
+    // Stop the search for a configuration here: the directories above are unrelated. This one is empty.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
     let largest = context.settings.limits.file_size.value.max(LARGE);
     let mut taken = Taking { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
@@ -77,21 +77,22 @@ fn say_left_out(context: &Context, left_out: &[String]) {
     }
 }
 
-/// Bytes of a file that is written as it is, also where less is allowed now: the revision's own configuration may allow it.
+/// Files up to this size in bytes are written even if the current limit is lower: the revision's configuration may allow more.
 const LARGE: u64 = 1 << 30;
 
 /// Writes the files of a tree.
 struct Taking<'a> {
     repository: &'a Repository<'a>,
     whole: &'a Utf8Path,
-    /// The most bytes of a file. One that has more gets its length only, and is refused for that when it is read.
+    /// Upper bound on a file's size in bytes. A larger file is written with its length but without its content, so that reading it reports
+    /// the limit.
     largest: u64,
-    /// Drawings that cannot be there.
+    /// Drawings that could not be written.
     left_out: Vec<String>,
 }
 
 impl Taking<'_> {
-    /// Links come last, so that no file is written through one.
+    /// Writes everything. Links come last, so that no file is written through one.
     fn all(&mut self, entries: &[Entry]) -> Result<(), String> {
         let (plain, hostile): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.is_plain());
         for entry in hostile {
@@ -102,7 +103,7 @@ impl Taking<'_> {
         let links: Vec<&Entry> = of(EntryKind::Link).collect();
         let targets = self.repository.targets(&ids(&links))?;
         let links: Vec<(&Entry, Option<String>)> = links.into_iter().zip(targets).collect();
-        // Whatever a drawing is a link to has to be there.
+        // If a drawing is a link to another kind of file, its target is needed as well.
         let leads_elsewhere = |(entry, target): &(&Entry, Option<String>)| {
             Session::is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
         };
@@ -116,7 +117,7 @@ impl Taking<'_> {
         Ok(())
     }
 
-    /// Also those without anything that is needed: a configuration may name them.
+    /// Creates all directories, even those without needed files: a configuration may name them.
     fn directories(&self, entries: &[&Entry]) -> io::Result<()> {
         let directory = |entry: &&Entry| match entry.kind {
             EntryKind::Submodule => Some(Utf8PathBuf::from(&entry.name)),
@@ -137,7 +138,7 @@ impl Taking<'_> {
                 Ok(bytes) => io::copy(bytes, &mut file).map(|_| ()),
                 Err(size) => file.set_len(size),
             },
-            // Two names can be one where case does not count.
+            // Two names may be the same where case is ignored.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                 self.leave_out(entry);
                 Ok(())
@@ -175,17 +176,18 @@ fn link_to(_: &str, _: &Utf8Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Drawings, and what says how they are read. A large repository may hold much else.
+/// Whether the file is a drawing or affects how drawings are read. A large repository may contain many other files.
 fn is_needed(name: &str) -> bool {
     let name = Utf8Path::new(name);
-    let is_text = |it: &str| ["cbpp", "toml"].iter().any(|text| it.eq_ignore_ascii_case(text));
+    let is_text =
+        |extension: &str| ["cbpp", "toml"].iter().any(|known| extension.eq_ignore_ascii_case(known));
     Session::is_drawing(name)
         || name.extension().is_some_and(is_text)
         || matches!(name.file_name(), Some(".gitignore" | ".ignore"))
 }
 
-/// Whether a link leads to something below the root, whatever other links it leads through: it goes up first, through directories that are none,
-/// and then only down.
+/// Whether a link leads to something below the root, even through other links: it must go up first, through real directories, and then only
+/// down.
 fn stays_inside(link: &str, target: &str) -> bool {
     let depth = Utf8Path::new(link).components().count() - 1;
     let mut parts =

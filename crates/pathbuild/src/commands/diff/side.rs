@@ -1,4 +1,4 @@
-//! What the arguments of `diff` mean.
+//! Resolves the arguments of `diff`.
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
@@ -14,22 +14,22 @@ use crate::args::DiffArgs;
 use crate::commands::program::Program;
 use crate::context::Context;
 
-/// One of the two sides.
+/// One side of the comparison.
 pub(super) enum Side {
     Drawings(Box<Drawings>),
     Program(Box<Seen>),
 }
 
-/// Drawings below a directory, with the configuration that holds there.
+/// Drawings below a directory, with their configuration.
 pub(super) struct Drawings {
     pub(super) workspace: Workspace,
     pub(super) inputs: Inputs,
     pub(super) root: Utf8PathBuf,
-    /// What was taken out of Git; its files go with it.
+    /// The revision that they were checked out from; owns the files.
     revision: Option<Revision>,
 }
 
-/// A program, or a path's.
+/// A program, or the program of a path.
 pub(super) struct Seen {
     pub(super) path: ScenePath,
     pub(super) problems: Vec<Diagnostic>,
@@ -42,16 +42,16 @@ pub(super) enum Failure {
     Found(Vec<Diagnostic>),
 }
 
-/// What an argument is.
+/// Kind of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Nature {
     Drawings,
     Program,
-    /// A revision, or beside a program a path.
+    /// A revision, or a path if the other argument is a program.
     Name,
 }
 
-/// Both sides, the old one first.
+/// Resolves both sides, the old one first.
 pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Failure> {
     let new = args.new.as_deref().unwrap_or(".");
     let natures = [args.old.as_str(), new].map(|argument| nature(context, argument));
@@ -90,7 +90,7 @@ fn drawings(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -
     let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
     let absolute =
         |place: &Utf8Path| pathbuild_workspace::config::clean(&context.working_directory.join(place));
-    // The directory of a configuration stands for its library.
+    // A directory with a configuration stands for its library.
     let is_library = !is_drawing
         && workspace.has_library()
         && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
@@ -99,7 +99,7 @@ fn drawings(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -
 }
 
 impl Drawings {
-    /// Names files of a revision as Git does.
+    /// Renames files of a revision to `REVISION:FILE`, as Git does.
     pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
         let Some(revision) = &self.revision else { return };
         for problem in problems {
@@ -125,7 +125,7 @@ fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Seen, 
     Ok(Seen { path: gcode_path(&source), problems: program.read.problems })
 }
 
-/// The program of a path that a name means in the working directory.
+/// The program of a path in the working directory.
 fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
     let inputs = Inputs { inputs: vec![name.to_owned()] };
     Session::new(context).settled(|session| {
@@ -154,7 +154,7 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
     })
 }
 
-/// A path's program as it is read back from its text: rounded as it is printed.
+/// A path's program as read back from its text, with numbers rounded as printed.
 fn as_printed(path: ScenePath) -> ScenePath {
     let text = path.gcode.unwrap_or_default();
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());

@@ -1,4 +1,4 @@
-//! A comparison for people.
+//! A comparison as text for users.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
 use pathbuild_view::{Group, Totals, moves, phrase};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, ProgramDiff};
 
-/// The whole comparison: what became of each path, and how many of how many it concerns.
+/// The whole comparison: the outcome of each path, and a summary.
 pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
     let mut text = String::new();
     for path in &comparison.paths {
@@ -29,7 +29,7 @@ pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
     text
 }
 
-/// The drawing of a path; of one that moved to another drawing both.
+/// The drawing of a path, or both if it moved to another drawing.
 pub(super) fn place(path: &PathDiff) -> String {
     let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
     match (old, new) {
@@ -39,10 +39,10 @@ pub(super) fn place(path: &PathDiff) -> String {
     }
 }
 
-/// What became of a path, in a few words.
+/// The outcome of a path, in a few words.
 pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
-        // `check` makes no programs, and shows no limit that only a program meets.
+        // `check` builds no programs, so it does not report limits that only programs exceed.
         Outcome::Broken if comparison.tells_of(path) => ("has errors now", "hat jetzt Fehler"),
         Outcome::Added => ("new", "neu"),
         Outcome::Removed => ("gone", "weg"),
@@ -59,7 +59,7 @@ pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &
     either(lang, en, de)
 }
 
-/// What kept paths and drawings from being compared, a line each.
+/// Errors that kept paths and drawings from being compared, one per line.
 pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
     let errors = comparison.problems.iter().flatten().filter(|problem| problem.is_error());
     let line = |problem: &Diagnostic| {
@@ -74,7 +74,7 @@ pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
     errors.map(line).collect()
 }
 
-/// A line for each kind of change, and one for the whole.
+/// One line for each kind of change, and one for the totals.
 pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
     if let [Some(old), Some(new)] = program.totals {

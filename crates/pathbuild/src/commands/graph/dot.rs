@@ -28,7 +28,7 @@ pub(super) fn dot(graph: &Graph) -> String {
     text
 }
 
-/// A string of the language DOT; line ends become `\n`.
+/// Quotes a string for DOT; line breaks become `\n`.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
 }

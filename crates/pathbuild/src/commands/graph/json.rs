@@ -1,4 +1,4 @@
-//! A graph as one JSON object: `paths`, and `embeddings` between them by their numbers.
+//! A graph as a JSON object: `paths`, and `embeddings` that refer to them by index.
 
 use pathbuild_path::{Bindings, PathName};
 use serde::Serialize;
@@ -19,13 +19,13 @@ struct Path<'a> {
     path: &'a str,
     file: String,
     values: Map<String, Value>,
-    /// Whether the values are examples, with which nothing embeds it.
+    /// Whether the values are only examples, with which nothing embeds the path.
     example: bool,
-    /// Whether its own drawing has errors, so that it is not known what it embeds.
+    /// Whether its drawing has errors, so that its embeddings may be incomplete.
     erroneous: bool,
 }
 
-/// `to` is null where nothing is embedded; then `path` is what the segment names, and `code` says why.
+/// `to` is null if nothing is embedded; then `path` is the name in the segment, and `code` the reason.
 #[derive(Serialize)]
 struct Embedding<'a> {
     from: usize,
@@ -38,9 +38,9 @@ struct Embedding<'a> {
 pub(super) fn json(context: &Context, graph: &Graph) -> Value {
     let object = Object {
         paths: graph.nodes.iter().map(|node| path(context, node)).collect(),
-        embeddings: graph.embeddings.iter().map(|it| embedding(graph, it)).collect(),
+        embeddings: graph.embeddings.iter().map(|edge| embedding(graph, edge)).collect(),
     };
-    // Only maps with keys that are no text can fail to become JSON.
+    // Serialization fails only for maps with keys that are not strings.
     serde_json::to_value(&object).unwrap_or_default()
 }
 
@@ -58,10 +58,10 @@ fn values(bindings: &Bindings) -> Map<String, Value> {
     bindings.iter().map(|(variable, value)| (variable.to_string(), value.into())).collect()
 }
 
-fn embedding<'a>(graph: &'a Graph, it: &'a pathbuild_workspace::session::Embedding) -> Embedding<'a> {
-    let (to, path, code) = match &it.to {
+fn embedding<'a>(graph: &'a Graph, edge: &'a pathbuild_workspace::session::Embedding) -> Embedding<'a> {
+    let (to, path, code) = match &edge.to {
         End::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
         End::Nowhere(name, code) => (None, name.as_ref().map(PathName::as_str), Some(code.to_string())),
     };
-    Embedding { from: it.from, to, count: it.count, path, code }
+    Embedding { from: edge.from, to, count: edge.count, path, code }
 }

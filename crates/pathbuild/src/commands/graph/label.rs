@@ -1,4 +1,4 @@
-//! How paths with their values are written, all that acts in them escaped.
+//! Labels of paths with their values, with control characters escaped.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use pathbuild_path::{Bindings, PathName};
 
 use pathbuild_workspace::session::{End, Graph, Node};
 
-/// A path with the values of its variables as a subpath's text sets them: `2051.1P :A0,5 :BX`.
+/// A path with the values of its variables, written as in a subpath's text: `2051.1P :A0,5 :BX`.
 pub(super) fn path(node: &Node) -> String {
     with_values(node.name.as_str(), &node.bindings)
 }
@@ -17,7 +17,7 @@ pub(super) fn file(node: &Node) -> Cow<'_, str> {
     shown::line(node.file.as_str())
 }
 
-/// What an embedding leads to.
+/// The target of an embedding.
 pub(super) fn end(graph: &Graph, end: &End) -> String {
     match end {
         End::Node(node) => path(&graph.nodes[*node]),
@@ -25,7 +25,7 @@ pub(super) fn end(graph: &Graph, end: &End) -> String {
     }
 }
 
-/// What is not embedded, and why: `9999.1P (PB503 path-not-found)`.
+/// A missing target with the reason: `9999.1P (PB503 path-not-found)`.
 pub(super) fn nowhere(name: Option<&PathName>, code: Code) -> String {
     format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
 }

@@ -1,4 +1,4 @@
-//! A graph as one line for each embedding, for searching.
+//! A graph as one line per embedding, for searching.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Lang;
 use super::label;
 use pathbuild_workspace::session::{Direction, Graph};
 
-/// `8001.1P > 2051.1P :A0,5`, in the order of the embedding paths; paths that embed nothing and that nothing embeds by themselves.
+/// `8001.1P > 2051.1P :A0,5`, sorted by embedding path. Paths without any embeddings are listed on their own.
 pub(super) fn list(graph: &Graph, lang: Lang) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
     let (times, example) = match lang {

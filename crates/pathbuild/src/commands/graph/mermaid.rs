@@ -24,7 +24,7 @@ pub(super) fn mermaid(graph: &Graph) -> String {
     text
 }
 
-/// What Mermaid would take for its own becomes an entity code.
+/// Replaces characters that are special to Mermaid by entity codes.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

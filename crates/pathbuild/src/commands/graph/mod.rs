@@ -1,4 +1,4 @@
-//! `pathbuild graph`, `deps` and `rdeps`: what embeds what. (book: reference/commands)
+//! `pathbuild graph`, `deps` and `rdeps`: show which path embeds which. (book: reference/commands)
 
 mod dot;
 mod json;
@@ -18,7 +18,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::session::{Direction, Graph, Session, Wanted};
 
-/// Runs `graph`: every embedding of paths; without arguments of the library.
+/// Runs `graph`: lists all embeddings of the given paths; without arguments, those of the library.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
@@ -33,7 +33,7 @@ pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
     asked.finish(context, &graph)
 }
 
-/// Runs `deps`: what paths embed, level by level.
+/// Runs `deps`: shows what paths embed, level by level.
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
@@ -48,8 +48,8 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     asked.finish(context, &graph)
 }
 
-/// Runs `rdeps`: what embeds paths, level by level. Asked are all paths of the library; without one, those of the working directory and
-/// below.
+/// Runs `rdeps`: shows what embeds the given paths, level by level, among all paths of the library; without a library, among those in and
+/// below the working directory.
 pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() {
         return context.usage(
@@ -78,7 +78,7 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     asked.finish(context, &whole)
 }
 
-/// What the arguments come to.
+/// The resolved arguments.
 struct GraphArguments {
     targets: Vec<Target>,
     files: Vec<SourceFile>,
@@ -102,7 +102,7 @@ impl GraphArguments {
         Self { targets, files, problems }
     }
 
-    /// The targets that were asked for, and all that may embed them.
+    /// The requested targets, and all others that may embed them.
     fn and_everything(&mut self, session: &Session<'_>) -> Vec<Target> {
         let (files, problems) = session.everything();
         self.problems.extend(problems);
@@ -113,7 +113,7 @@ impl GraphArguments {
         self.targets.iter().copied().chain(others).collect()
     }
 
-    /// Shows what could not be asked, and says where the graph ends although there is more.
+    /// Shows diagnostics, and reports where the graph is incomplete.
     fn finish(self, context: &Context, graph: &Graph) -> ExitStatus {
         let unknown = graph.nodes.iter().filter(|node| !node.is_sound).count();
         if unknown > 0 {

@@ -1,4 +1,4 @@
-//! A graph as indented lines. What has been shown with all below it is not shown again.
+//! A graph as indented lines. A path whose embeddings were already shown is not expanded again.
 
 use std::fmt::Write;
 
@@ -7,13 +7,13 @@ use pathbuild_diagnostic::Lang;
 use super::label;
 use pathbuild_workspace::session::{Direction, Embedding, End, Graph};
 
-/// A tree from each root.
+/// A tree for each root.
 pub(super) fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {
     let neighbours = graph.neighbours(direction);
     let words = Words::of(lang);
     let mut text = String::new();
     let mut is_shown = vec![false; graph.nodes.len()];
-    // No recursion: a library may embed deeper than a stack is.
+    // Not recursive: a library may nest deeper than the stack.
     let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
     while let Some(step) = open.pop() {
         let (label, mut remarks) = words.line(graph, &step);
@@ -33,13 +33,13 @@ pub(super) fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {
     text
 }
 
-/// What is deeper stands no further to the right: nobody sees it there, and the lines of a long chain would grow with its square.
+/// Upper bound on the indentation level: deeper lines would be unreadable, and the output of a long chain would grow quadratically.
 const DEEPEST: usize = 100;
 
 /// A line of a tree.
 struct Step {
     to: End,
-    /// How many segments embed it, or are embedded by it, there.
+    /// Number of segments that embed it at this point.
     count: usize,
     level: usize,
 }
@@ -77,7 +77,7 @@ impl Words {
         }
     }
 
-    /// What a line says of its path, and what is remarkable about that.
+    /// The label of a line, with remarks.
     fn line(&self, graph: &Graph, step: &Step) -> (String, Vec<String>) {
         let mut remarks = Vec::new();
         if step.count > 1 {

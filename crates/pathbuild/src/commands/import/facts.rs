@@ -1,4 +1,4 @@
-//! What is said of a program, before it is said in a language.
+//! Facts about a program, independent of the output language.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
@@ -8,15 +8,15 @@ use pathbuild_gcode::summary::{Summary, is_guess};
 use crate::commands::program::Program;
 use crate::context::Context;
 
-/// A program's summary with what the configuration makes of it.
+/// A program's summary, completed by the configuration.
 pub(super) struct Facts<'a> {
     pub(super) program: &'a Program,
     pub(super) summary: Summary,
-    /// The rapid feed in mm/min, where it is known.
+    /// Feed of rapid moves in mm/min, if known.
     pub(super) rapid: Option<f64>,
-    /// The time on the machine in seconds, where the configuration tells what it can do.
+    /// Machining time in seconds, if the machine's capabilities are configured.
     pub(super) machine_seconds: Option<f64>,
-    /// What was taken for granted.
+    /// Assumptions that were made while reading.
     pub(super) taken: Vec<&'a Diagnostic>,
 }
 
@@ -32,8 +32,8 @@ impl<'a> Facts<'a> {
         }
     }
 
-    /// The compatible time in whole minutes; of cutting moves only where the rapid feed is not known. (book: program/gcode)
-    /// `None` where a cutting move has no feed.
+    /// Compatible time in whole minutes; only of cutting moves if the rapid feed is unknown. (book: program/gcode) `None` if a cutting move
+    /// has no feed.
     pub(super) fn minutes(&self) -> Option<f64> {
         let total = &self.summary.total;
         let minutes = self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes();
@@ -41,7 +41,7 @@ impl<'a> Facts<'a> {
     }
 }
 
-/// What `[machine]` says of speeds; all of it must be known. Without rates rapid moves go at `rapid`.
+/// Speeds and accelerations from `[machine]`; `None` unless they are complete. Rapid moves default to `rapid`.
 fn kinematics(context: &Context) -> Option<Kinematics> {
     let machine = &context.settings.machine;
     let rapid = context.settings.general.rapid.value;

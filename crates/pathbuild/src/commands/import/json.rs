@@ -1,4 +1,4 @@
-//! The summary as one JSON object a program. Lengths are mm, feeds mm/min.
+//! The summary of a program as a JSON object. Lengths are in mm, feeds in mm/min.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::statistics::{MoveTotals, Tally};

@@ -1,4 +1,4 @@
-//! `pathbuild import`: what a G-code program is. (book: program/reading)
+//! `pathbuild import`: summarizes a G-code program. (book: program/reading)
 
 mod facts;
 mod json;
@@ -11,7 +11,7 @@ use crate::exit::ExitStatus;
 use super::program::Program;
 use facts::Facts;
 
-/// Runs the command: prints each program's summary, and what is wrong with it. A program with errors is summed up as far as it was read.
+/// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it was read.
 pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
     let mut diagnostics = Vec::new();
     for file in &args.files {

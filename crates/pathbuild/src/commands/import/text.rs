@@ -1,4 +1,4 @@
-//! The summary for a person.
+//! The summary of a program as text.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use pathbuild_gcode::summary::{Extent, Used};
 use super::facts::Facts;
 use crate::context::Context;
 
-/// Some lines, the first with the file's name.
+/// Formats the summary; the first line begins with the file's name.
 pub(super) fn text(context: &Context, facts: &Facts<'_>) -> String {
     let say = Say(context);
     let mut text = say.title(facts);
@@ -87,7 +87,7 @@ impl Say<'_> {
         in_prose(format!("{number:.1}"), self.0.lang())
     }
 
-    /// `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis goes anywhere that is known.
+    /// `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis moves to a known position.
     fn extent(&self, extent: &Extent) -> Option<String> {
         let to = self.is("to", "bis");
         let axis = |(axis, ends): (char, &Option<(f64, f64)>)| {
@@ -166,7 +166,7 @@ impl Say<'_> {
     }
 }
 
-/// A few numbers; of many the smallest and the largest.
+/// Formats a few numbers, or the range if there are many.
 fn numbers(values: &[f64]) -> String {
     const MOST: usize = 6;
     let mut values = values.to_vec();

@@ -1,4 +1,4 @@
-//! `pathbuild list` and `stats`: the paths of a library, and what they add up to. (book: reference/commands)
+//! `pathbuild list` and `stats`: the paths of a library, and their totals. (book: reference/commands)
 
 mod row;
 mod stats;
@@ -12,7 +12,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::table::table;
 
-/// Prints a line for each path.
+/// Prints one line per path.
 pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
     show(context, args, |context, rows, _| match context.format {
         Format::Json => rows.iter().for_each(|row| {
@@ -26,7 +26,7 @@ pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
     })
 }
 
-/// Prints what the paths add up to.
+/// Prints the totals of the paths.
 pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
     show(context, args, |context, rows, drawings| {
         let stats = Stats::of(rows, drawings);
@@ -37,7 +37,8 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
     })
 }
 
-/// Lists, and shows the paths; findings are those of directories and drawings, since errors of paths are a part of what is shown.
+/// Lists and shows the paths. Only findings of directories and drawings are shown separately, since the errors of paths are part of the
+/// list.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
     let inputs = args.inputs();
     let poster = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default()) {
@@ -46,7 +47,7 @@ fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row],
     };
     let mut session = Session::new(context);
     let listed = Request { inputs: &inputs, poster: poster.as_ref() }.run(&mut session);
-    // The run is over: what it looked at is not taken apart.
+    // Leak instead of dropping: freeing all query results takes longer than process exit.
     std::mem::forget(session);
     let Listed { paths, drawings, diagnostics } = match listed {
         Ok(listed) => listed,

@@ -1,5 +1,5 @@
-//! `pathbuild texts`: which element each parameter text belongs to, and which parameters hold for each element.
-//! (book: language/parameter-texts)
+//! `pathbuild texts`: shows the element that each parameter text belongs to, and the parameters in force for each element. (book:
+//! language/parameter-texts)
 
 mod table;
 
@@ -40,15 +40,15 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// A text, or what holds for an element.
+/// A text, or the parameters of an element, ready to be printed.
 enum Shown {
-    /// In JSON: a line's type and values.
+    /// A line of JSON: type and values.
     Row(&'static str, Json),
-    /// For people.
+    /// Text lines.
     Lines(String),
 }
 
-/// What is shown of each text, and what is wrong with drawings and arguments.
+/// Everything to show about each text, and diagnostics of drawings and arguments.
 fn texts(
     context: &Context,
     session: &Session<'_>,
@@ -69,7 +69,7 @@ fn texts(
         };
         let name = file.path(db).as_str();
         let of_whole = path.is_none().then(|| path_names(db, file)).into_iter().flatten();
-        // Who looks for a text wants to see that.
+        // A search for texts shows only texts.
         let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
             Format::Json => Shown::Row("text", object(&context.file(file.path(db)), text)),
@@ -80,7 +80,7 @@ fn texts(
     (shown, problems)
 }
 
-/// A text in a few lines: itself, where it is, and each element that it belongs to.
+/// A text in a few lines: its content, its place, and the elements that it belongs to.
 fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     let TextCircle { centre, radius } = text.circle;
     let layer = context.choose("layer", "Layer");
@@ -107,7 +107,7 @@ fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
     shown
 }
 
-/// `LINE 1F`, or without a handle `LINE in line 120`.
+/// `LINE 1F`, or `LINE :120` (its line in the file) without a handle.
 fn named(entity: &str, position: Position) -> String {
     match position.handle {
         Some(handle) => format!("{entity} {handle}"),

@@ -1,4 +1,4 @@
-//! The parameters that hold for each element of a path, with where each comes from.
+//! The parameters in force for each element of a path, with their sources.
 
 use std::fmt::Write;
 
@@ -12,18 +12,19 @@ use super::{Shown, handle, named};
 use crate::args::Format;
 use crate::context::Context;
 
-/// What is shown of a path: a table, or as JSON one object for each element.
+/// The parameters of a path: a table, or one JSON object per element.
 pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<Shown> {
     let index = file_index(db, file).path(path);
     let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
     let positions = drawn.positions.positions();
     let elements = in_force(db, file, path, &index.examples, true);
-    let placed = elements.iter().filter_map(|it| Some((it, *positions.get(it.origin.id.0 as usize)?)));
+    let placed =
+        elements.iter().filter_map(|element| Some((element, *positions.get(element.origin.id.0 as usize)?)));
     let file = file.path(db);
     match context.format {
         Format::Json => {
             let name = context.file(file);
-            placed.map(|(it, at)| Shown::Row("element", object(&name, path, it, at))).collect()
+            placed.map(|(element, at)| Shown::Row("element", object(&name, path, element, at))).collect()
         }
         _ => vec![Shown::Lines(table(context, file.as_str(), path, placed))],
     }
@@ -50,7 +51,7 @@ fn table<'a>(
     text
 }
 
-/// Where a parameter comes from, in words.
+/// Describes the source of a parameter.
 fn source(context: &Context, from: &Provider) -> String {
     let word = context.choose(from.word().en, from.word().de);
     match from {
@@ -60,7 +61,7 @@ fn source(context: &Context, from: &Provider) -> String {
     }
 }
 
-/// The configuration or the option that gives a value.
+/// The configuration key or option that sets a value.
 fn option(context: &Context, name: &str) -> String {
     let general = &context.settings.general;
     let origin = match name {

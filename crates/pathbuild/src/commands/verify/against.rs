@@ -1,4 +1,4 @@
-//! What a path's drawing says. (book: program/reading, `verify --against`)
+//! Compares a program with a path's drawing. (book: program/reading, `verify --against`)
 
 use std::sync::Arc;
 
@@ -25,20 +25,20 @@ use pathbuild_workspace::emit::{Provenances, missing_values, native_text, writin
 use pathbuild_workspace::posting::tool_table;
 use pathbuild_workspace::session::{OutputKind, Session};
 
-/// The program of a path.
+/// The program of a path, as its drawing defines it.
 pub(super) struct Against {
     drawn: Arc<Drawn>,
     /// The drawing.
     file: Utf8PathBuf,
-    /// Those around it, where its drawings have some.
+    /// The clamps around it, if its drawings have any.
     clamps: Option<Clamps>,
 }
 
-/// Why there is none.
+/// Why there is no such program.
 pub(super) enum Failure {
     /// An option is missing.
     Usage(String),
-    /// The drawing has errors, or the name means nothing.
+    /// The drawing has errors, or the name is unknown.
     Found(Vec<Diagnostic>),
 }
 
@@ -65,17 +65,17 @@ impl Against {
         Ok(Self { drawn, file, clamps })
     }
 
-    /// O in mm, if everything is milled with the same.
+    /// O in mm, if all cuts use the same tool.
     pub(super) fn cutter(&self) -> Option<f64> {
         self.drawn.cutter()
     }
 
-    /// T in mm, if everything that is milled has the same.
+    /// T in mm, if all cuts have the same.
     pub(super) fn surface(&self) -> Option<f64> {
         self.drawn.surface()
     }
 
-    /// What compares a program of a dialect with the drawing. Its steps are those at the heights before correction.
+    /// Compares a program in a dialect with the drawing. The steps must have their nominal heights, before correction.
     pub(super) fn comparison<'w>(
         &self,
         context: &Context,
@@ -91,7 +91,7 @@ impl Against {
         verify::Against::new(drawn, dialect, words)
     }
 
-    /// Says what was compared, and how many moves are equal.
+    /// Reports what was compared, and how many moves are equal.
     pub(super) fn say(&self, context: &Context, program: &Program, equal: usize) {
         let (path, moves) = (&self.drawn.path, interpret::each_move_of(&self.drawn).count());
         context.row_of_json(|| {
@@ -123,16 +123,16 @@ impl Against {
         context.printer.status(format_args!("{}: {line}", program.file));
     }
 
-    /// Whether the path has probes, and with them a probing run.
+    /// Whether the path has probes, and hence a probing run.
     pub(super) fn has_probes(&self) -> bool {
         !self.drawn.probes.is_empty()
     }
 
-    /// How the text of a native program differs from what `emit` writes: its formulas and probes, and the lines of a probing run, which
-    /// are errors. Where nothing else was found and the options are the same, also a comment, which is a warning.
+    /// Compares the text of a native program with what `emit` writes. Differences in formulas and probes, and in the lines of a probing
+    /// run, are errors. If nothing else was found and the options are the same, a different comment is a warning.
     ///
     /// # Errors
-    /// PB005: where what `emit` writes is too large.
+    /// PB005 if the text that `emit` would write is too large.
     pub(super) fn text_differences(
         &self,
         context: &Context,
@@ -172,12 +172,12 @@ impl Against {
         Ok(found)
     }
 
-    /// What holds a program of a dialect against the clamps around it, where there are some.
+    /// Checks a program in a dialect against the clamps around it, if there are any.
     pub(super) fn past_clamps(&self, dialect: Dialect) -> Option<PastClamps<'_>> {
         self.clamps.as_ref().map(|clamps| PastClamps::new(clamps, dialect))
     }
 
-    /// The cutter as the configuration has it.
+    /// The configured tool.
     fn tool(&self, context: &Context) -> ToolUse {
         let table = tool_table(context);
         let Some(entry) = table.find(&self.drawn.path, self.drawn.tool) else { return ToolUse::default() };
@@ -198,7 +198,7 @@ fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
     Diagnostic::new(message).with("expected", other.expected).at_line(other.line, None)
 }
 
-/// The one path that an argument means.
+/// Resolves an argument to a single path.
 fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
     let db = session.db();
     let wanted = session.wanted(&Inputs { inputs: vec![name.to_owned()] });

@@ -1,4 +1,4 @@
-//! `pathbuild verify`: whether a G-code program is safe to run, and is what a drawing says. (book: program/reading)
+//! `pathbuild verify`: checks that a G-code program is safe to run and matches its drawing. (book: program/reading)
 
 mod against;
 mod stock;
@@ -55,7 +55,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     conclude(context, &session, diagnostics)
 }
 
-/// What the command line says of cutter and material.
+/// Cutter and material from the command line.
 struct StockOptions {
     /// Diameter in mm.
     cutter: Option<f64>,
@@ -71,10 +71,10 @@ impl StockOptions {
     }
 }
 
-/// Everything that is wrong with a program. Of one whose heights are corrected the material is where it was drawn: a plate that is not flat
-/// is not milled by rapid moves that follow it. The machine is asked for what it has to do.
+/// Checks a program. If its heights are corrected, the material is assumed where it was drawn: rapid moves that follow an uneven plate do
+/// not mill it. The machine's limits apply to the actual moves.
 ///
-/// The text is interpreted twice, and not kept as steps: what is known of the material is asked by the rules.
+/// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
 fn check(
     context: &Context,
     file: &Utf8Path,
@@ -108,7 +108,7 @@ fn check(
     }
     let words = known_words(context, wrote, program.dialect);
     let mut foreign = against.is_none().then(|| WordRules::new(&words, program.dialect));
-    // The probing run of a drawing is a text of its own.
+    // The probing run of a drawing is a separate program.
     let is_probing = has_probed && program.dialect == Dialect::Native;
     let milled = against.filter(|against| !is_probing || !against.has_probes());
     let mut comparison = milled.map(|against| against.comparison(context, program.dialect, &words));
@@ -131,7 +131,7 @@ fn check(
     found.extend(stock::unknown_tools(context, &program, &tools));
     if program.dialect == Dialect::Native {
         found.extend(native::unstated_heights(&program.text));
-        // The reference's statistics are planned lengths, and of programs of others nobody knows what they count.
+        // PathDxf2GCode states planned lengths, and it is unknown what other programs count.
         if Provenance::of_head(&program.text).is_some() && !native::is_compatible(&program.text) {
             found.extend(stated.finish());
         }
@@ -157,8 +157,8 @@ fn check(
     Ok(diagnostics)
 }
 
-/// Whether a doubt is about something that the drawing's program does not say. How fine its arcs are is the drawing's business, and that
-/// feeds are passed over was asked for.
+/// Whether a warning is about something that the drawing's program does not contain. The fineness of arcs is up to the drawing, and
+/// ignoring feeds was requested.
 fn is_unsaid(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }

@@ -1,4 +1,4 @@
-//! What is known of cutter and material. (book: program/reading: the stock's extent is in no drawing)
+//! Determines cutter and material. (book: program/reading: the stock's extent is in no drawing)
 
 use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Diagnostic, Severity, Word};
@@ -13,7 +13,7 @@ use crate::commands::program::Program;
 use crate::context::Context;
 use pathbuild_workspace::posting::tool_table;
 
-/// The tools of a program, with their lines: it is told every step.
+/// The tools of a program with their lines, collected step by step.
 #[derive(Default)]
 pub(super) struct Tools {
     selected: Vec<(u32, u32)>,
@@ -21,7 +21,7 @@ pub(super) struct Tools {
 }
 
 impl Tools {
-    /// The next step of the program.
+    /// Processes the next step.
     pub(super) fn step(&mut self, step: &Step) {
         match step.action {
             Action::ChangeTool(number) => self.inserted.push((step.line, number.unwrap_or(0))),
@@ -30,12 +30,12 @@ impl Tools {
         }
     }
 
-    /// Those that it puts in; where it never says M6, those that it selects.
+    /// The tools inserted by M6; without any M6, the selected ones.
     fn used(&self) -> &[(u32, u32)] {
         if self.inserted.is_empty() { &self.selected } else { &self.inserted }
     }
 
-    /// Tools whose diameter in the table is not the header's, each once. Layers are no tools.
+    /// Warns about tools whose diameter in the table differs from the header's. Layers are not tools.
     fn other_than_header(&self, context: &Context, dialect: Dialect, header: Option<f64>) -> Vec<Diagnostic> {
         let table = tool_table(context);
         let mut found: Vec<(u32, u32, f64, f64)> = Vec::new();
@@ -53,7 +53,8 @@ impl Tools {
         found.into_iter().map(warning).collect()
     }
 
-    /// The diameters in mm, each from a line on, by the tool table; `None` if one is not in it, or there are no tools.
+    /// Diameters in mm from the tool table, each with the line from which it applies; `None` if a tool is not in the table, or if there are
+    /// no tools.
     fn cutters(&self, context: &Context) -> Option<Vec<(u32, f64)>> {
         let table = tool_table(context);
         let diameter = |number: u32| {
@@ -65,11 +66,11 @@ impl Tools {
     }
 }
 
-/// The material that a program cuts; `None` where cutter or surface are not known.
+/// The material that a program cuts; `None` if cutter or surface is unknown.
 ///
-/// The cutter is that of the command line, else the drawing's, else that of the tool's number, else the header's. A native program always
-/// says `T1`, so its header's decides. The surface is that of
-/// the command line, else the drawing's, if it has one only, else where a native program's plunges hand over, else the header's.
+/// The cutter is taken from the command line, else from the drawing, else from the tool table, else from the header. A native program
+/// always selects `T1`, so its header decides. The surface is taken from the command line, else from the drawing if it has only one, else
+/// from the heights at which a native program's plunges begin to cut, else from the header.
 pub(super) fn stock(
     context: &Context,
     program: &Program,
@@ -96,7 +97,7 @@ pub(super) fn stock(
     native.or_else(|| header.and_then(|header| header.thickness).map(uniform))
 }
 
-/// Where cutter or surface are said to be different by the header, the command line, the tool table and the drawing.
+/// Reports contradictory values for cutter or surface in the header, the command line, the tool table and the drawing.
 pub(super) fn disagreements(
     context: &Context,
     program: &Program,
@@ -118,7 +119,7 @@ pub(super) fn disagreements(
         };
         values.map(problem)
     };
-    // The operator reads the header, and puts in what it names.
+    // The operator reads the header, and inserts the tool that it names.
     let of_program = compared(&say::OTHER_CUTTER_DRAWN, &HEADER, different(of_header, drawn));
     found.extend(of_program.map(|it| Diagnostic { severity: Severity::Error, ..it }));
     found.extend(compared(&say::OTHER_CUTTER_DRAWN, &CUTTER, different(wishes.cutter, drawn)));
@@ -130,23 +131,23 @@ pub(super) fn disagreements(
     found
 }
 
-/// Two values that are not the same.
+/// Both values, if they differ.
 fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
     one.zip(other).filter(|(one, other)| (one - other).abs() > SAME)
 }
 
-/// Diameters and heights that differ by less, in mm, are the same.
+/// Tolerance in mm within which diameters and heights are equal.
 const SAME: f64 = 1e-6;
 
 static HEADER: Word = Word { en: "the header", de: "der Kopf" };
 static CUTTER: Word = Word { en: "--cutter", de: "--cutter" };
 static SURFACE: Word = Word { en: "--surface", de: "--surface" };
 
-/// Tools that the table does not have, each once; nothing where there is no table with numbers.
+/// Warns about tools that are not in the table, unless the table has no numbers at all.
 pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools) -> Vec<Diagnostic> {
     let table = tool_table(context);
     let known: Vec<u32> = table.entries.iter().filter_map(|entry| entry.index).collect();
-    // Layers are no tools, and the native program always says T1.
+    // Layers are not tools, and native programs always say T1.
     let is_no_tool = matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
     let mut unknown: Vec<(u32, u32)> = Vec::new();
     for (line, number) in tools.used() {
@@ -161,7 +162,7 @@ pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools)
     unknown.into_iter().map(warning).collect()
 }
 
-/// What is left out without it.
+/// Explains what is not checked if cutter or material is unknown.
 pub(super) fn not_known(context: &Context) -> &'static str {
     context.choose(
         "not checked: rapid moves into material, because cutter or material is not known (give --against PATH, or --cutter and --surface)",

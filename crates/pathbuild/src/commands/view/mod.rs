@@ -1,4 +1,4 @@
-//! `pathbuild view`: a path, a drawing or a program to look at. (docs: "Pictures")
+//! `pathbuild view`: shows a path, a drawing or a program. (docs: "Pictures")
 
 mod output;
 mod target;
@@ -10,7 +10,7 @@ use crate::exit::ExitStatus;
 use output::Output;
 use target::Failure;
 
-/// Runs the command. What has errors is shown with them.
+/// Runs the command. Errors are shown in the picture.
 pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     let output = match Output::of(context, args.output.as_deref()) {
         Ok(output) => output,

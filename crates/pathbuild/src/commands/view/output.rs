@@ -1,4 +1,4 @@
-//! What a scene becomes.
+//! Writes or shows a scene.
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, shown};
@@ -7,14 +7,14 @@ use pathbuild_view::{Scene, Shown};
 use crate::commands::picture_output::{deliver, show};
 use crate::context::Context;
 
-/// Where a scene goes, and as what.
+/// Destination of a scene, with its format.
 pub(super) struct Output {
     format: Format,
-    /// `None`: a file of its own, which the browser is given.
+    /// The file; `None` shows the scene in the browser.
     file: Option<Utf8PathBuf>,
 }
 
-/// As what.
+/// Format of a picture.
 #[derive(Clone, Copy)]
 enum Format {
     Svg,
@@ -28,7 +28,7 @@ enum Format {
 }
 
 impl Format {
-    /// By the end of a file's name.
+    /// Chooses the format by the extension.
     #[cfg(feature = "pictures")]
     fn of(extension: &str) -> Option<Self> {
         Some(match extension {
@@ -81,10 +81,10 @@ impl Format {
 }
 
 impl Output {
-    /// By the file's name.
+    /// Chooses the format by the extension.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If the extension is unknown.
     pub(super) fn of(context: &Context, file: Option<&Utf8Path>) -> Result<Self, String> {
         let Some(file) = file else { return Self::browser(context) };
         let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
@@ -106,10 +106,10 @@ impl Output {
         Err(format!("{needs}: {}", Format::names(context)))
     }
 
-    /// Writes the scene.
+    /// Writes or shows the scene.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// If it cannot be written or shown.
     pub(super) fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
         let bytes = self.format.bytes(scene, Shown::all(context.lang()));
         match &self.file {

@@ -1,4 +1,4 @@
-//! What an argument of `view` means.
+//! Resolves the argument of `view`.
 
 use camino::Utf8Path;
 use pathbuild_db::{SourceFile, path_names};
@@ -15,20 +15,20 @@ use crate::args::ViewArgs;
 use crate::commands::program::Program;
 use crate::context::Context;
 
-/// What there is to see of an argument.
+/// The scene of an argument.
 pub(super) struct Seen {
     pub(super) what: session::Seen,
     /// The drawing or program that is shown.
     pub(super) file: String,
 }
 
-/// Why there is nothing to see.
+/// Why nothing can be shown.
 pub(super) enum Failure {
     Usage(String),
     Found(Vec<Diagnostic>),
 }
 
-/// What there is to see of the argument: of a file that is no drawing the program in it.
+/// The scene of the argument. A file that is not a drawing is read as a program.
 pub(super) fn seen(context: &Context, args: &ViewArgs) -> Result<Seen, Failure> {
     let file = Utf8Path::new(&args.what);
     let is_drawing = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
