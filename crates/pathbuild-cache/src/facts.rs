@@ -49,7 +49,7 @@ pub struct DirectoryFact {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// What the result is about, mostly a drawing. Unique among the records.
-    pub of: Box<str>,
+    pub subject: Box<str>,
     /// The files that were read, as indices into [`Catalogue::files`].
     pub files: Vec<usize>,
     /// The lookups that were made, as indices into [`Catalogue::lookups`].

@@ -56,13 +56,13 @@ pub(crate) const COUNTS: usize = TABLES + 2;
 
 /// The catalogue exceeds what a results file can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct TooMuch;
+pub(crate) struct CatalogueTooLarge;
 
 /// Appends a catalogue.
-pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), TooMuch> {
+pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), CatalogueTooLarge> {
     let names: usize = catalogue.directories.iter().map(|directory| directory.names.len()).sum();
     let texts = catalogue.files.len() + names + catalogue.lookups.len() + catalogue.records.len();
-    let mut flat = Flat { known: HashMap::with_capacity(texts), ..Flat::default() };
+    let mut flat = Flat { interned: HashMap::with_capacity(texts), ..Flat::default() };
     let numbers = flat.files(&catalogue.files)?;
     for directory in &catalogue.directories {
         flat.directory(directory)?;
@@ -77,7 +77,7 @@ pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), To
         flat.add(LOOKUPS, &name);
     }
     let mut records: Vec<&Record> = catalogue.records.iter().collect();
-    records.sort_unstable_by(|a, b| a.of.cmp(&b.of));
+    records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
     for record in records {
         flat.record(record, &numbers)?;
     }
@@ -91,14 +91,14 @@ struct Flat<'a> {
     payloads: Vec<u8>,
     texts: String,
     /// Interned strings: the path of most files is also the subject of a record.
-    known: HashMap<&'a str, Span>,
+    interned: HashMap<&'a str, Span>,
 }
 
 /// Offset and length of a string, or index of the first row and number of rows.
 type Span = [u32; 2];
 
 impl<'a> Flat<'a> {
-    fn finish(self, bytes: &mut Vec<u8>) -> Result<(), TooMuch> {
+    fn finish(self, bytes: &mut Vec<u8>) -> Result<(), CatalogueTooLarge> {
         for (table, size) in self.tables.iter().zip(SIZES) {
             bytes.extend(word(table.len() / size)?.to_le_bytes());
         }
@@ -113,7 +113,7 @@ impl<'a> Flat<'a> {
     }
 
     /// Adds all files, sorted by path, and returns the new index of each.
-    fn files(&mut self, files: &'a [FileFact]) -> Result<Vec<u32>, TooMuch> {
+    fn files(&mut self, files: &'a [FileFact]) -> Result<Vec<u32>, CatalogueTooLarge> {
         let mut order: Vec<usize> = (0..files.len()).collect();
         order.sort_unstable_by(|a, b| files[*a].path.as_str().cmp(files[*b].path.as_str()));
         let mut numbers = vec![0; files.len()];
@@ -129,7 +129,7 @@ impl<'a> Flat<'a> {
         Ok(numbers)
     }
 
-    fn directory(&mut self, directory: &'a DirectoryFact) -> Result<(), TooMuch> {
+    fn directory(&mut self, directory: &'a DirectoryFact) -> Result<(), CatalogueTooLarge> {
         let (path, canonical) = (self.text(directory.path.as_str())?, self.text(&directory.canonical)?);
         let first = self.tables[NAMES].len() / SIZES[NAMES];
         for name in directory.names.iter() {
@@ -143,15 +143,15 @@ impl<'a> Flat<'a> {
         Ok(())
     }
 
-    fn record(&mut self, record: &'a Record, numbers: &[u32]) -> Result<(), TooMuch> {
-        let of = self.text(&record.of)?;
+    fn record(&mut self, record: &'a Record, numbers: &[u32]) -> Result<(), CatalogueTooLarge> {
+        let subject = self.text(&record.subject)?;
         let renumbered = |file: &usize| Ok(numbers[*file]);
         let files = self.rows(RECORD_FILES, record.files.iter().map(renumbered))?;
         let outputs = self.rows(RECORD_OUTPUTS, record.outputs.iter().map(renumbered))?;
         let lookups = self.rows(RECORD_LOOKUPS, record.lookups.iter().map(|lookup| word(*lookup)))?;
         let payload = [word(self.payloads.len())?, word(record.payload.len())?];
         self.payloads.extend_from_slice(&record.payload);
-        for span in [of, files, lookups, payload, outputs] {
+        for span in [subject, files, lookups, payload, outputs] {
             self.add(RECORDS, &span);
         }
         Ok(())
@@ -161,8 +161,8 @@ impl<'a> Flat<'a> {
     fn rows(
         &mut self,
         table: usize,
-        numbers: impl ExactSizeIterator<Item = Result<u32, TooMuch>>,
-    ) -> Result<Span, TooMuch> {
+        numbers: impl ExactSizeIterator<Item = Result<u32, CatalogueTooLarge>>,
+    ) -> Result<Span, CatalogueTooLarge> {
         let span = [word(self.tables[table].len() / SIZES[table])?, word(numbers.len())?];
         for number in numbers {
             self.add(table, &[number?]);
@@ -170,13 +170,13 @@ impl<'a> Flat<'a> {
         Ok(span)
     }
 
-    fn text(&mut self, text: &'a str) -> Result<Span, TooMuch> {
-        if let Some(known) = self.known.get(text) {
-            return Ok(*known);
+    fn text(&mut self, text: &'a str) -> Result<Span, CatalogueTooLarge> {
+        if let Some(interned) = self.interned.get(text) {
+            return Ok(*interned);
         }
         let span = [word(self.texts.len())?, word(text.len())?];
         self.texts.push_str(text);
-        self.known.insert(text, span);
+        self.interned.insert(text, span);
         Ok(span)
     }
 
@@ -187,6 +187,6 @@ impl<'a> Flat<'a> {
     }
 }
 
-fn word(number: usize) -> Result<u32, TooMuch> {
-    u32::try_from(number).map_err(|_| TooMuch)
+fn word(number: usize) -> Result<u32, CatalogueTooLarge> {
+    u32::try_from(number).map_err(|_| CatalogueTooLarge)
 }

@@ -4,7 +4,7 @@
 //! [`flat`]: crate::flat
 
 use crate::facts::Catalogue;
-use crate::flat::{TooMuch, write};
+use crate::flat::{CatalogueTooLarge, write};
 use crate::snapshot::Snapshot;
 
 /// Identifies a set of cached results: program build, settings, and query.
@@ -18,7 +18,7 @@ pub struct Key {
 
 /// Why a results file is not used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unusable {
+pub enum CacheFault {
     /// Not a results file, or incomplete.
     Damaged,
     /// Written by another build of the program, or for another query.
@@ -63,7 +63,7 @@ const DIGITS: usize = 24;
 ///
 /// # Errors
 /// If the catalogue is larger than a results file can be.
-pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, TooMuch> {
+pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, CatalogueTooLarge> {
     let mut file = Vec::new();
     file.extend_from_slice(MAGIC);
     file.extend_from_slice(&key.build);
@@ -76,15 +76,15 @@ pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, TooMuc
 }
 
 /// Decodes a results file that is complete and belongs to this key.
-pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Snapshot, Unusable> {
-    let found = key_of(&file).ok_or(Unusable::Damaged)?;
+pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Snapshot, CacheFault> {
+    let found = key_of(&file).ok_or(CacheFault::Damaged)?;
     if found != *key {
-        return Err(Unusable::Foreign);
+        return Err(CacheFault::Foreign);
     }
     if !is_whole(&file) {
-        return Err(Unusable::Damaged);
+        return Err(CacheFault::Damaged);
     }
-    Snapshot::new(file, HEAD).ok_or(Unusable::Damaged)
+    Snapshot::new(file, HEAD).ok_or(CacheFault::Damaged)
 }
 
 /// The key in a file's header.

@@ -22,13 +22,13 @@ mod upkeep;
 mod verify;
 
 pub use facts::{Catalogue, DirectoryFact, FileFact, Lookup, Record};
-pub use format::{Key, Unusable};
+pub use format::{CacheFault, Key};
 pub use listing::{Listing, Listings};
 pub use names::Names;
-pub use payload::{Corrupt, decode, encode};
+pub use payload::{CorruptPayload, decode, encode};
 pub use reasons::{Reason, reasons};
-pub use snapshot::{KeptDirectory, KeptFile, KeptRecord, Snapshot};
+pub use snapshot::{CachedDirectory, CachedFile, CachedRecord, Snapshot};
 pub use stamp::{Clock, Stamp};
 pub use tree_store::{Home, TreeStore};
-pub use upkeep::{Entry, NotRemoved};
-pub use verify::{Covers, FileState, Looking, Stamped, Verdict, verify};
+pub use upkeep::{Entry, RemoveError};
+pub use verify::{CoversFn, FileState, StampedBytes, Verdict, VerifyContext, verify};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// The bytes do not decode to a value of the expected type. The cached result is then ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Corrupt;
+pub struct CorruptPayload;
 
 /// Encodes a value; `None` if `postcard` cannot represent it.
 pub fn encode<T: Serialize + ?Sized>(value: &T) -> Option<Vec<u8>> {
@@ -15,9 +15,9 @@ pub fn encode<T: Serialize + ?Sized>(value: &T) -> Option<Vec<u8>> {
 ///
 /// # Errors
 /// If the bytes do not decode to this type, or if bytes remain.
-pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Corrupt> {
+pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, CorruptPayload> {
     match postcard::take_from_bytes(bytes) {
         Ok((value, [])) => Ok(value),
-        _ => Err(Corrupt),
+        _ => Err(CorruptPayload),
     }
 }

@@ -3,7 +3,7 @@
 use camino::Utf8PathBuf;
 
 use crate::snapshot::Snapshot;
-use crate::verify::{Covers, DirectoryChange, FileState, Verdict};
+use crate::verify::{CoversFn, DirectoryChange, FileState, Verdict};
 
 /// An input of a result that has changed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -32,18 +32,18 @@ pub enum Reason {
 }
 
 /// Lists why a record no longer holds, without duplicates; empty if it holds.
-pub fn reasons(kept: &Snapshot, verdict: &Verdict, record: usize, covers: Covers<'_>) -> Vec<Reason> {
-    let record = kept.record(record);
+pub fn reasons(snapshot: &Snapshot, verdict: &Verdict, record: usize, covers: CoversFn<'_>) -> Vec<Reason> {
+    let record = snapshot.record(record);
     let changed = record.files().filter(|file| verdict.files[*file] == FileState::Changed);
     let mut reasons: Vec<Reason> = changed
         .map(|file| {
-            let path = kept.file(file).path().to_owned();
+            let path = snapshot.file(file).path().to_owned();
             Reason::File { is_gone: !path.exists(), path }
         })
         .collect();
-    for (directories, name) in record.lookups().map(|lookup| kept.lookup(lookup)) {
-        for directory in kept.directory_list(directories) {
-            reasons.extend(of_lookup(kept, verdict, directory, name, covers));
+    for (directories, name) in record.lookups().map(|lookup| snapshot.lookup(lookup)) {
+        for directory in snapshot.directory_list(directories) {
+            reasons.extend(of_lookup(snapshot, verdict, directory, name, covers));
         }
     }
     reasons.sort();
@@ -64,13 +64,13 @@ impl Reason {
 }
 
 fn of_lookup(
-    kept: &Snapshot,
+    snapshot: &Snapshot,
     verdict: &Verdict,
     directory: usize,
     path: &str,
-    covers: Covers<'_>,
+    covers: CoversFn<'_>,
 ) -> Vec<Reason> {
-    let (before, now) = (kept.directory(directory), &verdict.directories[directory]);
+    let (before, now) = (snapshot.directory(directory), &verdict.directories[directory]);
     let directory = &now.path;
     match DirectoryChange::of(before, now) {
         DirectoryChange::None => Vec::new(),

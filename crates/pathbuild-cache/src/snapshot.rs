@@ -23,22 +23,22 @@ pub struct Snapshot {
 
 /// A file as it was read.
 #[derive(Clone, Copy, Debug)]
-pub struct KeptFile<'a> {
-    kept: &'a Snapshot,
+pub struct CachedFile<'a> {
+    snapshot: &'a Snapshot,
     row: Row<'a>,
 }
 
 /// A directory as it was listed.
 #[derive(Clone, Copy, Debug)]
-pub struct KeptDirectory<'a> {
-    kept: &'a Snapshot,
+pub struct CachedDirectory<'a> {
+    snapshot: &'a Snapshot,
     row: Row<'a>,
 }
 
 /// A result.
 #[derive(Clone, Copy, Debug)]
-pub struct KeptRecord<'a> {
-    kept: &'a Snapshot,
+pub struct CachedRecord<'a> {
+    snapshot: &'a Snapshot,
     row: Row<'a>,
 }
 
@@ -66,8 +66,8 @@ impl Snapshot {
             return None;
         }
         let texts = String::from_utf8(file.split_off(texts.start)).ok()?;
-        let kept = Self { bytes: file, tables, payloads, texts };
-        kept.is_in_bounds().then_some(kept)
+        let snapshot = Self { bytes: file, tables, payloads, texts };
+        snapshot.is_in_bounds().then_some(snapshot)
     }
 
     /// Number of files.
@@ -76,12 +76,12 @@ impl Snapshot {
     }
 
     /// A file by its index. Files are sorted by path.
-    pub fn file(&self, number: usize) -> KeptFile<'_> {
-        KeptFile { kept: self, row: self.row(FILES, number) }
+    pub fn file(&self, number: usize) -> CachedFile<'_> {
+        CachedFile { snapshot: self, row: self.row(FILES, number) }
     }
 
     /// Index of the file with this path.
-    pub fn file_of(&self, path: &Utf8Path) -> Option<usize> {
+    pub fn find_file(&self, path: &Utf8Path) -> Option<usize> {
         self.search(FILES, path.as_str())
     }
 
@@ -91,8 +91,8 @@ impl Snapshot {
     }
 
     /// A directory by its index.
-    pub fn directory(&self, number: usize) -> KeptDirectory<'_> {
-        KeptDirectory { kept: self, row: self.row(DIRECTORIES, number) }
+    pub fn directory(&self, number: usize) -> CachedDirectory<'_> {
+        CachedDirectory { snapshot: self, row: self.row(DIRECTORIES, number) }
     }
 
     /// Number of results.
@@ -101,14 +101,14 @@ impl Snapshot {
     }
 
     /// A result by its index. Results are sorted by subject.
-    pub fn record(&self, number: usize) -> KeptRecord<'_> {
-        KeptRecord { kept: self, row: self.row(RECORDS, number) }
+    pub fn record(&self, number: usize) -> CachedRecord<'_> {
+        CachedRecord { snapshot: self, row: self.row(RECORDS, number) }
     }
 
     /// Index of the result about this subject. `hint` is tried first.
-    pub fn record_of(&self, of: &str, likely: usize) -> Option<usize> {
-        let is_likely = likely < self.records() && self.record(likely).of() == of;
-        if is_likely { Some(likely) } else { self.search(RECORDS, of) }
+    pub fn find_record(&self, subject: &str, hint: usize) -> Option<usize> {
+        let is_likely = hint < self.records() && self.record(hint).subject() == subject;
+        if is_likely { Some(hint) } else { self.search(RECORDS, subject) }
     }
 
     /// Number of distinct lookups.
@@ -192,10 +192,10 @@ impl Snapshot {
     }
 }
 
-impl<'a> KeptFile<'a> {
+impl<'a> CachedFile<'a> {
     /// As the run spelled it.
     pub fn path(self) -> &'a Utf8Path {
-        Utf8Path::new(self.kept.text(self.row, 0))
+        Utf8Path::new(self.snapshot.text(self.row, 0))
     }
 
     /// The file's metadata when it was read.
@@ -210,15 +210,15 @@ impl<'a> KeptFile<'a> {
     }
 }
 
-impl<'a> KeptDirectory<'a> {
+impl<'a> CachedDirectory<'a> {
     /// As the run spelled it.
     pub fn path(self) -> &'a Utf8Path {
-        Utf8Path::new(self.kept.text(self.row, 0))
+        Utf8Path::new(self.snapshot.text(self.row, 0))
     }
 
     /// Canonical path when it was listed.
     pub fn canonical(self) -> &'a str {
-        self.kept.text(self.row, 2)
+        self.snapshot.text(self.row, 2)
     }
 
     /// Whether lookups in this directory are always repeated.
@@ -228,36 +228,36 @@ impl<'a> KeptDirectory<'a> {
 
     /// Its file names, sorted.
     pub fn names(self) -> impl ExactSizeIterator<Item = &'a str> {
-        self.row.range(5).map(move |number| self.kept.text(self.kept.row(NAMES, number), 0))
+        self.row.range(5).map(move |number| self.snapshot.text(self.snapshot.row(NAMES, number), 0))
     }
 }
 
-impl<'a> KeptRecord<'a> {
+impl<'a> CachedRecord<'a> {
     /// What the result is about.
-    pub fn of(self) -> &'a str {
-        self.kept.text(self.row, 0)
+    pub fn subject(self) -> &'a str {
+        self.snapshot.text(self.row, 0)
     }
 
     /// Indices of the files that were read.
     pub fn files(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
-        self.kept.numbers(RECORD_FILES, self.row.range(2))
+        self.snapshot.numbers(RECORD_FILES, self.row.range(2))
     }
 
     /// Indices of the lookups that were made.
     pub fn lookups(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
-        self.kept.numbers(RECORD_LOOKUPS, self.row.range(4))
+        self.snapshot.numbers(RECORD_LOOKUPS, self.row.range(4))
     }
 
     /// Indices of the files that were written.
     pub fn outputs(self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
-        self.kept.numbers(RECORD_OUTPUTS, self.row.range(8))
+        self.snapshot.numbers(RECORD_OUTPUTS, self.row.range(8))
     }
 
     /// The result itself; only the crate that stored it can decode it.
     pub fn payload(self) -> &'a [u8] {
         let Range { start, end } = self.row.range(6);
-        let payloads = self.kept.payloads.start;
-        self.kept.bytes.get(payloads + start..payloads + end).unwrap_or_default()
+        let payloads = self.snapshot.payloads.start;
+        self.snapshot.bytes.get(payloads + start..payloads + end).unwrap_or_default()
     }
 }
 

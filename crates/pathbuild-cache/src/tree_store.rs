@@ -9,8 +9,8 @@ use pathbuild_diagnostic::Word;
 use pathbuild_diagnostic::reasons::HOLDS_OTHERS;
 
 use crate::facts::Catalogue;
-use crate::flat::TooMuch;
-use crate::format::{self, Key, Unusable};
+use crate::flat::CatalogueTooLarge;
+use crate::format::{self, CacheFault, Key};
 use crate::private;
 use crate::snapshot::Snapshot;
 use crate::stamp::Clock;
@@ -77,11 +77,11 @@ impl TreeStore {
     ///
     /// # Errors
     /// Why the results file cannot be used.
-    pub fn load(&self, key: &Key) -> Result<Option<Snapshot>, Unusable> {
+    pub fn load(&self, key: &Key) -> Result<Option<Snapshot>, CacheFault> {
         match private::read(&self.directory.join(key.file_name()), LARGEST) {
             Ok(Some(file)) => format::decode(key, file).map(Some),
             Ok(None) => Ok(None),
-            Err(_) => Err(Unusable::Damaged),
+            Err(_) => Err(CacheFault::Damaged),
         }
     }
 
@@ -91,7 +91,7 @@ impl TreeStore {
     /// If they cannot be written; the earlier ones remain.
     pub fn store(&self, key: &Key, catalogue: &Catalogue) -> io::Result<()> {
         let too_much = || io::Error::other("there is more to keep than a file can hold");
-        let bytes = format::encode(key, catalogue).map_err(|TooMuch| too_much())?;
+        let bytes = format::encode(key, catalogue).map_err(|CatalogueTooLarge| too_much())?;
         if bytes.len() as u64 > LARGEST {
             return Err(too_much());
         }

@@ -9,7 +9,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{NO_CACHE, reason};
 
-use crate::format::{self, Key, Unusable};
+use crate::format::{self, CacheFault, Key};
 use crate::private;
 use crate::stamp::CLOCK;
 use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag, is_own_tree};
@@ -22,12 +22,12 @@ pub struct Entry {
     /// Size in bytes.
     pub size: u64,
     /// Why the file cannot be used; `None` if it can.
-    pub fault: Option<Unusable>,
+    pub fault: Option<CacheFault>,
 }
 
 /// A file or directory that could not be removed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NotRemoved {
+pub struct RemoveError {
     /// Its path.
     pub path: Utf8PathBuf,
     /// Why it could not be removed.
@@ -35,14 +35,14 @@ pub struct NotRemoved {
 }
 
 /// Age after which pruning removes results that have not been rewritten.
-const UNUSED: Duration = Duration::from_hours(30 * 24);
+const UNUSED_AGE: Duration = Duration::from_hours(30 * 24);
 /// Age after which a temporary file must have been left by a killed process.
-const LEFT_BEHIND: Duration = Duration::from_hours(1);
+const ABANDONED_AGE: Duration = Duration::from_hours(1);
 
 impl TreeStore {
     /// All results files, sorted by name, each with whether this build of the program can use it.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = names(self.directory())
+        let mut entries: Vec<Entry> = entry_names(self.directory())
             .filter(|name| format::is_file_name(name))
             .map(|name| self.directory().join(name))
             .map(|path| Entry {
@@ -60,13 +60,14 @@ impl TreeStore {
     ///
     /// # Errors
     /// If one of them cannot be removed, or if the directory is not a cache; then nothing is removed.
-    pub fn prune(&self, build: &Key) -> Result<usize, NotRemoved> {
+    pub fn prune(&self, build: &Key) -> Result<usize, RemoveError> {
         refuse_others(self.directory())?;
         let unused = self.entries(build).into_iter();
-        let unused = unused.filter(|entry| entry.fault.is_some() || is_older(&entry.path, UNUSED));
-        let left = names(self.directory()).filter(|name| is_temporary(name));
-        let left = left.map(|name| self.directory().join(name)).filter(|path| is_older(path, LEFT_BEHIND));
-        let all: Vec<Utf8PathBuf> = unused.map(|entry| entry.path).chain(left).collect();
+        let unused = unused.filter(|entry| entry.fault.is_some() || is_older(&entry.path, UNUSED_AGE));
+        let abandoned = entry_names(self.directory()).filter(|name| is_temporary(name));
+        let abandoned =
+            abandoned.map(|name| self.directory().join(name)).filter(|path| is_older(path, ABANDONED_AGE));
+        let all: Vec<Utf8PathBuf> = unused.map(|entry| entry.path).chain(abandoned).collect();
         all.iter().try_for_each(|path| remove(path))?;
         Ok(all.len())
     }
@@ -75,7 +76,7 @@ impl TreeStore {
     ///
     /// # Errors
     /// If it cannot be removed, or if it is not a cache; then nothing is removed.
-    pub fn clean(&self) -> Result<bool, NotRemoved> {
+    pub fn clean(&self) -> Result<bool, RemoveError> {
         let is_there = fs::symlink_metadata(self.directory()).is_ok();
         if is_there {
             clean(self.directory())?;
@@ -89,10 +90,10 @@ impl Home {
     ///
     /// # Errors
     /// If the results of a tree cannot be removed.
-    pub fn prune(&self) -> Result<usize, NotRemoved> {
+    pub fn prune(&self) -> Result<usize, RemoveError> {
         let Self::User(caches) = self else { return Ok(0) };
         let (mut removed, mut not_removed) = (0, None);
-        for directory in names(caches).map(|name| caches.join(name)) {
+        for directory in entry_names(caches).map(|name| caches.join(name)) {
             let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
             let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
             if tree.is_some_and(|tree| !Utf8Path::new(&tree).as_std_path().exists()) {
@@ -126,10 +127,11 @@ fn is_temporary(name: &str) -> bool {
 }
 
 /// Removes pathbuild's files from a directory, and the directory itself if it is then empty.
-fn clean(directory: &Utf8Path) -> Result<(), NotRemoved> {
+fn clean(directory: &Utf8Path) -> Result<(), RemoveError> {
     refuse_others(directory)?;
     // The tag that marks the directory as a cache goes last.
-    let ours: Vec<String> = names(directory).filter(|name| name != TAG && is_ours(directory, name)).collect();
+    let ours: Vec<String> =
+        entry_names(directory).filter(|name| name != TAG && is_ours(directory, name)).collect();
     for name in ours.into_iter().chain([TAG.to_owned()]) {
         remove(&directory.join(name))?;
     }
@@ -142,40 +144,40 @@ fn clean(directory: &Utf8Path) -> Result<(), NotRemoved> {
 }
 
 /// Refuses directories reached through a symbolic link or not created by pathbuild: other programs may use the same file names.
-fn refuse_others(directory: &Utf8Path) -> Result<(), NotRemoved> {
-    let refused = |word| NotRemoved { path: directory.to_owned(), reason: Value::Word(word) };
+fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
+    let refused = |word| RemoveError { path: directory.to_owned(), reason: Value::Word(word) };
     if let Some(word) = private::refusal(directory) {
         return Err(refused(word));
     }
     let tag = directory.join(TAG);
-    let tag = private::read(&tag, SMALL).map_err(|reason| NotRemoved { path: tag, reason })?;
+    let tag = private::read(&tag, SMALL).map_err(|reason| RemoveError { path: tag, reason })?;
     // Another process may be about to write the tag, or may just have removed it; all other files must then be ours.
-    let is_cache =
-        tag.map_or_else(|| names(directory).all(|name| is_ours(directory, &name)), |tag| is_own_tag(&tag));
+    let is_cache = tag
+        .map_or_else(|| entry_names(directory).all(|name| is_ours(directory, &name)), |tag| is_own_tag(&tag));
     if !is_cache {
         return Err(refused(&NO_CACHE));
     }
     Ok(())
 }
 
-fn remove(path: &Utf8Path) -> Result<(), NotRemoved> {
+fn remove(path: &Utf8Path) -> Result<(), RemoveError> {
     private::remove(path).map_err(|error| not_removed(path, &error))
 }
 
-fn not_removed(path: &Utf8Path, error: &io::Error) -> NotRemoved {
-    NotRemoved { path: path.to_owned(), reason: reason(error) }
+fn not_removed(path: &Utf8Path, error: &io::Error) -> RemoveError {
+    RemoveError { path: path.to_owned(), reason: reason(error) }
 }
 
-fn names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
+fn entry_names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
     let listed = directory.read_dir_utf8().into_iter().flatten().filter_map(Result::ok);
     listed.map(|entry| entry.file_name().to_owned()).collect::<Vec<_>>().into_iter()
 }
 
-fn fault(path: &Utf8Path, build: &Key) -> Option<Unusable> {
-    let Ok(Some(file)) = private::read(path, LARGEST) else { return Some(Unusable::Damaged) };
-    let Some(key) = format::key_of(&file) else { return Some(Unusable::Damaged) };
+fn fault(path: &Utf8Path, build: &Key) -> Option<CacheFault> {
+    let Ok(Some(file)) = private::read(path, LARGEST) else { return Some(CacheFault::Damaged) };
+    let Some(key) = format::key_of(&file) else { return Some(CacheFault::Damaged) };
     if key.build != build.build {
-        return Some(Unusable::Foreign);
+        return Some(CacheFault::Foreign);
     }
     format::decode(&key, file).err()
 }

@@ -12,8 +12,8 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Catalogue, Clock, DirectoryFact, FileFact, FileState, Home, Key, Listing, Listings, Looking, Lookup,
-    Record, Snapshot, Stamp, TreeStore, Unusable, Verdict, decode, encode,
+    CacheFault, Catalogue, Clock, DirectoryFact, FileFact, FileState, Home, Key, Listing, Listings, Lookup,
+    Record, Snapshot, Stamp, TreeStore, Verdict, VerifyContext, decode, encode,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
@@ -30,7 +30,7 @@ fn place() -> (TempDir, Utf8PathBuf) {
 /// A result made from one drawing, and from the question which files may hold 1234.1P.
 fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     let record = Record {
-        of: "a.dxf".into(),
+        subject: "a.dxf".into(),
         files: vec![0],
         lookups: vec![0],
         payload: b"result".to_vec(),
@@ -47,7 +47,7 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
 }
 
 /// What comes of keeping a catalogue.
-fn kept(catalogue: &Catalogue) -> Snapshot {
+fn snapshot(catalogue: &Catalogue) -> Snapshot {
     let (_directory, base) = place();
     let place = cache(&base);
     let key = Key::new("build", "question");
@@ -55,18 +55,18 @@ fn kept(catalogue: &Catalogue) -> Snapshot {
     place.load(&key).unwrap().unwrap()
 }
 
-fn verify(catalogue: &Catalogue, base: &Utf8Path, covers: pathbuild_cache::Covers<'_>) -> Verdict {
-    pathbuild_cache::verify(&kept(catalogue), looking(base, covers), Listings::new())
+fn verify(catalogue: &Catalogue, base: &Utf8Path, covers: pathbuild_cache::CoversFn<'_>) -> Verdict {
+    pathbuild_cache::verify(&snapshot(catalogue), context(base, covers), Listings::new())
 }
 
 /// A catalogue again, as it lies in a file.
-fn catalogue_of(kept: &Snapshot) -> Catalogue {
+fn catalogue_of(snapshot: &Snapshot) -> Catalogue {
     let file = |number| {
-        let file = kept.file(number);
+        let file = snapshot.file(number);
         FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() }
     };
     let directory = |number| {
-        let directory = kept.directory(number);
+        let directory = snapshot.directory(number);
         DirectoryFact {
             path: directory.path().to_owned(),
             names: directory.names().collect(),
@@ -75,13 +75,13 @@ fn catalogue_of(kept: &Snapshot) -> Catalogue {
         }
     };
     let lookup = |number| {
-        let (directories, name) = kept.lookup(number);
+        let (directories, name) = snapshot.lookup(number);
         Lookup { directories, name: name.into() }
     };
     let record = |number| {
-        let record = kept.record(number);
+        let record = snapshot.record(number);
         Record {
-            of: record.of().into(),
+            subject: record.subject().into(),
             files: record.files().collect(),
             lookups: record.lookups().collect(),
             outputs: record.outputs().collect(),
@@ -89,13 +89,13 @@ fn catalogue_of(kept: &Snapshot) -> Catalogue {
         }
     };
     Catalogue {
-        files: (0..kept.files()).map(file).collect(),
-        directories: (0..kept.directories()).map(directory).collect(),
-        directory_lists: (0..kept.directory_lists())
-            .map(|list| kept.directory_list(list).collect())
+        files: (0..snapshot.files()).map(file).collect(),
+        directories: (0..snapshot.directories()).map(directory).collect(),
+        directory_lists: (0..snapshot.directory_lists())
+            .map(|list| snapshot.directory_list(list).collect())
             .collect(),
-        lookups: (0..kept.lookups()).map(lookup).collect(),
-        records: (0..kept.records()).map(record).collect(),
+        lookups: (0..snapshot.lookups()).map(lookup).collect(),
+        records: (0..snapshot.records()).map(record).collect(),
     }
 }
 
@@ -104,9 +104,9 @@ fn covers(file: &str, path: &str) -> bool {
 }
 
 /// Everything is looked at; of outputs all counts.
-fn looking<'a>(base: &'a Utf8Path, covers: pathbuild_cache::Covers<'a>) -> Looking<'a> {
+fn context<'a>(base: &'a Utf8Path, covers: pathbuild_cache::CoversFn<'a>) -> VerifyContext<'a> {
     let hash_output = &|_: &Utf8Path, bytes: &[u8]| *blake3::hash(bytes).as_bytes();
-    Looking { base, covers, is_asked: &|_| true, is_allowed: &|_| true, read: &read, hash_output }
+    VerifyContext { base, covers, is_requested: &|_| true, is_allowed: &|_| true, read: &read, hash_output }
 }
 
 /// A cache that is there.
@@ -148,13 +148,13 @@ fn every_message_comes_back_with_all_its_values() {
 fn a_catalogue_is_found_under_its_key_and_build_only() {
     let (_directory, base) = place();
     let place = cache(&base);
-    let kept = catalogue(&base, Stamp::MISSING, b"");
+    let snapshot = catalogue(&base, Stamp::MISSING, b"");
     let key = Key::new("build", "question");
     assert_eq!(place.load(&key), Ok(None));
-    place.store(&key, &kept).unwrap();
-    assert_eq!(catalogue_of(&place.load(&key).unwrap().unwrap()), kept);
+    place.store(&key, &snapshot).unwrap();
+    assert_eq!(catalogue_of(&place.load(&key).unwrap().unwrap()), snapshot);
     assert_eq!(place.load(&Key::new("build", "other")), Ok(None));
-    assert_eq!(place.load(&Key::new("other", "question")), Err(Unusable::Foreign));
+    assert_eq!(place.load(&Key::new("other", "question")), Err(CacheFault::Foreign));
 }
 
 /// A file, and the time when a run begins after it has rested.
@@ -175,13 +175,13 @@ fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
     let (file, begun) = written(&base, Duration::ZERO);
     let stamp = Stamp::of(&file).settled(begun);
     assert_eq!(stamp, Stamp::UNKNOWN);
-    let kept = catalogue(&base, stamp, b"one");
-    let verdict = verify(&kept, &base, &covers);
-    let expected = (FileState::Restored(Stamp::of(&file)), true, false);
+    let snapshot = catalogue(&base, stamp, b"one");
+    let verdict = verify(&snapshot, &base, &covers);
+    let expected = (FileState::Touched(Stamp::of(&file)), true, false);
     assert_eq!((verdict.files[0], verdict.holds[0], verdict.is_current), expected);
     // Of the same size, and perhaps within the same tick of the clock.
     fs::write(&file, "two").unwrap();
-    assert_eq!(verify(&kept, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
 
 #[test]
@@ -191,14 +191,14 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
     let (file, begun) = written(&base, Duration::from_millis(3200));
     let stamp = Stamp::of(&file).settled(begun);
     assert_ne!(stamp, Stamp::UNKNOWN);
-    let kept = catalogue(&base, stamp, b"one");
-    assert!(verify(&kept, &base, &covers).is_current);
+    let snapshot = catalogue(&base, stamp, b"one");
+    assert!(verify(&snapshot, &base, &covers).is_current);
     fs::write(&file, "two").unwrap();
-    assert_eq!(verify(&kept, &base, &covers).files, [FileState::Changed]);
+    assert_eq!(verify(&snapshot, &base, &covers).files, [FileState::Changed]);
     fs::write(&file, "one").unwrap();
-    assert_eq!(verify(&kept, &base, &covers).files, [FileState::Restored(Stamp::of(&file))]);
+    assert_eq!(verify(&snapshot, &base, &covers).files, [FileState::Touched(Stamp::of(&file))]);
     fs::remove_file(&file).unwrap();
-    assert_eq!(verify(&kept, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
 
 /// A clock that is set back makes a file of now one of the past: it is the bytes' own stamp that is kept.
@@ -229,12 +229,12 @@ fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
 fn only_names_that_may_hold_what_was_looked_for_are_an_answer() {
     let (_directory, base) = place();
     fs::write(base.join("a.dxf"), "one").unwrap();
-    let kept = catalogue(&base, Stamp::UNKNOWN, b"one");
+    let snapshot = catalogue(&base, Stamp::UNKNOWN, b"one");
     fs::write(base.join("5678.dxf"), "").unwrap();
     fs::write(base.join("1234.txt"), "").unwrap();
-    assert_eq!(verify(&kept, &base, &covers).holds, [true]);
+    assert_eq!(verify(&snapshot, &base, &covers).holds, [true]);
     fs::write(base.join("1234 gear.DXF"), "").unwrap();
-    assert_eq!(verify(&kept, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
 
 #[cfg(unix)]
@@ -242,9 +242,9 @@ fn only_names_that_may_hold_what_was_looked_for_are_an_answer() {
 fn where_links_decide_what_is_what_everything_is_asked_again() {
     let (_directory, base) = place();
     fs::write(base.join("a.dxf"), "one").unwrap();
-    let kept = catalogue(&base, Stamp::UNKNOWN, b"one");
+    let snapshot = catalogue(&base, Stamp::UNKNOWN, b"one");
     std::os::unix::fs::symlink("a.dxf", base.join("5678.dxf")).unwrap();
-    assert_eq!(verify(&kept, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
 
 /// A result holds without what was written of it, and nothing is known of what nobody asks for.
@@ -259,22 +259,26 @@ fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
         stamp: Stamp::UNKNOWN,
         hash: Some(*blake3::hash(b"one").as_bytes()),
     };
-    let record =
-        |of: &str, file, outputs| Record { of: of.into(), files: vec![file], outputs, ..Record::default() };
-    let kept = kept(&Catalogue {
+    let record = |subject: &str, file, outputs| Record {
+        subject: subject.into(),
+        files: vec![file],
+        outputs,
+        ..Record::default()
+    };
+    let snapshot = snapshot(&Catalogue {
         files: vec![file("a.dxf"), file("a.gcode"), file("b.dxf")],
         records: vec![record("a", 0, vec![1]), record("b", 2, Vec::new())],
         ..Catalogue::default()
     });
-    let looking = Looking { is_asked: &|of| of == "a", ..looking(&base, &covers) };
-    let states = || pathbuild_cache::verify(&kept, looking, Listings::new());
-    let restored = |name: &str| FileState::Restored(Stamp::of(&base.join(name)));
-    assert_eq!(states().files, [restored("a.dxf"), restored("a.gcode"), FileState::Unlooked]);
+    let context = VerifyContext { is_requested: &|subject| subject == "a", ..context(&base, &covers) };
+    let states = || pathbuild_cache::verify(&snapshot, context, Listings::new());
+    let restored = |name: &str| FileState::Touched(Stamp::of(&base.join(name)));
+    assert_eq!(states().files, [restored("a.dxf"), restored("a.gcode"), FileState::Unchecked]);
     assert_eq!(states().holds, [true, false]);
     fs::write(base.join("a.gcode"), "two").unwrap();
     assert_eq!((states().files[1], states().holds[0]), (FileState::Changed, true));
-    let people = Looking { hash_output: &|_, _| *blake3::hash(b"one").as_bytes(), ..looking };
-    assert_eq!(pathbuild_cache::verify(&kept, people, Listings::new()).files[1], restored("a.gcode"));
+    let people = VerifyContext { hash_output: &|_, _| *blake3::hash(b"one").as_bytes(), ..context };
+    assert_eq!(pathbuild_cache::verify(&snapshot, people, Listings::new()).files[1], restored("a.gcode"));
 }
 
 /// Files and results in no order, several of one file, with texts that begin alike and are no ASCII.
@@ -286,7 +290,7 @@ fn larger(base: &Utf8Path) -> Catalogue {
         hash: (index != 2).then_some([index; 32]),
     };
     let record = |(index, name): (usize, &&str)| Record {
-        of: (*name).into(),
+        subject: (*name).into(),
         files: vec![index, 0],
         lookups: (0..index % 3).collect(),
         payload: vec![7; index],
@@ -312,33 +316,36 @@ fn larger(base: &Utf8Path) -> Catalogue {
 fn what_is_kept_is_found_by_its_name() {
     let (_directory, base) = place();
     let catalogue = larger(&base);
-    let kept = kept(&catalogue);
+    let snapshot = snapshot(&catalogue);
     for fact in &catalogue.files {
-        let file = kept.file(kept.file_of(&fact.path).unwrap());
+        let file = snapshot.file(snapshot.find_file(&fact.path).unwrap());
         assert_eq!((file.path(), file.stamp(), file.hash()), (&*fact.path, fact.stamp, fact.hash));
     }
     for fact in &catalogue.records {
-        for likely in 0..6 {
-            let record = kept.record(kept.record_of(&fact.of, likely).unwrap());
-            assert_eq!((record.of(), record.payload()), (&*fact.of, &*fact.payload));
-            let paths: Vec<&Utf8Path> = record.files().map(|file| kept.file(file).path()).collect();
+        for hint in 0..6 {
+            let record = snapshot.record(snapshot.find_record(&fact.subject, hint).unwrap());
+            assert_eq!((record.subject(), record.payload()), (&*fact.subject, &*fact.payload));
+            let paths: Vec<&Utf8Path> = record.files().map(|file| snapshot.file(file).path()).collect();
             assert_eq!(
                 paths,
                 fact.files.iter().map(|file| &*catalogue.files[*file].path).collect::<Vec<_>>()
             );
             assert_eq!(record.lookups().collect::<Vec<_>>(), fact.lookups);
-            let outputs: Vec<&Utf8Path> = record.outputs().map(|file| kept.file(file).path()).collect();
+            let outputs: Vec<&Utf8Path> = record.outputs().map(|file| snapshot.file(file).path()).collect();
             let expected: Vec<_> = fact.outputs.iter().map(|file| &*catalogue.files[*file].path).collect();
             assert_eq!(outputs, expected);
         }
     }
     for nothing in ["", "a", "a.dxf.", "z", "b.dxe"] {
-        assert_eq!((kept.record_of(nothing, 0), kept.file_of(Utf8Path::new(nothing))), (None, None));
+        assert_eq!(
+            (snapshot.find_record(nothing, 0), snapshot.find_file(Utf8Path::new(nothing))),
+            (None, None)
+        );
     }
-    let again = catalogue_of(&kept);
+    let again = catalogue_of(&snapshot);
     assert_eq!(again.directories, catalogue.directories);
     assert_eq!((again.directory_lists, again.lookups), (catalogue.directory_lists, catalogue.lookups));
-    assert_eq!(Snapshot::default().record_of("a.dxf", 0), None);
+    assert_eq!(Snapshot::default().find_record("a.dxf", 0), None);
 }
 
 /// Neither a flipped bit, nor a part of a file, nor more than a file.
@@ -358,7 +365,7 @@ fn a_file_that_is_not_whole_is_not_used() {
         let mut flipped = whole.clone();
         flipped[at] ^= 1 << (at % 8);
         assert!(load(&flipped).is_err(), "a bit of byte {at} flipped");
-        assert_eq!(load(&whole[..at]), Err(Unusable::Damaged), "cut at {at}");
+        assert_eq!(load(&whole[..at]), Err(CacheFault::Damaged), "cut at {at}");
     }
     assert!(load(&[&*whole, b"0"].concat()).is_err());
     assert!(load(&whole).is_ok());
@@ -383,11 +390,11 @@ fn numbers_out_of_bounds_are_refused() {
             let checksum = *blake3::hash(&forged[HEAD..]).as_bytes();
             forged[HEAD - 32..HEAD].copy_from_slice(&checksum);
             fs::write(&file, forged).unwrap();
-            if let Ok(Some(kept)) = place.load(&key) {
+            if let Ok(Some(snapshot)) = place.load(&key) {
                 // What it says may be wrong, but can be looked at.
-                let verdict = pathbuild_cache::verify(&kept, looking(&base, &covers), Listings::new());
-                assert_eq!(verdict.holds.len(), kept.records());
-                catalogue_of(&kept);
+                let verdict = pathbuild_cache::verify(&snapshot, context(&base, &covers), Listings::new());
+                assert_eq!(verdict.holds.len(), snapshot.records());
+                catalogue_of(&snapshot);
             }
         }
     }
@@ -397,11 +404,11 @@ fn numbers_out_of_bounds_are_refused() {
 fn a_directory_that_was_listed_is_not_listed_again() {
     let (_directory, base) = place();
     fs::write(base.join("a.dxf"), "one").unwrap();
-    let kept = kept(&catalogue(&base, Stamp::UNKNOWN, b"one"));
+    let snapshot = snapshot(&catalogue(&base, Stamp::UNKNOWN, b"one"));
     let holds = |names: &[&str], is_doubtful| {
         let names = names.iter().copied().collect();
         let listings = Listings::from([(base.clone(), Listing { names, is_doubtful })]);
-        pathbuild_cache::verify(&kept, looking(&base, &covers), listings).holds[0]
+        pathbuild_cache::verify(&snapshot, context(&base, &covers), listings).holds[0]
     };
     assert!(holds(&["a.dxf"], false));
     assert!(holds(&["5678.dxf", "a.dxf"], false));

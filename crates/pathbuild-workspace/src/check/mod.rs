@@ -25,7 +25,7 @@ use crate::workspace::Workspace;
 
 pub use drawings::check_drawings;
 use drawings::check_paths;
-use results::{ChangeFilter, Results, of};
+use results::{ChangeFilter, Results, subject};
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -128,7 +128,7 @@ fn check(
     let (q_projects, fresh_pairs) = session.settled(|session| results.q_projects(session, &selection));
     fresh.extend(fresh_pairs);
     results.keep(session, &fresh);
-    let names = answers.iter().map(|(target, _)| of(&target.drawing, target.names.as_deref()));
+    let names = answers.iter().map(|(target, _)| subject(&target.drawing, target.names.as_deref()));
     let names = names.chain(q_projects.iter().map(|(subject, _)| Cow::Borrowed(&**subject)));
     let filter = ChangeFilter::new(session, results, &fresh, since(session, request, found), names);
     let mut checked = Checked { diagnostics: found.problems.clone(), ..Checked::default() };
@@ -144,7 +144,7 @@ fn check(
         checked.diagnostics.extend(session.no_path_anywhere(parts));
     }
     for (CheckTarget { drawing, names }, result) in answers {
-        if !filter.contains(&of(&drawing, names.as_deref())) {
+        if !filter.contains(&subject(&drawing, names.as_deref())) {
             continue;
         }
         checked.files.push(CheckedFile { file: drawing, paths: result.names });
@@ -183,8 +183,10 @@ struct Answers {
 fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, results: &Results) -> Answers {
     let (selection, mut fresh) = results.select(session, found);
     let targets = targets(session, &selection);
-    let mut known: Vec<Option<DrawingResult>> =
-        targets.iter().map(|target| results.known(&of(&target.drawing, target.names.as_deref()))).collect();
+    let mut known: Vec<Option<DrawingResult>> = targets
+        .iter()
+        .map(|target| results.known(&subject(&target.drawing, target.names.as_deref())))
+        .collect();
     let open: Vec<usize> = (0..targets.len()).filter(|index| known[*index].is_none()).collect();
     results.report_known(session, targets.len() - open.len(), targets.len());
     let paths: Vec<(SourceFile, Option<&[PathName]>)> =
@@ -193,7 +195,7 @@ fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, resu
     for ((result, traces), index) in checked.into_iter().zip(open) {
         let CheckTarget { drawing, names } = &targets[index];
         if session.is_traced() {
-            fresh.push(results::new(&of(drawing, names.as_deref()), traces, &result));
+            fresh.push(results::new(&subject(drawing, names.as_deref()), traces, &result));
         }
         known[index] = Some(result);
     }

@@ -43,7 +43,7 @@ impl Results {
 
     /// The cached paths of a drawing.
     fn names(&self, drawing: &Utf8Path) -> Option<DrawingResult> {
-        self.known(drawing.as_str()).or_else(|| self.known(&of_names(drawing)))
+        self.known(drawing.as_str()).or_else(|| self.known(&names_subject(drawing)))
     }
 
     /// Resolves the arguments. Also returns the results that had to be computed for that.
@@ -59,7 +59,7 @@ impl Results {
         let read = named.iter().filter(|drawing| drawing.is_read && session.is_traced());
         let fresh = read.map(|Drawing { path, said, .. }| {
             let trace = Trace { files: vec![session.file(path)], lookups: Vec::new() };
-            new(&of_names(path), vec![trace], said)
+            new(&names_subject(path), vec![trace], said)
         });
         (selection, fresh.collect())
     }
@@ -115,20 +115,20 @@ impl Results {
 }
 
 /// Cache subject of a drawing's result, or of the result of some of its paths.
-pub(super) fn of<'a>(drawing: &'a Utf8Path, paths: Option<&[PathName]>) -> Cow<'a, str> {
+pub(super) fn subject<'a>(drawing: &'a Utf8Path, paths: Option<&[PathName]>) -> Cow<'a, str> {
     let Some(paths) = paths else { return drawing.as_str().into() };
     let names: String = paths.iter().flat_map(|path| ["\0", path.as_str()]).collect();
     format!("{drawing}\0{names}").into()
 }
 
 /// Cache subject of the list of a drawing's paths.
-fn of_names(drawing: &Utf8Path) -> Cow<'_, str> {
-    of(drawing, Some(&[]))
+fn names_subject(drawing: &Utf8Path) -> Cow<'_, str> {
+    subject(drawing, Some(&[]))
 }
 
 /// Prepares a result for the cache.
 pub(super) fn new(subject: &str, traces: Vec<Trace>, result: &DrawingResult) -> FreshResult {
-    FreshResult { of: subject.into(), traces, payload: result.encode(), ..FreshResult::default() }
+    FreshResult { subject: subject.into(), traces, payload: result.encode(), ..FreshResult::default() }
 }
 
 /// Selects the results that are shown.
@@ -149,7 +149,7 @@ impl<'a> ChangeFilter<'a> {
         past: Option<&dyn Past>,
         names: impl Iterator<Item = Cow<'n, str>>,
     ) -> Self {
-        let fresh = fresh.iter().map(|result| (&*result.of, result)).collect();
+        let fresh = fresh.iter().map(|result| (&*result.subject, result)).collect();
         let mut filter = Self { session, results, fresh, changed: None };
         filter.changed = past.map(|past| ChangedDrawings::new(session, past, filter.reached(names)));
         filter

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::deliver::{Delivered, OutputSettings, Task};
 use super::job::{Job, Known, Maker, take_clashes};
-use super::store::{KnownPaths, Store, of};
+use super::store::{KnownPaths, Store, subject};
 use super::targets::Selection;
 use super::write_queue::deliver_all;
 use super::{Request, options};
@@ -118,9 +118,9 @@ impl Planning<'_> {
         let Request { task, join, .. } = *self.making.request;
         let (mut jobs, mut open) = (Vec::new(), Vec::new());
         for targets in programs {
-            let of = || of(self.session.db(), targets, join);
+            let subject = || subject(self.session.db(), targets, join);
             let system = self.session.db().system();
-            match self.making.store.as_ref().and_then(|store| store.paths(system, &of(), task)) {
+            match self.making.store.as_ref().and_then(|store| store.paths(system, &subject(), task)) {
                 Some(KnownPaths { diagnostics, job }) => {
                     self.diagnostics.extend(diagnostics);
                     jobs.extend(job.map(|job| Job::known(targets.clone(), job)));

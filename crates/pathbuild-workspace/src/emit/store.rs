@@ -83,12 +83,12 @@ impl Store {
 
     /// The cached result of the paths of one program, if it suffices for the task. Before writing, a program is regenerated if one of its
     /// files has changed.
-    pub(super) fn paths(&self, system: &dyn System, of: &str, task: Task) -> Option<KnownPaths> {
-        let mut known: KnownPaths = decode(self.0.payload(of)?).ok()?;
+    pub(super) fn paths(&self, system: &dyn System, subject: &str, task: Task) -> Option<KnownPaths> {
+        let mut known: KnownPaths = decode(self.0.payload(subject)?).ok()?;
         if let Some(KnownJob { files, program: Some(program), .. }) = &mut known.job
             && !program.is_wrong()
         {
-            let states = self.0.outputs(of);
+            let states = self.0.outputs(subject);
             if states.len() != files.len() {
                 return None;
             }
@@ -111,7 +111,7 @@ impl Store {
     /// Stores the results computed in this run.
     pub(super) fn keep(&self, session: &Session<'_>, run: &Run<'_>) {
         let drawing = |Drawing { path, said, .. }: &Drawing| FreshResult {
-            of: path.as_str().into(),
+            subject: path.as_str().into(),
             traces: vec![Trace { files: vec![session.file(path)], lookups: Vec::new() }],
             payload: said.encode(),
             ..FreshResult::default()
@@ -150,7 +150,7 @@ impl Run<'_> {
         jobs: &HashMap<&[Target], (&Job, Option<&Delivered>)>,
     ) -> FreshResult {
         let targets: Vec<Target> = answer.checked.iter().map(|checked| checked.target).collect();
-        let of = of(session.db(), &targets, self.join).into();
+        let subject = subject(session.db(), &targets, self.join).into();
         let traces: Vec<Trace> = answer.checked.iter().filter_map(|checked| checked.trace.clone()).collect();
         let mut diagnostics = answer.found(session);
         diagnostics.extend_from_slice(&answer.refusals);
@@ -158,7 +158,7 @@ impl Run<'_> {
         let problems = job.and_then(|(_, delivered)| delivered).into_iter().flat_map(|it| &it.problems);
         let is_lasting = traces.len() == targets.len() && !diagnostics.iter().chain(problems).any(is_passing);
         let (further, outputs) = match job {
-            _ if !is_lasting => return FreshResult { of, ..FreshResult::default() },
+            _ if !is_lasting => return FreshResult { subject, ..FreshResult::default() },
             Some((job, Some(delivered))) if is_complete(job, delivered) => {
                 (self.inserted(session, delivered), outputs(delivered, self.task))
             }
@@ -168,12 +168,12 @@ impl Run<'_> {
             }
             // Writing failed; it may succeed another time.
             Some((_, Some(_))) => {
-                return FreshResult { of, ..FreshResult::default() };
+                return FreshResult { subject, ..FreshResult::default() };
             }
             _ => Default::default(),
         };
         let known = KnownPaths { diagnostics, job: job.map(|(job, delivered)| KnownJob::of(job, delivered)) };
-        FreshResult { of, traces, further, outputs, payload: encode(&known) }
+        FreshResult { subject, traces, further, outputs, payload: encode(&known) }
     }
 
     /// The files that the post-processor inserted or failed to insert, with their hashes.
@@ -277,11 +277,11 @@ fn question(poster: Option<&PostProcessor>) -> String {
 }
 
 /// Cache subject of the paths of one program. It begins with the first path's drawing, up to the first NUL.
-pub(super) fn of(db: &Database, targets: &[Target], join: Option<&str>) -> String {
+pub(super) fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> String {
     let each = targets.iter().map(|target| format!("{}\0{}", target.file(db).path(db), target.name(db)));
-    let mut of = each.collect::<Vec<_>>().join("\0");
+    let mut subject = each.collect::<Vec<_>>().join("\0");
     if let Some(join) = join {
-        _ = write!(of, "\0\0{join}");
+        _ = write!(subject, "\0\0{join}");
     }
-    of
+    subject
 }

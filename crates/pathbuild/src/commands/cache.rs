@@ -1,6 +1,6 @@
 //! `pathbuild cache`: manages the cached results. (book: reference/configuration)
 
-use pathbuild_cache::{Entry, Key, NotRemoved, Unusable};
+use pathbuild_cache::{CacheFault, Entry, Key, RemoveError};
 use pathbuild_db::system::spelt;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
@@ -55,14 +55,14 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
 }
 
 /// Reports how many files were removed.
-fn report(context: &Context, removed: Result<usize, NotRemoved>) -> ExitStatus {
+fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus {
     match removed {
         Ok(count) => {
             context.row_of_json(|| ("cache", json!({ "removed": count })));
             context.printer.status(format_args!("{}: {count}", context.choose("removed", "entfernt")));
             ExitStatus::Success
         }
-        Err(NotRemoved { path, reason }) => {
+        Err(RemoveError { path, reason }) => {
             let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", spelt(path).as_str());
             context.fail(vec![problem.with("reason", reason)])
         }
@@ -75,10 +75,10 @@ fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
     for Entry { path, size, fault } in entries {
         let state = match fault {
             None => context.choose("whole", "unversehrt"),
-            Some(Unusable::Foreign) => {
+            Some(CacheFault::Foreign) => {
                 context.choose("of another build", "von einer anderen Programmfassung")
             }
-            Some(Unusable::Damaged) => {
+            Some(CacheFault::Damaged) => {
                 is_whole = false;
                 context.choose("damaged", "beschädigt")
             }
@@ -87,8 +87,8 @@ fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
         if context.format == Format::Json {
             let state = match fault {
                 None => "whole",
-                Some(Unusable::Foreign) => "foreign",
-                Some(Unusable::Damaged) => "damaged",
+                Some(CacheFault::Foreign) => "foreign",
+                Some(CacheFault::Damaged) => "damaged",
             };
             context.row("cache_file", json!({ "name": name, "state": state, "bytes": size }));
             continue;

@@ -14,8 +14,8 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    Clock, FileState, Key, Listings, Looking, Reason, Snapshot, Stamp, TreeStore, Unusable, Verdict, reasons,
-    verify,
+    CacheFault, Clock, FileState, Key, Listings, Reason, Snapshot, Stamp, TreeStore, Verdict, VerifyContext,
+    reasons, verify,
 };
 use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, Trace};
@@ -65,7 +65,7 @@ pub struct Question<'a> {
 #[derive(Debug, Default)]
 pub struct FreshResult {
     /// Subject of the result.
-    pub of: Box<str>,
+    pub subject: Box<str>,
     /// The drawings and lookups that it depends on.
     pub traces: Vec<Trace>,
     /// Other files that it depends on.
@@ -150,29 +150,29 @@ impl ResultStore {
     }
 
     /// The encoded result of a subject, if it still holds.
-    pub fn payload(&self, of: &str) -> Option<&[u8]> {
-        let number = self.record(of)?;
+    pub fn payload(&self, subject: &str) -> Option<&[u8]> {
+        let number = self.record(subject)?;
         self.verdict.holds[number].then(|| self.kept.record(number).payload())
     }
 
     /// States of the files that were generated from a result, in the order in which they were stored.
-    pub fn outputs(&self, of: &str) -> Vec<OutputState> {
-        let Some(number) = self.record(of) else { return Vec::new() };
+    pub fn outputs(&self, subject: &str) -> Vec<OutputState> {
+        let Some(number) = self.record(subject) else { return Vec::new() };
         let state = |file: usize| match self.verdict.files[file] {
-            FileState::Resting | FileState::Restored(_) => OutputState::Current,
-            FileState::Changed | FileState::Unlooked
+            FileState::Unchanged | FileState::Touched(_) => OutputState::Current,
+            FileState::Changed | FileState::Unchecked
                 if Stamp::of(self.kept.file(file).path()) == Stamp::MISSING =>
             {
                 OutputState::Missing
             }
-            FileState::Changed | FileState::Unlooked => OutputState::Outdated,
+            FileState::Changed | FileState::Unchecked => OutputState::Outdated,
         };
         self.kept.record(number).outputs().map(state).collect()
     }
 
     /// The inputs of a cached result.
-    pub fn facts(&self, of: &str) -> Option<Dependencies<'_>> {
-        let record = self.kept.record(self.record(of)?);
+    pub fn facts(&self, subject: &str) -> Option<Dependencies<'_>> {
+        let record = self.kept.record(self.record(subject)?);
         let files = record.files().map(|file| self.kept.file(file).path());
         let sought = |lookup| {
             let (directories, name) = self.kept.lookup(lookup);
@@ -183,14 +183,14 @@ impl ResultStore {
     }
 
     /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
-    pub fn why(&self, of: &str) -> Option<Vec<Reason>> {
-        let number = self.record(of)?;
+    pub fn why(&self, subject: &str) -> Option<Vec<Reason>> {
+        let number = self.record(subject)?;
         let coverage = &self.coverage;
         Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
     }
 
-    fn record(&self, of: &str) -> Option<usize> {
-        let number = self.kept.record_of(of, self.next.get())?;
+    fn record(&self, subject: &str) -> Option<usize> {
+        let number = self.kept.find_record(subject, self.next.get())?;
         self.next.set(number + 1);
         Some(number)
     }
@@ -199,11 +199,11 @@ impl ResultStore {
     pub fn keep(&self, session: &Session<'_>, made: &[FreshResult]) {
         let is_as_it_was = made.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
-        let made_now: HashSet<&str> = made.iter().map(|made| &*made.of).collect();
+        let made_now: HashSet<&str> = made.iter().map(|made| &*made.subject).collect();
         let mut writing = Writing::new(self, session, begun, made);
         for number in (0..self.kept.records()).filter(|number| self.verdict.is_sound[*number]) {
-            let of = self.kept.record(number).of();
-            if !made_now.contains(of) && self.scope.may_return(of, session.db().system()) {
+            let subject = self.kept.record(number).subject();
+            if !made_now.contains(subject) && self.scope.may_return(subject, session.db().system()) {
                 writing.add_kept(number);
             }
         }
@@ -224,7 +224,7 @@ fn look(
     listings: Listings,
 ) -> Verdict {
     let base = workspace.settings.directory().unwrap_or(Utf8Path::new(""));
-    let is_asked = |of: &str| scope.holds(of);
+    let is_requested = |subject: &str| scope.holds(subject);
     let covers = |file: &str, path: &str| coverage.may_hold(file, path);
     let (system, limits) = (&*workspace.system, &workspace.settings.limits);
     let read = |file: &Utf8Path, is_output: bool| {
@@ -237,15 +237,15 @@ fn look(
     };
     let confined = workspace.settings.confined.as_ref();
     let is_allowed = |file: &Utf8Path| confined.is_none_or(|confined| confined.allows(file));
-    let looking = Looking {
+    let context = VerifyContext {
         base,
         covers: &covers,
-        is_asked: &is_asked,
+        is_requested: &is_requested,
         is_allowed: &is_allowed,
         read: &read,
         hash_output: &hash_output,
     };
-    verify(kept, looking, listings)
+    verify(kept, context, listings)
 }
 
 /// Hash of an output file. In a file of measured values, the values that users entered do not count.
@@ -268,11 +268,11 @@ fn note_old(context: &Workspace, base: &Utf8Path) {
 /// Directory of that cache.
 const OLD: &str = ".pathbuild";
 
-fn note(context: &Workspace, reason: Unusable) {
+fn note(context: &Workspace, reason: CacheFault) {
     let phrase = match reason {
-        Unusable::Damaged => context
+        CacheFault::Damaged => context
             .choose("the cache is damaged and made anew", "der Cache ist beschädigt und wird neu angelegt"),
-        Unusable::Foreign => context.choose(
+        CacheFault::Foreign => context.choose(
             "the cache is of another build and made anew",
             "der Cache ist von einer anderen Programmfassung und wird neu angelegt",
         ),

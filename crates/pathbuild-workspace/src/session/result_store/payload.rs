@@ -1,6 +1,6 @@
 //! Encoding of check results for the cache.
 
-use pathbuild_cache::{Corrupt, decode, encode};
+use pathbuild_cache::{CorruptPayload, decode, encode};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_path::PathName;
 
@@ -32,7 +32,7 @@ impl DrawingResult {
     ///
     /// # Errors
     /// If the bytes are not a result.
-    pub fn decode(payload: &[u8]) -> Result<Self, Corrupt> {
+    pub fn decode(payload: &[u8]) -> Result<Self, CorruptPayload> {
         let (names, diagnostics): (Vec<&str>, _) = decode(payload)?;
         Ok(Self { names: names.into_iter().map(PathName::new).collect(), diagnostics })
     }

@@ -35,28 +35,28 @@ impl Scope {
     }
 
     /// Whether the run uses a result.
-    pub(super) fn holds(&self, of: &str) -> bool {
+    pub(super) fn holds(&self, subject: &str) -> bool {
         match self {
             Self::All => true,
-            Self::Drawings { drawings, .. } => drawings.contains(drawing(of)),
+            Self::Drawings { drawings, .. } => drawings.contains(drawing(subject)),
         }
     }
 
     /// Whether a result may be needed again because its drawing still exists. A run over single drawings keeps the results of others.
-    pub(super) fn may_return(&self, of: &str, system: &dyn System) -> bool {
-        let drawing = Utf8Path::new(drawing(of));
+    pub(super) fn may_return(&self, subject: &str, system: &dyn System) -> bool {
+        let drawing = Utf8Path::new(drawing(subject));
         let is_file = || system.kind(drawing) == FileKind::File;
         match self {
             Self::All => is_file(),
             Self::Drawings { directories, .. } => {
                 let is_below = |parent: &Utf8Path| directories.contains(parent.as_str());
                 let was_looked_through = drawing.parent().is_some_and(is_below);
-                self.holds(of) || directories.is_empty() || !was_looked_through && is_file()
+                self.holds(subject) || directories.is_empty() || !was_looked_through && is_file()
             }
         }
     }
 }
 
-fn drawing(of: &str) -> &str {
-    of.split('\0').next().unwrap_or_default()
+fn drawing(subject: &str) -> &str {
+    subject.split('\0').next().unwrap_or_default()
 }

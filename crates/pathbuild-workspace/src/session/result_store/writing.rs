@@ -67,8 +67,8 @@ impl<'a> Writing<'a> {
         let files = record.files().map(|file| self.kept_file(file)).collect();
         let lookups = record.lookups().map(|lookup| self.kept_lookup(lookup)).collect();
         let outputs = record.outputs().map(|file| self.kept_file(file)).collect();
-        let (of, payload) = (record.of().into(), record.payload().to_vec());
-        self.catalogue.records.push(Record { of, files, lookups, outputs, payload });
+        let (subject, payload) = (record.subject().into(), record.payload().to_vec());
+        self.catalogue.records.push(Record { subject, files, lookups, outputs, payload });
     }
 
     /// Adds a new result, unless one of its drawings could not be read or changed during the run: such a result is not stable.
@@ -88,7 +88,7 @@ impl<'a> Writing<'a> {
         files.extend(result.further.iter().map(|file| self.further_file(file)));
         let outputs = result.outputs.iter().map(|output| self.output(output)).collect();
         self.catalogue.records.push(Record {
-            of: result.of.clone(),
+            subject: result.subject.clone(),
             files: files.into_iter().collect(),
             lookups: lookups.into_iter().collect(),
             outputs,
@@ -99,7 +99,7 @@ impl<'a> Writing<'a> {
     /// Whether this run read other bytes than the snapshot has for a file that was not verified.
     fn is_other(&self, number: usize) -> bool {
         let file = self.result_store.kept.file(number);
-        self.result_store.verdict.files[number] == FileState::Unlooked
+        self.result_store.verdict.files[number] == FileState::Unchecked
             && self.seen.is_other(file.path(), file.hash())
     }
 
@@ -110,8 +110,8 @@ impl<'a> Writing<'a> {
         let file = self.result_store.kept.file(number);
         let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
         match self.result_store.verdict.files[number] {
-            FileState::Resting | FileState::Unlooked => {}
-            FileState::Restored(stamp) => fact.stamp = stamp.settled(self.begun),
+            FileState::Unchanged | FileState::Unchecked => {}
+            FileState::Touched(stamp) => fact.stamp = stamp.settled(self.begun),
             // The output is out of date. The hash stays, because it describes the expected content.
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
@@ -125,7 +125,7 @@ impl<'a> Writing<'a> {
     /// Adds a drawing that was read in this run.
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
-        let known = self.result_store.kept.file_of(path);
+        let known = self.result_store.kept.find_file(path);
         let is_known = |number: &usize| {
             self.result_store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
         };
@@ -165,7 +165,7 @@ impl<'a> Writing<'a> {
     }
 
     fn push_file(&mut self, fact: FileFact) -> usize {
-        if let Some(kept) = self.result_store.kept.file_of(&fact.path) {
+        if let Some(kept) = self.result_store.kept.find_file(&fact.path) {
             return self.add_kept_file(kept, fact);
         }
         if let Some(known) = self.new_files.get(&fact.path) {
