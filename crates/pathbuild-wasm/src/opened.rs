@@ -39,7 +39,10 @@ impl Opened {
     pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<Lost>) -> (Option<Self>, Value) {
         let system: Arc<dyn System> = Arc::<Files>::clone(files);
         let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;
-        let given = Overrides { feed, sweep_height, rapid, probe_feed, ..Overrides::default() };
+        let texts =
+            [("feed", feed), ("sweep-height", sweep_height), ("rapid", rapid), ("probe-feed", probe_feed)];
+        let settings = texts.into_iter().filter_map(|(name, text)| Some((name, vec![text?]))).collect();
+        let given = Overrides { settings, ..Overrides::default() };
         let (settings, faults) = config::load(&system, &given, &Inputs::default(), Utf8Path::new(""));
         let workspace = Workspace {
             settings,

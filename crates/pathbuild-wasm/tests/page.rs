@@ -126,7 +126,8 @@ fn a_library_has_the_programs_that_are_written_from_files() {
     let place = tempfile_directory();
     let root = library();
     let configuration = Some(root.join("pathbuild.toml"));
-    let given = Overrides { out_dir: Some(place.1.clone()), config: configuration, ..Overrides::default() };
+    let settings = [("out-dir", vec![place.1.to_string()])].into_iter().collect();
+    let given = Overrides { settings, config: configuration, ..Overrides::default() };
     let (settings, faults) = config::load(&OsSystem::shared(), &given, &Inputs::default(), Utf8Path::new(""));
     assert!(faults.is_empty(), "{faults:?}");
     let workspace = Workspace {

@@ -1,3 +1,7 @@
+//! Values from the command line: options that override keys of the configuration, and options of the run itself.
+
+use std::collections::BTreeMap;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::Lang;
@@ -8,33 +12,54 @@ use super::kinds::number::number_from_text;
 use super::kinds::pattern::{regex_fault, split_restriction};
 use super::options::Options;
 use super::origin::Sourced;
-use super::types::Restriction;
+use super::sections::general;
+use super::types::{Directories, Restriction};
+
+/// A command-line option that overrides the key of its name. (book: reference/commands)
+#[derive(Debug)]
+pub struct SettingOption {
+    /// The name of the key and, after two hyphens, of the option.
+    pub name: &'static str,
+    /// Position among the common options in the help, from 0.
+    pub position: usize,
+    /// The values it takes.
+    pub values: OptionValues,
+    /// Its help.
+    pub help: Word,
+}
+
+/// The values that an option takes, with their name in the help.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OptionValues {
+    /// None: the option is a switch.
+    Switch,
+    /// One text, which may begin with a hyphen.
+    Text(&'static str),
+    /// One such text each time that the option is given.
+    Texts(&'static str),
+    /// One directory, relative to the working directory.
+    Directory,
+    /// One directory each time that the option is given.
+    Directories,
+}
+
+/// Texts of the given options that override keys, by name; a switch has none. They are validated when the configuration is loaded.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GivenOptions(BTreeMap<&'static str, Vec<String>>);
+
+impl FromIterator<(&'static str, Vec<String>)> for GivenOptions {
+    fn from_iter<I: IntoIterator<Item = (&'static str, Vec<String>)>>(options: I) -> Self {
+        Self(options.into_iter().collect())
+    }
+}
 
 /// Values from the command line. Those that the configuration can also set are kept as text, so that they are validated in one place.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// `--feed` in mm/min.
-    pub feed: Option<String>,
-    /// `--rapid` in mm/min.
-    pub rapid: Option<String>,
-    /// `--sweep-height` in mm.
-    pub sweep_height: Option<String>,
-    /// `--probe-feed` in mm/min.
-    pub probe_feed: Option<String>,
-    /// `--search`, relative to the working directory.
-    pub search: Vec<Utf8PathBuf>,
-    /// `--path-pattern`.
-    pub path_pattern: Option<String>,
-    /// `--file-pattern`.
-    pub file_pattern: Option<String>,
-    /// `--restrict`, each PARENT:CHILD.
-    pub restrict: Vec<String>,
+    /// Options that override keys.
+    pub settings: GivenOptions,
     /// `--lang`.
     pub lang: Option<Lang>,
-    /// `--out-dir`, relative to the working directory.
-    pub out_dir: Option<Utf8PathBuf>,
-    /// `--compatible`.
-    pub compatible: bool,
     /// `--config`: the configuration to use instead of the nearest one.
     pub config: Option<Utf8PathBuf>,
     /// `--untrusted`: treats the tree as untrusted.
@@ -44,31 +69,14 @@ pub struct Overrides {
 }
 
 /// Validates the values from the command line.
-pub(super) fn read(arguments: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
-    let mut reader = OptionReader::default();
-    let mut options = Options::default();
-    let general = &mut options.general;
-    general.feed = reader.positive("feed", arguments.feed.as_deref());
-    general.rapid = reader.positive("rapid", arguments.rapid.as_deref());
-    general.sweep_height = reader.positive("sweep-height", arguments.sweep_height.as_deref());
-    general.probe_feed = reader.positive("probe-feed", arguments.probe_feed.as_deref());
-    general.path_pattern = reader.regex("path-pattern", arguments.path_pattern.as_deref());
-    general.file_pattern = reader.regex("file-pattern", arguments.file_pattern.as_deref());
-    general.restrict = given(&arguments.restrict, "restrict", |rules| {
-        rules.iter().filter_map(|rule| reader.restriction(rule)).collect()
-    });
-    general.search = given(&arguments.search, "search", |directories| {
-        directories.iter().map(|directory| join(working_directory, directory)).collect()
-    });
-    general.out_dir = arguments
-        .out_dir
-        .as_ref()
-        .map(|directory| Sourced::option("out-dir", Some(join(working_directory, directory))));
-    general.compatible = arguments.compatible.then(|| Sourced::option("compatible", true));
+pub(super) fn read(overrides: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
+    let given = &overrides.settings;
+    let mut reader = OptionReader { given, working_directory, diagnostics: Vec::new() };
+    let mut general = general::Options::given(&mut reader);
     // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
-    let comments = arguments.lang.filter(|_| arguments.compatible);
+    let comments = overrides.lang.filter(|_| given.0.contains_key("compatible"));
     general.comment_lang = comments.map(|lang| Sourced::option("lang", lang));
-    (options, reader.diagnostics)
+    (Options { general, ..Options::default() }, reader.diagnostics)
 }
 
 /// Parses the value of an option that must be a number greater than 0, with decimal point or comma.
@@ -88,11 +96,6 @@ pub fn number(name: &str, text: &str) -> Result<f64, Box<Diagnostic>> {
     number_from_text(text).ok_or_else(|| Box::new(invalid(name, text, &messages::NUMBER)))
 }
 
-fn invalid(name: &str, text: &str, expected: &'static Word) -> Diagnostic {
-    let fault = fault(&messages::INVALID_VALUE, name, text);
-    fault.with("expected", Value::Word(expected)).with("found", text)
-}
-
 /// Validates the value of an option that must be a regular expression.
 ///
 /// # Errors
@@ -104,38 +107,19 @@ pub fn regex<'t>(name: &str, text: &'t str) -> Result<&'t str, Box<Diagnostic>> 
     }
 }
 
-#[derive(Default)]
-struct OptionReader {
-    diagnostics: Vec<Diagnostic>,
-}
-
-impl OptionReader {
-    fn positive(&mut self, name: &'static str, text: Option<&str>) -> Option<Sourced<Option<f64>>> {
-        let number = self.keep(positive(name, text?))?;
-        Some(Sourced::option(name, Some(number)))
-    }
-
-    fn regex(&mut self, name: &'static str, text: Option<&str>) -> Option<Sourced<Box<str>>> {
-        let regex = self.keep(regex(name, text?))?;
-        Some(Sourced::option(name, regex.into()))
-    }
-
-    fn restriction(&mut self, text: &str) -> Option<Restriction> {
-        let fault = || fault(&messages::RESTRICT_WITHOUT_COLON, "restrict", text);
-        let rule = self.keep(split_restriction(text).ok_or_else(|| Box::new(fault())))?;
-        let reason = regex_fault(&rule.parent).or_else(|| regex_fault(&rule.child));
-        let broken = reason
-            .map(|reason| self::fault(&messages::BROKEN_REGEX, "restrict", text).with("reason", reason));
-        self.keep(broken.map_or(Ok(rule), |broken| Err(Box::new(broken))))
-    }
-
-    fn keep<T>(&mut self, result: Result<T, Box<Diagnostic>>) -> Option<T> {
-        result.map_err(|diagnostic| self.diagnostics.push(*diagnostic)).ok()
+fn restriction(name: &str, text: &str) -> Result<Restriction, Box<Diagnostic>> {
+    let Some(rule) = split_restriction(text) else {
+        return Err(Box::new(fault(&messages::RESTRICT_WITHOUT_COLON, name, text)));
+    };
+    match regex_fault(&rule.parent).or_else(|| regex_fault(&rule.child)) {
+        None => Ok(rule),
+        Some(reason) => Err(Box::new(fault(&messages::BROKEN_REGEX, name, text).with("reason", reason))),
     }
 }
 
-fn given<T, U>(values: &[T], name: &'static str, read: impl FnOnce(&[T]) -> U) -> Option<Sourced<U>> {
-    (!values.is_empty()).then(|| Sourced::option(name, read(values)))
+fn invalid(name: &str, text: &str, expected: &'static Word) -> Diagnostic {
+    let fault = fault(&messages::INVALID_VALUE, name, text);
+    fault.with("expected", Value::Word(expected)).with("found", text)
 }
 
 fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
@@ -143,4 +127,74 @@ fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
     let shown = format!("{option}={text}");
     let span = option.len() + 1..shown.len();
     Diagnostic::new(message).with("key", option).with_text(TextFault::new(&shown, span))
+}
+
+/// Validates options and collects the diagnostics.
+pub(super) struct OptionReader<'a> {
+    given: &'a GivenOptions,
+    working_directory: &'a Utf8Path,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> OptionReader<'a> {
+    /// Returns the value of an option if it is given and valid.
+    pub(super) fn take<T>(
+        &mut self,
+        name: &'static str,
+        read: impl FnOnce(&GivenOption<'a>) -> Result<T, Vec<Diagnostic>>,
+    ) -> Option<Sourced<T>> {
+        let texts = self.given.0.get(name)?;
+        let option = GivenOption { name, texts, working_directory: self.working_directory };
+        match read(&option) {
+            Ok(value) => Some(Sourced::option(name, value)),
+            Err(faults) => {
+                self.diagnostics.extend(faults);
+                None
+            }
+        }
+    }
+}
+
+/// An option with its texts. Of an option that takes one text, the last one counts.
+pub(super) struct GivenOption<'a> {
+    name: &'static str,
+    texts: &'a [String],
+    working_directory: &'a Utf8Path,
+}
+
+impl GivenOption<'_> {
+    pub(super) fn positive(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
+        positive(self.name, self.last()).map(Some).map_err(|fault| vec![*fault])
+    }
+
+    pub(super) fn regex(&self) -> Result<Box<str>, Vec<Diagnostic>> {
+        regex(self.name, self.last()).map(Box::from).map_err(|fault| vec![*fault])
+    }
+
+    pub(super) fn restrictions(&self) -> Result<Vec<Restriction>, Vec<Diagnostic>> {
+        let (mut rules, mut faults) = (Vec::new(), Vec::new());
+        for text in self.texts {
+            match restriction(self.name, text) {
+                Ok(rule) => rules.push(rule),
+                Err(fault) => faults.push(*fault),
+            }
+        }
+        if faults.is_empty() { Ok(rules) } else { Err(faults) }
+    }
+
+    pub(super) fn directory(&self) -> Utf8PathBuf {
+        self.absolute(self.last())
+    }
+
+    pub(super) fn directories(&self) -> Directories {
+        self.texts.iter().map(|directory| self.absolute(directory)).collect()
+    }
+
+    fn absolute(&self, directory: &str) -> Utf8PathBuf {
+        join(self.working_directory, Utf8Path::new(directory))
+    }
+
+    fn last(&self) -> &str {
+        self.texts.last().map_or("", String::as_str)
+    }
 }

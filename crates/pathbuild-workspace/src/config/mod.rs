@@ -6,8 +6,9 @@
 //! command line -> Options --/
 //! ```
 //!
-//! Each key is declared once, in [`sections`]: its type, its default, its description. The reader, the file that `init` writes, the JSON
-//! schema and `config show` are derived from that, so they all know the same keys.
+//! Each key is declared once, in [`sections`]: its type, its default, its description, and the option that overrides it. The reader,
+//! the file that `init` writes, the JSON schema, `config show`, the cache keys, the option and its help in both languages are derived
+//! from that, so they all know the same keys.
 
 mod arguments;
 mod concerns;
@@ -29,7 +30,7 @@ mod template;
 pub mod types;
 mod user;
 
-pub use arguments::{Overrides, number, positive, regex};
+pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
 pub use concerns::Concerns;
 pub use load::{faults, load};
 pub use options::Options;

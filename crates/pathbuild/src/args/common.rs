@@ -1,51 +1,30 @@
-//! Options that are accepted before and after any command. Values that the configuration can also set stay text here, so that they are
-//! validated in one place. (book: reference/commands, book: reference/configuration)
+//! Options that are accepted before and after any command. (book: reference/commands)
 
 use camino::Utf8PathBuf;
 use clap::{Args, ValueEnum};
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::Overrides;
 
-use super::{Format, ReportFile};
+use super::{Format, ReportFile, SettingArgs};
 use crate::printer::{ColorChoice, Verbosity};
 
 /// The common options.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Common options")]
 pub struct CommonArgs {
-    /// Milling feed where a path gives none
-    #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
-    pub feed: Option<String>,
-    /// Speed of rapid moves, for the times shown
-    #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
-    pub rapid: Option<String>,
-    /// Sweep height of an emitted path that gives none
-    #[arg(long, global = true, value_name = "MM", allow_hyphen_values = true)]
-    pub sweep_height: Option<String>,
-    /// Probing feed where a path gives none
-    #[arg(long, global = true, value_name = "MM/MIN", allow_hyphen_values = true)]
-    pub probe_feed: Option<String>,
-    /// Write programs exactly as `PathDxf2GCode` does
-    #[arg(long, global = true)]
-    pub compatible: bool,
-    /// Look for embedded paths in this directory as well (repeatable)
-    #[arg(long, global = true, value_name = "DIR")]
-    pub search: Vec<Utf8PathBuf>,
-    /// Regular expression for path names
-    #[arg(long, global = true, value_name = "REGEX", allow_hyphen_values = true)]
-    pub path_pattern: Option<String>,
-    /// Regular expression for path names in file names
-    #[arg(long, global = true, value_name = "REGEX", allow_hyphen_values = true)]
-    pub file_pattern: Option<String>,
-    /// A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions (repeatable)
-    #[arg(long, global = true, value_name = "PARENT:CHILD", allow_hyphen_values = true)]
-    pub restrict: Vec<String>,
+    /// Options that override the configuration.
+    #[command(flatten)]
+    pub settings: SettingArgs,
     /// Language of messages (also: `PATHBUILD_LANG`)
-    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "en|de")]
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "en|de",
+        display_order = 9
+    )]
     pub lang: Option<LangArg>,
-    /// Write into this directory instead of beside the drawing
-    #[arg(long, global = true, value_name = "DIR")]
-    pub out_dir: Option<Utf8PathBuf>,
     /// Use this configuration instead of the drawing's pathbuild.toml
     #[arg(long, global = true, value_name = "FILE")]
     pub config: Option<Utf8PathBuf>,
@@ -84,17 +63,8 @@ impl CommonArgs {
     /// The values that override the configuration.
     pub fn overrides(&self) -> Overrides {
         Overrides {
-            feed: self.feed.clone(),
-            rapid: self.rapid.clone(),
-            sweep_height: self.sweep_height.clone(),
-            probe_feed: self.probe_feed.clone(),
-            search: self.search.clone(),
-            path_pattern: self.path_pattern.clone(),
-            file_pattern: self.file_pattern.clone(),
-            restrict: self.restrict.clone(),
+            settings: self.settings.0.clone(),
             lang: self.lang.map(Lang::from),
-            out_dir: self.out_dir.clone(),
-            compatible: self.compatible,
             config: self.config.clone(),
             untrusted: self.untrusted,
             trusted: None,

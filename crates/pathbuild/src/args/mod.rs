@@ -12,6 +12,7 @@ mod graph;
 mod inputs;
 mod misc;
 mod reading;
+mod settings;
 mod watch;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +31,7 @@ pub use misc::{
     CacheArgs, CacheCommand, CompatArgs, CompletionsArgs, ConfigArgs, ConfigCommand, DiffArgs, ExplainArgs,
     InitArgs, QProjectArgs, SheetArgs, TextsArgs, ViewArgs,
 };
+pub use settings::SettingArgs;
 pub use watch::{ServeArgs, WatchArgs};
 
 /// Compiles drawings of milling paths to G-code.

@@ -297,29 +297,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ),
     // Common options.
     ("Common options", "Allgemeine Optionen"),
-    ("Milling feed where a path gives none", "Fräsvorschub, wo ein Pfad keinen angibt"),
-    ("Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten"),
-    (
-        "Sweep height of an emitted path that gives none",
-        "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt",
-    ),
-    ("Probing feed where a path gives none", "Messvorschub, wo ein Pfad keinen angibt"),
-    ("Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`"),
-    (
-        "Look for embedded paths in this directory as well (repeatable)",
-        "Sucht eingebettete Pfade auch in diesem Verzeichnis (wiederholbar)",
-    ),
-    ("Regular expression for path names", "Regulärer Ausdruck für Pfadnamen"),
-    ("Regular expression for path names in file names", "Regulärer Ausdruck für Pfadnamen in Dateinamen"),
-    (
-        "A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions (repeatable)",
-        "Ein Pfad, auf dessen Namen AUSSEN passt, darf nur Pfade einbetten, auf deren Namen INNEN passt; beides sind reguläre Ausdrücke (wiederholbar)",
-    ),
     ("Language of messages (also: `PATHBUILD_LANG`)", "Sprache der Meldungen (auch: `PATHBUILD_LANG`)"),
-    (
-        "Write into this directory instead of beside the drawing",
-        "Schreibt in dieses Verzeichnis statt neben die Zeichnung",
-    ),
     (
         "Use this configuration instead of the drawing's pathbuild.toml",
         "Nimmt diese Konfiguration statt der pathbuild.toml der Zeichnung",

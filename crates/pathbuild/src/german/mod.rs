@@ -6,6 +6,7 @@ mod usage;
 use clap::builder::{PossibleValue, PossibleValuesParser, Str};
 use clap::{Arg, Command, CommandFactory};
 use pathbuild_diagnostic::Lang;
+use pathbuild_workspace::config::sections::general::OPTIONS;
 
 pub use help::CATALOGUE;
 pub(crate) use usage::{ADVICE, reason};
@@ -26,7 +27,8 @@ pub fn command(lang: Lang) -> Command {
 
 /// The German translation of a text of the command line.
 pub fn german(english: &str) -> Option<&'static str> {
-    CATALOGUE.iter().find(|(en, _)| *en == english).map(|(_, de)| *de)
+    let settings = OPTIONS.iter().map(|option| (option.help.en, option.help.de));
+    CATALOGUE.iter().copied().chain(settings).find(|(en, _)| *en == english).map(|(_, de)| de)
 }
 
 /// Translates the words that clap itself inserts into help texts.

@@ -5,8 +5,12 @@
 use std::fmt::Debug;
 
 use camino::Utf8PathBuf;
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, Word};
 
+use crate::config::arguments::OptionValues::{
+    Directories as SearchDirectories, Directory, Switch, Text, Texts,
+};
+use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
 use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
@@ -23,29 +27,72 @@ pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
 /// Default regular expression for the path names covered by a file name.
 pub const FILE_PATTERN: &str = "([0-9]{4})(?:[.]([0-9]+))?";
 
-section! {
+/// Like [`section!`], for keys that command-line options can override. Such a key adds its option: position among the common options
+/// in the help, parser, values, and help in both languages.
+macro_rules! overridable {
+    ($(
+        $(#[doc = $meaning:literal])+
+        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident
+            $(, option $position:literal: $read:expr, $values:expr, $en:literal, $de:literal)?;
+    )*) => {
+        section! {
+            $($(#[doc = $meaning])+ $field: $type = $name, $kind, $default, $example, $concerns;)*
+        }
+
+        /// Command-line options that override keys.
+        pub const OPTIONS: &[SettingOption] = &[
+            $($(SettingOption {
+                name: $name,
+                position: $position,
+                values: $values,
+                help: Word { en: $en, de: $de },
+            },)?)*
+        ];
+
+        impl Options {
+            /// Validates the options of the command line.
+            pub(in crate::config) fn given(reader: &mut OptionReader<'_>) -> Self {
+                Self { $($($field: reader.take($name, $read),)?)* ..Self::default() }
+            }
+        }
+    };
+}
+
+overridable! {
     /// mm/min: F where no path gives one; needed to emit, not to check
-    feed: Option<f64> = "feed", POSITIVE, None, "150", Check;
+    feed: Option<f64> = "feed", POSITIVE, None, "150", Check,
+        option 0: GivenOption::positive, Text("MM/MIN"), "Milling feed where a path gives none", "Fräsvorschub, wo ein Pfad keinen angibt";
     /// mm/min: for times; needed to emit
-    rapid: Option<f64> = "rapid", POSITIVE, None, "1000", Emit;
+    rapid: Option<f64> = "rapid", POSITIVE, None, "1000", Emit,
+        option 1: GivenOption::positive, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
     /// mm: S of an emitted path without S; needed to emit
-    sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20", Check;
+    sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20", Check,
+        option 2: GivenOption::positive, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
     /// mm/min: Z where no probe gives one; else as feed
-    probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40", Emit;
+    probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40", Emit,
+        option 3: GivenOption::positive, Text("MM/MIN"), "Probing feed where a path gives none", "Messvorschub, wo ein Pfad keinen angibt";
     /// what `check` and `emit` without arguments mean, and where path names are found;
     /// directories are walked below, .gitignore and .ignore respected
     library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;
     /// further directories for embedded paths, in order, flat
-    search: Directories = "search", DIRECTORIES, Vec::new(), "[]", Check;
+    search: Directories = "search", DIRECTORIES, Vec::new(), "[]", Check,
+        option 5: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
+        "Sucht eingebettete Pfade auch in diesem Verzeichnis (wiederholbar)";
     /// what a path name is
-    path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check;
+    path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check,
+        option 6: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
     /// what path names in a file name are
-    file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check;
+    file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check,
+        option 7: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
+        "Regulärer Ausdruck für Pfadnamen in Dateinamen";
     /// layers with clamps, by their whole names: no move may come into their outlines below the height
     /// that a text such as Z25 says (PB407)
     keep_out: Option<Box<str>> = "keep-out", OPTIONAL_REGEX, None, "'Clamps.*'", Check;
     /// PARENT:CHILD, split at the first colon: what may embed what, such as "^8:P$"
-    restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check;
+    restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check,
+        option 8: GivenOption::restrictions, Texts("PARENT:CHILD"),
+        "A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions (repeatable)",
+        "Ein Pfad, auf dessen Namen AUSSEN passt, darf nur Pfade einbetten, auf deren Namen INNEN passt; beides sind reguläre Ausdrücke (wiederholbar)";
     /// en | de: of messages; --lang, PATHBUILD_LANG and your own config.toml come first
     lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
     /// en | de: of comments in programs; without it `lang` of this file, and no option
@@ -59,7 +106,8 @@ section! {
     /// mm: ends this near count as joined, with a warning (PB115) each
     join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0", Check;
     /// true: programs exactly as PathDxf2GCode writes them, also where that deviates from its manuals
-    compatible: bool = "compatible", SWITCH, false, "false", Check;
+    compatible: bool = "compatible", SWITCH, false, "false", Check,
+        option 4: |_| Ok(true), Switch, "Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`";
     /// idw4 | plane | tin: how heights between probes are found
     z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#, Emit;
     /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20
@@ -72,5 +120,7 @@ section! {
     /// whether holes become canned cycles where the post has them
     cycles: bool = "cycles", SWITCH, false, "false", Emit;
     /// where files are written; empty: beside the drawing
-    out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit;
+    out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit,
+        option 10: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",
+        "Schreibt in dieses Verzeichnis statt neben die Zeichnung";
 }
