@@ -1,9 +1,9 @@
-//! How fast drawings are read: bytes consumed (those up to the end of ENTITIES) per second on one core.
+//! Speed of reading drawings: bytes consumed, up to the end of ENTITIES, per second on one core.
 //!
-//! `splitter` only splits the same bytes into lines and pairs and is the yardstick for `read`, which is to reach 0.6 of it and 500 MB/s;
-//! `path layers` is what the program does with a library: hardly any layer is wanted; `crate dxf` is for comparison.
+//! `splitter` merely splits the same bytes into lines and pairs and is the yardstick for `read`, which should reach 0.6 of its speed and
+//! 500 MB/s; `path layers` is the typical use in a library, where hardly any layer is wanted; `crate dxf` is for comparison.
 //!
-//! Files: the corpus in `/work/shared` where there is one (ASCII files that all of them accept), else drawings made here.
+//! Files: the corpus in `/work/shared` if available (ASCII files that all readers accept), otherwise generated drawings.
 
 #![expect(clippy::disallowed_methods, reason = "the corpus is not where System could find it")]
 
@@ -59,7 +59,7 @@ fn read_with_dxf(mut file: &[u8]) -> Option<dxf::Drawing> {
     dxf::Drawing::load(&mut file).ok()
 }
 
-/// Splits a file into pairs up to the end of ENTITIES, with one `memchr` a line; returns how many bytes that were.
+/// Splits a file into pairs up to the end of ENTITIES, with one `memchr` per line. Returns the number of bytes.
 fn split(file: &[u8]) -> usize {
     let mut at = 0;
     let mut is_entities = false;
@@ -87,7 +87,7 @@ fn line<'a>(file: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
     Some(rest[..length].strip_suffix(b"\r").unwrap_or(&rest[..length]))
 }
 
-/// The ASCII files of the corpus that all readers accept, or made ones.
+/// The ASCII files of the corpus that all readers accept, or generated ones.
 fn files() -> Vec<Vec<u8>> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpus/files");
     let Ok(directory) = std::fs::read_dir(corpus) else { return (1..=20).map(made).collect() };
@@ -104,7 +104,7 @@ fn is_accepted(file: &[u8]) -> bool {
         && read_with_dxf(file).is_some()
 }
 
-/// A drawing with some hundred lines and arcs on path and other layers.
+/// A drawing with several hundred lines and arcs on path layers and other layers.
 fn made(number: u32) -> Vec<u8> {
     let mut text = String::from(
         "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1015\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n",

@@ -1,4 +1,4 @@
-//! Bytes a second of reading G-code, and of reading and interpreting it. Target: reading at 200 MB/s or more.
+//! Speed of reading G-code, and of reading and interpreting it, in bytes per second. Target: reading at 200 MB/s or more.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -8,7 +8,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret_each};
 use pathbuild_gcode::read::BlockReader;
 
-/// A program such as pathbuild writes: chains, half circles, lifts; `formula` goes behind every cutting Z.
+/// A typical program of pathbuild: chains, half circles, retractions; `formula` is appended to every cutting Z.
 fn program(formula: &str) -> String {
     let mut text =
         "%\nF150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z20.000\nG00 X0.000 Y0.000\n".to_owned();

@@ -1,7 +1,7 @@
-//! The program over libraries of 100, 1,000 and 10,000 components: a check with nothing kept, the same when nothing changed since the last, what
-//! Git takes to say that, `emit --check` from what is kept; and the memory of a check with nothing kept. (benches/README.md)
+//! The program on libraries of 100, 1,000 and 10,000 components: a check without a cache, a check when nothing has changed, Git's time for
+//! detecting that, `emit --check` with a cache; and the memory of a check without a cache. (benches/README.md)
 //!
-//! Each library is made in a temporary directory; the largest takes 500 MB there, and once more half as much for Git.
+//! Each library is generated in a temporary directory; the largest takes 500 MB, and half as much again for Git.
 #![expect(clippy::disallowed_methods, reason = "it measures what the system does too")]
 #![expect(clippy::unwrap_used, reason = "a benchmark that cannot set up its files cannot go on")]
 #![expect(clippy::print_stdout, reason = "memory is no time, and Criterion has no place for it")]
@@ -35,7 +35,7 @@ fn libraries(criterion: &mut Criterion) {
         let peak = peak_memory(directory);
         pathbuild(directory, &["emit", "-qq"]);
         pathbuild(directory, &["check", "-qq"]);
-        // Files are known by their stamps once they have rested for two seconds.
+        // Files are identified by their stamps once they have not changed for two seconds.
         sleep(Duration::from_secs(3));
         pathbuild(directory, &["emit", "--check", "-qq"]);
         measure(&mut group, "check, nothing changed", components, || pathbuild(directory, &["check", "-qq"]));
@@ -57,7 +57,7 @@ fn measure(group: &mut BenchmarkGroup<'_, WallTime>, what: &str, components: usi
     group.bench_function(BenchmarkId::new(what, components), |bencher| bencher.iter(&mut work));
 }
 
-/// A library of so many components, and what it takes to emit its projects of ten.
+/// A library with this number of components, and everything needed to emit its projects.
 fn library(components: usize) -> TempDir {
     let place = TempDir::new().unwrap();
     let library = Library::new(components, 1);
@@ -84,7 +84,7 @@ fn program(directory: &Path) -> Command {
     program
 }
 
-/// Puts everything into a repository of Git; whether there is Git.
+/// Commits everything to a Git repository. Returns whether Git is available.
 fn repository(directory: &Path) -> bool {
     let commit = ["-c", "user.name=bench", "-c", "user.email=bench@localhost", "commit", "-qm", "library"];
     git(directory, &["init", "-q"]) && git(directory, &["add", "-A"]) && git(directory, &commit)
@@ -96,12 +96,12 @@ fn git(directory: &Path, arguments: &[&str]) -> bool {
     git.status().is_ok_and(|status| status.success())
 }
 
-/// The most memory in KB that a check took; `None` where the system does not tell as Linux does.
+/// Peak memory of a check in KB; `None` if the system does not report it as Linux does.
 fn peak_memory(directory: &Path) -> Option<u64> {
     let mut child = program(directory).args(["check", "--no-cache", "-qq"]).spawn().unwrap();
     let status = format!("/proc/{}/status", child.id());
     let mut peak = None;
-    // It only grows, and is gone when the process is.
+    // It only grows, and is unavailable after the process has ended.
     while child.try_wait().unwrap().is_none() {
         peak = fs::read_to_string(&status).ok().as_deref().and_then(high_water).or(peak);
         sleep(Duration::from_millis(1));

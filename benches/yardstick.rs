@@ -1,7 +1,7 @@
-//! What a check is measured against: programs that read the same files on the same threads and do less with them.
+//! Yardsticks for a check: programs that read the same files on the same threads and do less with them.
 //!
-//! `yardstick lines DIRECTORY [THREADS]` counts line ends, `yardstick dxf DIRECTORY [THREADS]` reads the path layers of drawings with
-//! pathbuild-dxf and drops what it read. Both print a number, so that nothing can be left out. (benches/README.md)
+//! `yardstick lines DIRECTORY [THREADS]` counts line ends; `yardstick dxf DIRECTORY [THREADS]` reads the path layers of drawings with
+//! pathbuild-dxf and discards them. Both print a number, so that nothing can be optimised away. (benches/README.md)
 
 #![expect(clippy::disallowed_methods, reason = "it measures without System")]
 #![expect(clippy::print_stdout, reason = "its result")]

@@ -1,6 +1,6 @@
-//! One answer, whoever asks: what a check of libraries finds with all kinds of faults in them, edited again and again, is what a plain model
-//! finds that reads every file and keeps nothing, and the same from a new database as from one that was told of the edits, path by path, on
-//! several threads, and by the program, with what it kept of the runs before. ([`pathbuild_testkit::naive`])
+//! Randomly edited libraries with all kinds of faults are checked in several ways, all of which must give the same findings: a plain model
+//! that reads every file and caches nothing, a new database, a database that is notified of the edits, path by path, on several threads,
+//! and the program with its cache. ([`pathbuild_testkit::naive`])
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,10 +24,10 @@ use crate::support::Place;
 const LIBRARIES: u64 = 300;
 const EDITS: usize = 10;
 
-/// The program itself is asked about each of so many libraries: it takes longer than all other ways together.
+/// One library in this many is also checked by the program itself, which takes longer than all other ways together.
 const OF_PROGRAM: u64 = 20;
 
-/// Kinds of faults, each of which is to be in one of twenty states at least.
+/// Kinds of faults, each of which must occur in at least one of twenty states.
 const KINDS: [&str; 27] = [
     "PB002", "PB107", "PB117", "PB201", "PB202", "PB203", "PB207", "PB301", "PB302", "PB303", "PB304",
     "PB401", "PB407", "PB501", "PB502", "PB503", "PB504", "PB505", "PB506", "PB507", "PB508", "PB509",
@@ -47,7 +47,7 @@ fn every_way_to_ask_finds_what_a_plain_model_finds() {
     assert!(rare.is_empty(), "in fewer than 5 % of {} states: {rare:?}", seen.len());
 }
 
-/// What is found in each state of a library.
+/// The findings in each state of a library.
 fn states(seed: u64) -> Vec<Vec<Finding>> {
     let mut workshop = Workshop::new(seed);
     let system = Arc::new(MemorySystem::default());
@@ -91,7 +91,7 @@ fn same(model: &[Finding], program: &[Finding], what: &str) {
     assert!(differences.is_empty(), "{what}:\n{}", differences.join("\n"));
 }
 
-/// From one path alone a cycle may be entered on several ways, of which each path takes but one.
+/// Ignores differences between cycles: from a single path a cycle may be entered in several ways, of which each path takes only one.
 #[track_caller]
 fn same_but_cycles(model: &[Finding], program: &[Finding], what: &str) {
     let is_cyclic = |found: &[Finding]| found.iter().any(|it| it.code == "PB509");
@@ -124,7 +124,7 @@ fn change(workshop: &Workshop, path: &str, system: &MemorySystem, told: &mut Ask
     }
 }
 
-/// A database that is asked for targets.
+/// A database that is queried for targets.
 struct Asked {
     db: Database,
     targets: BTreeMap<(String, String), Target>,
@@ -148,7 +148,7 @@ impl Asked {
         Self { db, targets: BTreeMap::new() }
     }
 
-    /// What is found in the library, in order, each once.
+    /// The findings in the library, sorted and without duplicates.
     fn library(&mut self, workshop: &Workshop) -> Vec<Diagnostic> {
         let files: Vec<&String> = workshop.files().keys().filter(|path| path.starts_with("lib/")).collect();
         let mut found = Vec::new();
@@ -176,7 +176,7 @@ impl Asked {
         found
     }
 
-    /// What is found in a path, and what is wrong with the drawings that it was made from.
+    /// The findings in a path, and in the drawings that it was made from.
     fn path(&mut self, file: &str, name: &str) -> Vec<Diagnostic> {
         let drawing = self.db.file(Utf8Path::new(file));
         let new = || Target::new(&self.db, drawing, name.into(), Role::Checked);
@@ -214,7 +214,7 @@ impl OnDisk {
         }
     }
 
-    /// What `check` finds with these options.
+    /// The findings of `check` with these options.
     fn check(&self, options: &str) -> Vec<Finding> {
         let run = self.0.run(&format!("check --format=json {options}"));
         assert!(matches!(run.status, Some(0 | 1)), "{run}");

@@ -1,5 +1,5 @@
-//! The examples in examples/ninja and examples/bazel, as their page says to use them: an edit makes again what depends on it, and nothing
-//! else. (book: howto/build-systems)
+//! Uses the examples in examples/ninja and examples/bazel as described on their page: an edit rebuilds its dependents, and nothing else.
+//! (book: howto/build-systems)
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -12,8 +12,8 @@ use serde_json::Value;
 
 use crate::support::{Place, project};
 
-/// Two projects, a component that both embed, one that the first embeds, one that nobody embeds, a drawing that may hold an embedded path by
-/// its name and does not, and a Q-project, which is found by its drawing only.
+/// Two projects, a component that both embed, one that only the first embeds, one that none embeds, a drawing whose name admits an embedded
+/// path that it does not define, and a Q-project, which is only found through its drawing.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -71,7 +71,7 @@ fn ninja_makes_again_what_depends_on_an_edit() {
     tree.holds_programs("gcode");
     assert_eq!(tree.ninja().made(), [""; 0], "nothing changed");
 
-    // A CAD saves beside the drawing and renames: the directory changes, its names do not.
+    // A CAD program writes a temporary file and renames it: the directory changes, but not its names.
     tree.edit("components/1300.dxf", "B4", "B3");
     assert_eq!(tree.ninja().made(), ["CHECKSUMS", "EMIT 1300.0Q", "EMIT 8001.1P", "NAMES"]);
     tree.holds_programs("gcode");
@@ -96,13 +96,13 @@ fn ninja_notices_second_definitions() {
     let Some(tree) = Tree::with("ninja", &["ninja", "python3"]) else { return };
     tree.configure();
     tree.ninja().made();
-    // In a drawing that was searched in vain before.
+    // In a drawing that was searched before without a match.
     tree.edit("components/1200-1299.dxf", "1299.1P", "1234.1P");
     let failed = tree.ninja();
     assert!(!failed.is_success && failed.text.contains("PB504"), "{}", failed.text);
     tree.edit("components/1200-1299.dxf", "1234.1P", "1299.1P");
     assert_eq!(tree.ninja().made(), ["EMIT 8001.1P", "EMIT 8002.1P", "NAMES"]);
-    // In a drawing that was not there.
+    // In a new drawing.
     let file = tree.place.path().join("components/1234-1235.dxf");
     fs::copy(tree.place.path().join("components/1234.1P.dxf"), &file).unwrap();
     let failed = tree.ninja();
@@ -156,13 +156,13 @@ fn bazel_makes_again_what_depends_on_an_edit() {
     tree.holds_programs("bazel-bin/gcode");
 }
 
-/// The library with an example beside it.
+/// The library with an example next to it.
 struct Tree {
     place: Place,
 }
 
 impl Tree {
-    /// `None`, and a skip, where a program is missing that the example needs.
+    /// `None`, with a skip, if a program that the example needs is missing.
     fn with(example: &str, needed: &[&str]) -> Option<Self> {
         let is_there =
             |name: &&&str| Command::new(name).arg("--version").output().is_ok_and(|it| it.status.success());
@@ -183,7 +183,7 @@ impl Tree {
         Some(Self { place })
     }
 
-    /// Runs a program of others, which finds `pathbuild`.
+    /// Runs another program, with `pathbuild` on its path.
     fn run(&self, program: &str, arguments: &[&str]) -> Output {
         let ours = Path::new(env!("CARGO_BIN_EXE_pathbuild")).parent().unwrap().to_owned();
         let path = std::env::var_os("PATH").unwrap_or_default();
@@ -210,7 +210,7 @@ impl Tree {
         Build { is_success: output.status.success(), made, text }
     }
 
-    /// Writes a file as a CAD does: beside it, and renamed.
+    /// Writes a file as a CAD program does: through a temporary file that is renamed.
     fn save(&self, name: &str, content: &[u8]) {
         let file = self.place.path().join(name);
         let beside = file.with_extension("tmp");
@@ -224,20 +224,20 @@ impl Tree {
         self.save(name, text.replace(from, to).as_bytes());
     }
 
-    /// The same drawing in other bytes.
+    /// Writes the same drawing with different bytes.
     fn save_again(&self, name: &str) {
         let content = fs::read(self.place.path().join(name)).unwrap();
         self.save(name, &[b"999\nsaved again\n", &*content].concat());
     }
 
-    /// Checks that a directory has all programs as they should be.
+    /// Checks that all programs in a directory are current.
     fn holds_programs(&self, directory: &str) {
         let run = self.place.run(&format!("emit --check -v --out-dir {directory}"));
         assert_eq!((run.status, run.stdout.as_str()), (Some(0), ""), "{run}");
     }
 }
 
-/// What a build did.
+/// The result of a build.
 struct Build {
     is_success: bool,
     made: BTreeSet<String>,
@@ -245,14 +245,14 @@ struct Build {
 }
 
 impl Build {
-    /// What was made, in order of the names.
+    /// The rebuilt targets, sorted by name.
     fn made(&self) -> Vec<&str> {
         assert!(self.is_success, "{}", self.text);
         self.made.iter().map(String::as_str).collect()
     }
 }
 
-/// Bazel with a server and a disk cache of its own, both of which end with it.
+/// Bazel with its own server and disk cache, both of which end with it.
 struct Bazel<'t> {
     tree: &'t Tree,
     place: tempfile::TempDir,

@@ -1,4 +1,4 @@
-//! Kept results: the same as without, whatever changed in between; never trusted when they are not whole.
+//! The cache: the same results as without it, whatever changed in between, and no trust in damaged files.
 
 use std::collections::BTreeMap;
 #[cfg(target_os = "linux")]
@@ -14,7 +14,7 @@ use pathbuild_workspace::session::{by_name, by_place};
 
 const CONFIGURATION: &str = "library = [\"library\"]\nsearch = [\"library/parts\", \"spare\"]\n";
 
-/// Drawings, by file: their paths with T and what they embed.
+/// Drawings by file: their paths with T and embeddings.
 type Drawings = BTreeMap<&'static str, Vec<(String, u32, Vec<String>)>>;
 
 fn dxf(paths: &[(String, u32, Vec<String>)]) -> Vec<u8> {
@@ -55,7 +55,7 @@ fn library() -> Place {
     drawings().iter().fold(place, |place, (file, paths)| place.file(file, dxf(paths)))
 }
 
-/// What a run says, but for the time it took.
+/// The output of a run, without its duration.
 fn said(run: &Run) -> (Option<i32>, String, String) {
     let stderr: Vec<&str> = run.stderr.lines().filter(|line| !line.contains(" paths in ")).collect();
     (run.status, run.stdout.clone(), stderr.join("\n"))
@@ -68,7 +68,7 @@ fn assert_same(place: &Place, what: &str) {
     assert_eq!(said(&place.run("check --format json -j 1")), said(&without), "then after {what}");
 }
 
-/// How many drawings were not checked again.
+/// The number of drawings that were not checked again.
 fn held(place: &Place) -> String {
     let run = place.run("check -v");
     run.stderr
@@ -78,7 +78,8 @@ fn held(place: &Place) -> String {
         .to_owned()
 }
 
-/// A fault that several drawings meet is shown with one and the same way to it, in every format, whoever met it first.
+/// A fault reached through several drawings is shown with the same chain of embeddings in every format, regardless of the order of
+/// checking.
 #[test]
 fn the_way_to_a_finding_is_the_same_with_what_was_kept() {
     for library in ["[\"projects\", \"parts\"]", "[\"parts\", \"projects\"]"] {
@@ -100,7 +101,7 @@ fn the_way_to_a_finding_is_the_same_with_what_was_kept() {
     }
 }
 
-/// Numbers that look like chance and are the same in every run.
+/// Deterministic pseudo-random numbers.
 struct Chance(u64);
 
 impl Chance {
@@ -112,7 +113,7 @@ impl Chance {
     }
 }
 
-/// An edit, creation, deletion or renaming, a third of which make a path ambiguous, missing or cyclic; what was done.
+/// Creates, edits, deletes or renames a file; a third of the edits make a path ambiguous, missing or cyclic. Returns a description.
 fn edit(place: &Place, chance: &mut Chance) -> String {
     let names = ["1001.1P", "1002.1P", "1003.1P", "1004.1P", "1009.1P", "8001.1P"];
     let files = [
@@ -160,7 +161,7 @@ fn edit(place: &Place, chance: &mut Chance) -> String {
     }
 }
 
-/// What `check` finds after any edits is another test (agreement.rs). Here programs are written, removed and edited by hand as well.
+/// The findings of `check` after edits are tested in agreement.rs. Here programs are also written, removed and edited by hand.
 #[test]
 fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
     const OPTIONS: &str = "./library --feed 150 --rapid 1000 --sweep-height 20 --format json";
@@ -174,7 +175,7 @@ fn after_any_edits_programs_are_current_or_not_as_without_the_cache() {
                 place.run(&format!("emit {OPTIONS}"));
                 programs = written(&place);
                 let run = place.run(&format!("emit --check --no-cache {OPTIONS}"));
-                // The program of a path that has errors now is not current either, and PB522 says so.
+                // The program of a path with errors is not current either, as PB522 reports.
                 let is_known = |file: &str| {
                     let of_file = |line: &&str| line.contains(&format!("\"file\":\"{file}\""));
                     run.stderr.lines().filter(of_file).any(|line| line.contains("PB522"))
@@ -229,9 +230,9 @@ fn only_what_depends_on_a_change_is_checked_again() {
     assert_eq!(held(&place), "0 / 5");
     assert_eq!(held(&place), "5 / 5");
     write(&place.path().join("library/parts/1001.dxf"), &[path("1001.1P", 4, &[])]);
-    // 1001, 1002-1003 and 8001, which embed it.
+    // 1001, 1002-1003, and 8001, which embeds it.
     assert_eq!(held(&place), "2 / 5");
-    // A file that may hold what 8002 looks for in vain.
+    // A file whose name admits a path that 8002 did not find.
     write(&place.path().join("spare/1009.dxf"), &[path("1009.2P", 5, &[])]);
     assert_eq!(held(&place), "4 / 5");
     write(&place.path().join("spare/7000.dxf"), &[path("7000.1P", 5, &[])]);
@@ -256,12 +257,12 @@ fn settings_that_matter_ask_another_question() {
     let place = place.file("pathbuild.toml", format!("{CONFIGURATION}restrict = [\"8*:9\"]\n"));
     assert_eq!(held(&place), "0 / 5");
     assert_same(&place, "forbidding an embedding");
-    // What becomes of findings afterwards does not matter.
+    // The severity of findings does not matter.
     let place = place.file("pathbuild.toml", format!("{CONFIGURATION}[severity]\nPB210 = \"ignore\"\n"));
     assert_eq!(held(&place), "5 / 5");
 }
 
-/// What was read of a drawing at which earlier results were not looked is what it is now.
+/// A drawing that was read in this run counts with its current content, even if earlier results did not depend on it.
 #[test]
 fn a_drawing_is_known_as_it_was_read_last() {
     let place = library();
@@ -272,7 +273,7 @@ fn a_drawing_is_known_as_it_was_read_last() {
     assert!(again.stderr.contains("results still hold: 3 / 3"), "{again}");
 }
 
-/// With its example value the path is right, with the other it is milled through the table.
+/// The path is correct with its example value, but with the other one the tool mills through the table.
 #[test]
 fn a_check_with_all_values_is_another_question() {
     let drawn = "layer 1001.1P\nstart 0,0 \"T5 O2 I1 MPlate :B0,9\"\nmill 0,0 40,0 \"B=B\"\nend 40,0";
@@ -356,7 +357,7 @@ fn a_named_cache_holds_for_a_copy_of_the_tree() {
     let copy = library();
     assert!(run(&copy).contains("5 / 5"));
     assert!(!copy.cache().exists());
-    // Another drawing at the same place.
+    // Another drawing in the same place.
     write(&copy.path().join("library/parts/1001.dxf"), &[path("1001.1P", 9, &[])]);
     assert_same(&copy, "a copy that differs");
 }
@@ -371,7 +372,7 @@ fn a_cache_that_is_a_link_is_not_used() {
     assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
-/// Kept results would lie elsewhere, without a word.
+/// Otherwise the cache would silently be in another directory.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_cache_whose_name_is_no_utf_8_is_refused() {
@@ -427,7 +428,7 @@ fn the_cache_can_be_looked_at_and_removed() {
     assert!(run.stdout.contains(": damaged, ") && run.status == Some(1), "{run}");
     assert_eq!(place.run("cache prune").stderr, "removed: 1\n");
 
-    // What cannot be removed is told, and the cache is still one.
+    // Failure to remove a file is reported, and the directory is still a cache.
     fs::create_dir(&file).unwrap();
     let run = place.run("cache clean");
     assert!(run.status == Some(1) && !run.stderr.contains("removed"), "{run}");
@@ -495,7 +496,7 @@ fn names_are_ordered_as_texts() {
     }
 }
 
-/// Where there are files of rules directories are walked in another way, which finds the same.
+/// Directories with ignore files are walked in a different way, which must find the same.
 #[test]
 fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     let drawing = |name: &str| dxf(&[path(name, 5, &[])]);
@@ -522,7 +523,7 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     }
     let summary = |place: &Place| {
         let run = place.run("check --no-cache");
-        // Under such a name nothing can be read.
+        // Nothing can be read under such a name.
         assert_eq!(run.stderr.matches("PB001").count(), usize::from(cfg!(target_os = "linux")), "{run}");
         run.stderr.lines().last().unwrap().split(':').next().unwrap().to_owned()
     };
@@ -534,7 +535,7 @@ fn what_is_hidden_or_linked_is_left_out_with_and_without_rules() {
     assert_ne!(summary(&place), without);
 }
 
-/// How many of the drawings that a check looks at are known, and how many there are.
+/// The numbers of cached and of all drawings in a check.
 fn known(place: &Place, arguments: &str) -> String {
     let run = place.run(&format!("check -v {arguments}"));
     let line = run.stderr.lines().find(|line| line.starts_with("drawings whose results still hold"));
@@ -561,7 +562,7 @@ fn paths_and_drawings_that_are_named_are_checked_once() {
     }
     // Another path of the same drawing.
     assert_eq!(known(&place, "1002.1P"), "0 / 1");
-    // A drawing whose name does not cover the path says nothing about it; one whose name does may define it again.
+    // A drawing whose name does not admit the path is irrelevant to it; one whose name does may define it again.
     let place = place.file("library/parts/1004.dxf", dxf(&[path("1001.1P", 5, &[])]));
     assert_eq!(known(&place, "1001.1P 1002.1P 1003.1P"), "2 / 2");
     let place = place.file("library/parts/1000-1001.dxf", dxf(&[path("1001.1P", 5, &[])]));

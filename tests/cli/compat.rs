@@ -7,7 +7,7 @@ fn compat(arguments: &[&str]) -> Run {
     Place::new().run_with(&[&["compat"], arguments].concat())
 }
 
-/// What a command line of theirs comes to.
+/// The translation of one of their command lines.
 fn translated(arguments: &[&str]) -> String {
     let run = compat(&[&["--print"], arguments].concat());
     assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""), "{run}");

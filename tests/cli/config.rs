@@ -1,4 +1,4 @@
-//! The configuration: finding it, reading it strictly, the command line over it. (book: reference/configuration)
+//! The configuration: discovery, strict parsing, precedence of the command line. (book: reference/configuration)
 
 use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
@@ -9,7 +9,7 @@ fn show(text: &str, arguments: &str) -> Run {
     Place::new().file("pathbuild.toml", text).run(&format!("config show --origin {arguments}"))
 }
 
-/// The concise complaints about this configuration.
+/// The findings about this configuration in concise form.
 fn complaints(text: &str) -> String {
     let run = Place::new().file("pathbuild.toml", text).run("config show --format concise");
     assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run}");
@@ -127,7 +127,7 @@ fn init_shows_every_key_with_a_right_value() {
     }
 }
 
-/// Each takes far more memory than its text: they are counted, and told once.
+/// Each takes far more memory than its text; they are counted, and reported once.
 #[test]
 fn patterns_are_counted() {
     let list = |pattern: &str, count: usize| vec![format!("'{pattern}'"); count].join(", ");
@@ -369,7 +369,7 @@ fn a_key_of_an_earlier_version_names_its_successor() {
     assert!(run.stderr.contains("PB003") && run.stderr.contains("`compatible = true`"), "{run}");
 }
 
-/// Tables of TOML go on to the next one: a key that is added at the end stands in the last.
+/// A TOML table extends to the next one: a key added at the end belongs to the last table.
 #[test]
 fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
     let says = |text: &str, lang: &str, expected: &str| {
@@ -396,7 +396,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
             "did you mean `library`? It belongs to the top",
             "Das gehört an den Anfang",
         ),
-        // What is nearly a key of its own table is that one.
+        // A typing error in a key is matched with its own table first.
         ("[emit]\ntarget = []\n", "did you mean `targets`?\n", "ist `targets` gemeint?\n"),
         ("[watch]\nsomething = 1\n", "known here: debounce, poll", "hier bekannt: debounce, poll"),
     ] {
@@ -413,7 +413,7 @@ fn the_option_compatible_wins_over_the_key() {
     );
 }
 
-/// Whoever made it expects that it holds.
+/// A user who created it expects it to be used.
 #[test]
 fn a_configuration_that_is_a_directory_cannot_be_read() {
     let drawing =
@@ -423,7 +423,7 @@ fn a_configuration_that_is_a_directory_cannot_be_read() {
     assert!(run.status != Some(0) && run.stderr.contains("PB00"), "{run}");
 }
 
-/// A path's name becomes a file's, which must suit every system and look like what it is.
+/// The name of a path becomes a file name, which must be valid on every system and unambiguous.
 #[test]
 fn names_of_paths_that_no_file_may_have_are_refused() {
     let emitted = |name: &str| {

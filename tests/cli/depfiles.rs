@@ -1,4 +1,4 @@
-//! `emit --deps`: make and Ninja find the files, whatever they are called. (book: howto/build-systems)
+//! `emit --deps`: make and Ninja find files with any names. (book: howto/build-systems)
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -12,12 +12,13 @@ use crate::support::Place;
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
 const DRAWING: &str = "layer 1301.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0\n";
 
-/// What both read: a blank, what begins a comment, a variable or a rule, backslashes, also before a blank, and what is shown escaped.
+/// Characters that both support: a space; the beginnings of comments, variables and rules; backslashes, even before a space; and characters
+/// that are escaped for display.
 const FOR_BOTH: &str = "a\\b\\ c\\\\ d\u{85}/1301.1P a  b#c$d$$e:f::g \u{2028}\u{202e}ä";
-/// What only make reads.
+/// Characters that only make supports.
 const FOR_MAKE: &str = "a\\#b\\:c\\;d/1301.1P a;touch$IFS$9b;\"'`&<>";
 
-/// A drawing of that name, its program and the rule for it.
+/// A drawing of that name, with its program and rule.
 struct Emitted {
     place: Place,
     drawing: String,
@@ -34,13 +35,13 @@ impl Emitted {
         Self { place, drawing, program: format!("{name}_Milling.gcode") }
     }
 
-    /// Says when the drawing was saved.
+    /// Sets the modification time of the drawing.
     fn save(&self, time: SystemTime) {
         let drawing = File::options().write(true).open(self.place.path().join(&self.drawing)).unwrap();
         drawing.set_modified(time).unwrap();
     }
 
-    /// Checks that a run makes nothing of an old drawing, and something of a new one.
+    /// Checks that a build does nothing for an old drawing, and something for a new one.
     fn is_found_by(&self, mut is_up_to_date: impl FnMut() -> bool) {
         self.save(SystemTime::now() - Duration::from_hours(1));
         assert!(is_up_to_date(), "{}", self.place.read("out.d"));
@@ -49,7 +50,7 @@ impl Emitted {
     }
 }
 
-/// A program of others, where it is there.
+/// Another program, if installed.
 fn command(name: &str) -> Option<Command> {
     let is_there = Command::new(name).arg("--version").output().is_ok_and(|it| it.status.success());
     if !is_there {
@@ -86,12 +87,12 @@ fn ninja_finds_files_of_any_name() {
         assert!(run.status.success(), "{run:?}");
         String::from_utf8_lossy(&run.stdout).contains("no work to do")
     };
-    // It knows nothing yet.
+    // The first build knows nothing yet.
     assert!(!is_up_to_date());
     emitted.is_found_by(is_up_to_date);
 }
 
-/// Else make would take the rule for an assignment, and run what the name says.
+/// Otherwise make would read the rule as an assignment and run part of the name.
 #[test]
 fn names_that_no_rule_can_have_are_refused() {
     let names = [
@@ -120,7 +121,7 @@ fn names_that_no_rule_can_have_are_refused() {
     }
 }
 
-/// Names of configurations end as they like: else a backslash would join two lines, and a bracket make an archive of those before.
+/// The names of configurations may have any ending; a backslash would join two lines, and a parenthesis would form an archive member.
 #[test]
 fn ends_that_no_rule_can_have_are_refused() {
     for (name, is_right) in [("c(x)d", true), ("c(x)", false), ("c\\d", true), ("c\\", false)] {
@@ -135,7 +136,7 @@ fn ends_that_no_rule_can_have_are_refused() {
     }
 }
 
-/// Else the rest of a name would be a rule of its own.
+/// Otherwise the rest of a name would become a rule of its own.
 #[test]
 fn no_name_makes_a_line_of_its_own() {
     let emitted = Emitted::new("a\nall: ;@echo\u{7f}\r/1301.1P");

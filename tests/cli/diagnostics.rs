@@ -1,11 +1,11 @@
-//! What pathbuild says of each mistake, word for word: the examples of `explain`, run as somebody would run them.
+//! The output for each mistake, word for word: runs the examples of `explain`.
 
 use crate::support::Place;
 use insta::assert_snapshot;
 use pathbuild_diagnostic::{Code, example};
 use pathbuild_testkit::Fixture;
 
-/// A mistake of the program itself: no drawing is meant to show it.
+/// A bug in the program, which no drawing is meant to show.
 const WITHOUT_EXAMPLE: &[&str] = &["PB006"];
 
 /// The codes with their examples.
@@ -28,7 +28,7 @@ fn what_is_said_of_each_mistake() {
     }
 }
 
-/// A text that nobody translated would be the same in both languages.
+/// An untranslated text would be the same in both languages.
 #[test]
 fn each_mistake_is_told_in_german_too() {
     let is_told_alike = |text| messages(&said(text, &["--lang=de"])) == messages(&said(text, &[]));
@@ -36,7 +36,7 @@ fn each_mistake_is_told_in_german_too() {
     assert_eq!(told_alike.collect::<Vec<_>>(), Vec::<String>::new());
 }
 
-/// What the commands of a fixture print.
+/// The output of a fixture's commands.
 fn said(text: &str, options: &[&str]) -> String {
     let place = Place::of(text);
     let fixture = Fixture::parse(text).unwrap();
@@ -48,7 +48,7 @@ fn said(text: &str, options: &[&str]) -> String {
     runs.collect::<Vec<_>>().join("\n")
 }
 
-/// The lines that name a mistake.
+/// The lines with messages.
 fn messages(said: &str) -> Vec<String> {
     let is_message = |line: &&str| line.starts_with("  × ") || line.starts_with("  ⚠ ");
     said.lines().filter(is_message).map(str::to_owned).collect()

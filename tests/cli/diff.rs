@@ -1,4 +1,4 @@
-//! `diff`: what a change of drawings does to the moves.
+//! `diff`: the effect of changed drawings on the moves.
 
 use std::fs;
 use std::process::Command;
@@ -16,7 +16,7 @@ fn dxf(name: &str, depth: &str, elements: &str) -> Vec<u8> {
 
 const LINE: &str = "mill 0,0 40,0";
 
-/// Two directories with a path each.
+/// Two directories with one path each.
 fn two(old: Vec<u8>, new: Vec<u8>) -> Place {
     let configuration = "rapid = 1000\nlibrary = [\"parts\"]\n";
     Place::new()
@@ -147,7 +147,7 @@ fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
     told(&place.run("diff HEAD HEAD"), 0, &["0 of 1 path changed"]);
     git(&place, &["commit", "-q", "-a", "-m", "deeper"]);
     told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
-    // The configuration is that of each revision.
+    // Each revision uses its own configuration.
     fs::write(place.path().join("pathbuild.toml"), "rapid = 1000\nlibrary = [\"gone\"]\n").unwrap();
     let run = place.run("diff HEAD~1 HEAD");
     told(&run, 0, &["0.5 mm deeper"]);
@@ -176,7 +176,7 @@ fn json_markdown_and_a_page() {
     let markdown = read("d.md");
     assert!(markdown.contains("| ` 1001.1P ` | ` parts/1001.1P.dxf ` | 0.5 mm deeper&#58; "), "{markdown}");
     let page = read("d.html");
-    // Changes once, old and new side by side and over each other.
+    // Once with the changes, with old and new side by side, and overlaid.
     assert_eq!(page.matches("<svg").count(), 5);
     assert!(!page.contains("{{") && page.contains("0.5 mm deeper"));
     assert!(
@@ -187,7 +187,7 @@ fn json_markdown_and_a_page() {
     assert_eq!(place.run("diff old new -o d.txt").status, Some(2));
 }
 
-/// Deeper, added, gone and a hole: changes, then old and new.
+/// Deeper, added, removed, and a hole: changes, then old and new.
 #[test]
 fn changes_are_seen() {
     let [old, new] = [
@@ -214,12 +214,12 @@ fn names_are_no_markup() {
     }
     let read = |name: &str| fs::read_to_string(place.path().join(name)).unwrap();
     let markdown = read("d.md");
-    // Code, of which GitHub makes no links either.
+    // Code formatting keeps GitHub from turning it into links.
     assert!(markdown.contains("| `` parts/1001.1P [x](y) @z _b_ `&c.dxf `` |"), "{markdown}");
     assert!(read("d.html").contains("@z _b_ `&amp;c.dxf"));
 }
 
-/// Nor does a CI runner act on what is printed of them.
+/// Printed names are not obeyed by CI runners either.
 #[test]
 fn names_of_what_cannot_be_compared_are_no_markup() {
     let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
@@ -232,7 +232,7 @@ fn names_of_what_cannot_be_compared_are_no_markup() {
     assert!(markdown.contains("#\\u{23}[group] a.dxf") && !markdown.contains("##["), "{markdown}");
 }
 
-// What is taken out of a revision.
+// Prepares a revision to extract from.
 
 fn committed(place: Place) -> Place {
     git(&place, &["init", "-q"]);
@@ -252,7 +252,7 @@ fn run_with_temporary(place: &Place, temporary: &std::path::Path, arguments: &[&
 #[test]
 fn what_lies_above_temporary_files_does_not_hold() {
     let temporary = Place::new().file("pathbuild.toml", "path-pattern = 'X'\n");
-    // Without a configuration, and with one of its own.
+    // Without a configuration, and with its own.
     for configuration in [None, Some("rapid = 1000\nlibrary = [\".\"]\n")] {
         let mut place = Place::new().file("1001.1P.dxf", dxf("1001.1P", "1", LINE));
         if let Some(configuration) = configuration {
@@ -268,19 +268,19 @@ fn what_lies_above_temporary_files_does_not_hold() {
     }
 }
 
-/// What is larger than any drawing may be is not unpacked: it is refused for its length.
+/// A file larger than the limit for drawings is not extracted, but rejected by its size.
 #[cfg(unix)]
 #[test]
 fn large_files_of_a_revision_are_not_written_whole() {
     let place = Place::new().file("pathbuild.toml", "rapid = 1000\nlibrary = [\".\"]\n");
-    // Without content: it takes no room on disk.
+    // A sparse file takes no space on disk.
     fs::File::create(place.path().join("1001.1P.dxf")).unwrap().set_len((1 << 30) + 1).unwrap();
     let (run, time) = committed(place).run_timed("diff HEAD HEAD");
     assert!(run.stderr.contains("the file's size of 1073741825 bytes"), "{run}");
     assert!(time < std::time::Duration::from_secs(2), "{time:?}");
 }
 
-/// What a configuration forbids now may have been allowed then.
+/// A limit in today's configuration may have been different then.
 #[test]
 fn the_limits_of_a_revision_are_its_own() {
     let configuration = "rapid = 1000\nlibrary = [\".\"]\n";
@@ -292,7 +292,7 @@ fn the_limits_of_a_revision_are_its_own() {
     told(&place.run("diff HEAD~1 HEAD"), 0, &["0.5 mm deeper"]);
 }
 
-/// One object of Git, without content, under so many names that they have more than 4 GiB together.
+/// A single empty Git object under so many names that they exceed 4 GiB together.
 #[cfg(unix)]
 #[test]
 fn a_revision_has_an_end() {
@@ -315,7 +315,7 @@ fn a_revision_has_an_end() {
     assert!(german.stderr.contains("mehr als 4 GiB") && !german.stderr.contains("git:"), "{german}");
 }
 
-/// As long as systems have paths.
+/// As long as the system allows for paths.
 #[cfg(unix)]
 #[test]
 fn names_of_a_revision_have_an_end() {
@@ -370,7 +370,7 @@ fn links_of_a_revision_stay_in_its_tree() {
     }
 }
 
-/// A tree with one drawing, under a name that Git itself may refuse.
+/// A tree with one drawing, under a name that Git itself may reject.
 #[cfg(unix)]
 fn hostile_tree(place: &Place, name: &str) -> String {
     use std::io::Write;

@@ -1,4 +1,4 @@
-//! Limits that keep something from being compared, listed, found or read: what is said of them, and that nothing else is said instead.
+//! Limits that prevent comparing, listing, finding or reading: they are reported, and nothing misleading is.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ fn limits(limits: &str) -> String {
     format!("{CONFIGURATION}[limits]\n{limits}\n")
 }
 
-/// A path whose program is the longer the smaller its infeed.
+/// A path whose program is longer the smaller its infeed is.
 fn path(infeed: &str) -> Vec<u8> {
     let drawn = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I{infeed} B0 MX\"\nmill 0,0 40,0\nend 40,0");
     sheet(&drawn).unwrap().to_dxf()
@@ -35,7 +35,7 @@ const OTHERS: &str = "0.9";
 const MANY: &str = "0.005";
 const STILL_MORE: &str = "0.004";
 
-/// An old and a new side, of which programs may have 8 KiB.
+/// An old and a new side, with a limit of 8 KiB for programs.
 fn sides(old: &str, new: &str) -> Place {
     let configuration = limits("output-size = \"8 KiB\"");
     Place::new()
@@ -72,7 +72,7 @@ fn a_side_without_a_program_has_no_moves_that_could_be_gone() {
     assert!(run.stdout.contains(": changed\n") && run.stderr.is_empty(), "{run}");
 }
 
-/// Equal moves need no text to be told equal.
+/// Equal moves are recognised without their text.
 #[test]
 fn a_program_that_is_too_large_on_both_sides_is_the_same() {
     let run = sides(MANY, MANY).run("diff old new");
@@ -80,7 +80,7 @@ fn a_program_that_is_too_large_on_both_sides_is_the_same() {
     assert!(run.stdout.starts_with("0 of 1 path changed"), "{run}");
 }
 
-/// Counted before they are made.
+/// Counted before they are generated.
 #[test]
 fn a_side_with_too_many_moves_says_so() {
     let run = sides(FEW, "0.0000001").run("diff old new");
@@ -158,7 +158,7 @@ fn the_steps_of_a_program_that_is_read_are_counted() {
     }
 }
 
-/// Eleven bytes a line, each of which stands for 76,000 moves.
+/// Each line of eleven bytes stands for 76,000 moves.
 #[test]
 fn repeated_cycles_do_not_fill_the_memory() {
     let lines = format!("G91 G81 X.001 Y.001 Z-1 R1 F100 L1\n{}G80\n", "X.001 L19000\n".repeat(5000));
@@ -229,7 +229,7 @@ fn what_is_beyond_the_limit_of_paths_is_not_too_deep() {
     assert_eq!(inside.status, Some(0), "{inside}");
     assert!(!inside.stdout.contains("PB"), "{inside}");
     assert_exceeds(&run(3), 1, "embedded-paths");
-    // Of the second path it is not looked at what it embeds.
+    // The embeddings of the second path are not examined.
     let outside = run(1);
     assert_exceeds(&outside, 1, "embedded-paths");
     assert!(outside.stdout.contains("PB005") && !outside.stdout.contains("PB508"), "{outside}");

@@ -1,5 +1,4 @@
-//! What programs read: one document on stdout and nothing beside it, whatever the command; reports; names of files.
-//! (book: reference/output)
+//! Machine-readable output: a single document on stdout and nothing else, for every command; reports; file names. (book: reference/output)
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -29,7 +28,7 @@ subpath 0,0 40,0 ">1234.1P"
 end 40,0
 "#;
 
-/// A repository, of which pathbuild's directory is a part.
+/// A repository that contains pathbuild's directory.
 fn place() -> Place {
     Place::of(LIBRARY).file(".git/HEAD", "ref: refs/heads/main\n")
 }
@@ -197,7 +196,7 @@ fn emit_check_prints_what_is_not_current() {
     assert_snapshot!(said.join("\n"));
 }
 
-/// A drawing with so many erroneous paths.
+/// A drawing with this number of erroneous paths.
 fn many(count: usize) -> Place {
     let path = |number: usize| {
         format!(

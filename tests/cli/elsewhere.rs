@@ -1,5 +1,5 @@
-//! The same library at another place, or looked at from another directory: byte-identical programs and, but for the names of directories,
-//! identical findings; with nothing kept, with everything kept, on one thread and on several.
+//! The same library in another place, or accessed from another directory: programs are identical, and so are findings except for directory
+//! names; with and without a cache, on one thread and on several.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{Place, Run};
 
-/// Components with faults and without, projects, one of them with probes, and one whose component is missing.
+/// Components with and without faults, projects, one with probes, and one whose component is missing.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -55,16 +55,16 @@ subpath 40,0 80,0 ">1999.1P"
 end 80,0
 "#;
 
-/// What a run over the library comes to.
+/// The results of a run over the library.
 #[derive(Debug, PartialEq)]
 struct Outcome {
     status: [Option<i32>; 2],
-    /// Findings of `check`, then what `emit` says, without directories.
+    /// Findings of `check`, then the output of `emit`, without directories.
     said: [Vec<String>; 2],
     programs: BTreeMap<PathBuf, Vec<u8>>,
 }
 
-/// Checks and emits the library of `root` from a directory below the place.
+/// Checks and emits the library in `root` from another directory.
 fn outcome(place: &Place, root: &str, from: &str, options: &str) -> Outcome {
     let up =
         if from == root { "." } else { &format!("{}{root}", "../".repeat(Path::new(from).iter().count())) };
@@ -97,7 +97,7 @@ fn outcome(place: &Place, root: &str, from: &str, options: &str) -> Outcome {
     outcome
 }
 
-/// The files of a library that are no drawings.
+/// The files of a library other than drawings.
 fn programs(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let listed = fs::read_dir(root.join("projects")).unwrap().map(|entry| entry.unwrap().path());
     let written = listed.filter(|path| path.extension().is_none_or(|extension| extension != "dxf"));
@@ -135,14 +135,14 @@ fn the_place_decides_nothing() {
         ("one", "aside/below"),
         ("one", "another"),
     ] {
-        // With nothing kept, with what that run kept, and without keeping anything.
+        // With an empty cache, with the cache of that run, and without a cache.
         for options in ["-j 2", "-j 1", "", "--no-cache -j 2"] {
             assert_eq!(outcome(&place, root, from, options), expected, "{root} from {from} {options}");
         }
     }
 }
 
-/// What was kept at one place is either taken at the other, or made anew: the results are the same.
+/// A moved cache is either used or rebuilt; the results are the same.
 #[test]
 fn a_library_that_moves_with_its_cache_says_the_same() {
     let place = library_at(Place::new(), "one");
@@ -152,7 +152,7 @@ fn a_library_that_moves_with_its_cache_says_the_same() {
     assert_eq!(outcome(&place, "two", "two", "--no-cache"), expected);
 }
 
-/// A library that writes into a directory of its own, beside a tree without configuration.
+/// A library with its own output directory, next to a tree without a configuration.
 const WORKSHOP: &str = r#"
 == lib/pathbuild.toml ==
 feed = 150
@@ -189,7 +189,7 @@ impl Place {
     }
 }
 
-/// A workshop with a program that somebody carried away.
+/// A workshop with a program that was copied elsewhere.
 fn carried() -> Place {
     let place = Place::of(WORKSHOP);
     assert_eq!(place.at_work("emit 1234.1P 1300.1P").status, Some(0));
@@ -217,7 +217,7 @@ fn the_working_directory_s_configuration_holds_for_a_program_from_elsewhere() {
     assert_eq!(adjusted.status, Some(0), "{adjusted}");
     assert!(!adjusted.stderr.contains("not compared"), "{adjusted}");
     assert!(place.path().join("lib/out/1300_Milling.gcode").exists(), "out-dir is the library's: {adjusted}");
-    // The program's name alone means the one in out-dir, and where none is there, the one that it says.
+    // The bare name of a program refers to the one in out-dir, or if there is none, to the given path.
     assert_eq!(place.at_work("adjust ../stick/1300 --max-correction 1").status, Some(1), "no values in out");
     fs::remove_file(place.path().join("lib/out/1300_Clean.gcode")).unwrap();
     let adjusted = place.at_work("adjust ../stick/1300 --max-correction 1");
@@ -226,7 +226,7 @@ fn the_working_directory_s_configuration_holds_for_a_program_from_elsewhere() {
     assert!(diff.status == Some(0) && diff.stdout.contains("0 of 1 path changed"), "{diff}");
 }
 
-/// Each command that reads a program reads it by the limits of the working directory, but in another tree by that one's.
+/// Each command that reads a program uses the limits of the working directory, or of the program's tree if that is another one.
 #[test]
 fn a_program_in_another_tree_has_the_configuration_of_that() {
     let small = "[limits]\nfile-size = 100\n";
@@ -246,7 +246,7 @@ fn a_program_in_another_tree_has_the_configuration_of_that() {
     }
 }
 
-/// The path says whose configuration it is, where neither the program nor the working directory has one.
+/// The configuration is that of the path, if neither the program nor the working directory has one.
 #[test]
 fn the_configuration_of_the_path_holds_for_a_program_from_elsewhere() {
     let place = carried();

@@ -1,4 +1,4 @@
-//! What `emit` writes, compares and removes. (book: reference/commands, book: program/gcode)
+//! The files that `emit` writes, compares and removes. (book: reference/commands, book: program/gcode)
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -47,14 +47,13 @@ probe 20,20 "LA"
 end 40,0
 "#;
 
-/// The same with a part of it exchanged.
+/// The library with a part of it replaced.
 fn library(from: &str, to: &str) -> Place {
     assert!(LIBRARY.contains(from), "{from}");
     Place::of(&LIBRARY.replace(from, to))
 }
 
-/// The names of all files below a place, and what is in them.
-/// Every file, kept results aside.
+/// The names and contents of all files in a place, except for the cache.
 fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     let mut open = vec![place.path().to_owned()];
@@ -73,7 +72,7 @@ fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// The names of the files that are no drawings and no configuration.
+/// The names of all files except drawings and configurations.
 fn written(place: &Place) -> Vec<String> {
     let is_source = |name: &String| has_extension(name, "dxf") || has_extension(name, "toml");
     files(place).into_iter().map(|(name, _)| name).filter(|name| !is_source(name)).collect()
@@ -99,7 +98,7 @@ fn files_are_written_once() {
     assert_snapshot!(place.read(expected[0]));
 }
 
-/// A sheet at the machine says out of what it was made: the same, wherever it was made.
+/// A setup sheet states the sources of a program, regardless of where it was made.
 #[test]
 fn provenance_is_that_of_moves_and_options() {
     const PROGRAM: &str = "projects/8001 a b_Milling.gcode";
@@ -114,7 +113,7 @@ fn provenance_is_that_of_moves_and_options() {
     assert!(first.ends_with(" native O2 T5)"), "{first}");
     let moved = Place::of(&LIBRARY.replace("components", "parts").replace("projects/", "x/../projects/"));
     assert_eq!(of(&moved, "-j 1"), first);
-    // Neither what it does not embed, nor what changes no move, nor an option that changes none changes it.
+    // Drawings that are not embedded, edits without an effect on moves, and options without an effect on moves do not change it.
     assert_eq!(of(&library("probe 20,20", "probe 20,30"), ""), first);
     assert_eq!(of(&library("mill 0,0 40,0", "mill 0,0 40,0 \"F150\""), ""), first);
     assert_eq!(of(&place, "--probe-feed 7"), first);
@@ -127,7 +126,7 @@ fn provenance_is_that_of_moves_and_options() {
     assert!(faster.starts_with(&program) && !faster.ends_with(&options), "{first} {faster}");
 }
 
-/// A CAD that saves a drawing again may write it otherwise; and a newer pathbuild writes what the older one has written.
+/// A CAD program may write an unchanged drawing differently; and a newer pathbuild keeps what an older one has written.
 #[test]
 fn a_program_stays_current_when_only_its_drawing_s_bytes_or_the_version_change() {
     let place = Place::of(LIBRARY);
@@ -208,7 +207,7 @@ fn check_says_of_each_file_whether_it_is_current_and_writes_nothing() {
     assert_eq!(place.run("emit --check --rapid 2000").status, Some(1));
 }
 
-/// Measured values are a person's: they make no file outdated.
+/// Measured values are the user's: they never make a file outdated.
 #[test]
 fn measured_values_are_current() {
     let place = Place::of(LIBRARY);
@@ -234,13 +233,13 @@ fn measured_values_of_other_probes_are_kept_unless_forced() {
     assert_eq!(place.read("projects/8002_Z.txt"), values);
     assert_eq!(place.run("emit 8002.1P --force").status, Some(0));
     assert!(!place.read("projects/8002_Z.txt").contains("5.125"));
-    // Where nothing is measured yet nothing is lost.
+    // Without measured values, nothing is lost.
     let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &nothing_measured);
     assert_eq!(place.run("emit 8002.1P").status, Some(0));
     assert_ne!(place.read("projects/8002_Z.txt"), nothing_measured);
 }
 
-/// G-code of the original tool has other comments, head and line ends. (issue 4)
+/// G-code of the original tool has other comments, headers and line ends. (issue 4)
 #[test]
 fn moves_are_compared_with_a_program_whoever_wrote_it() {
     let place = Place::of(LIBRARY);
@@ -273,7 +272,7 @@ fn comparing_moves_needs_no_rapid_feed() {
     assert_snapshot!(runs(&place, ["emit 1234.1P", "emit --check 1234.1P", "emit --check --moves 1234.1P"]));
 }
 
-/// A workshop's library with the G-code that the original tool made of it: all of it is current, and nothing is written.
+/// A library with the G-code that the original tool made of it: all of it is current, and nothing is written.
 #[test]
 fn gcode_of_the_original_tool_is_current() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -285,7 +284,7 @@ fn gcode_of_the_original_tool_is_current() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Moved over and then changed, a drawing is told from its G-code: by the line of the program where it begins.
+/// A migrated drawing that is edited later is distinguished from its G-code, starting at the line where the program differs.
 #[test]
 fn a_changed_drawing_is_not_current() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -300,7 +299,7 @@ fn a_changed_drawing_is_not_current() {
     assert_snapshot!(check_moves(&place, arguments));
 }
 
-/// Without `--compatible` such a program moves otherwise: that this is why is said, and only where it is.
+/// Without `--compatible`, such a program has different moves; this reason is reported, but only if it is the reason.
 #[test]
 fn a_program_as_the_original_tool_writes_it_is_named_so() {
     let cases = support::project().join("fixtures/conformance/cases");
@@ -318,7 +317,7 @@ fn a_program_as_the_original_tool_writes_it_is_named_so() {
     assert!(changed.status == Some(1) && !changed.stderr.contains("--compatible"), "{changed}");
 }
 
-/// What the original tool wrote in a run that ended well.
+/// The files that the original tool wrote in a successful run.
 fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     let folder = run.case.join("expected").join(run.number.to_string());
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -327,7 +326,7 @@ fn expected_files(run: &Run) -> Vec<(String, Vec<u8>)> {
     named.filter(|(name, _)| has_extension(name, "gcode")).collect()
 }
 
-/// What is wrong about comparing a run's outputs with what the original tool wrote.
+/// The problem with comparing the outputs of a run with the files of the original tool.
 fn fault(run: &Run) -> Option<String> {
     let What::Compile(arguments) = &run.what else { return None };
     let place = with_expected_files(run);
@@ -342,7 +341,7 @@ fn check_moves(place: &Place, arguments: &[String]) -> support::Run {
     place.run_with(&[&["emit", "--check", "--moves", "--compatible"], &arguments[1..]].concat())
 }
 
-/// A case's drawings, and beside them what the original tool wrote.
+/// The drawings of a case with the files that the original tool wrote.
 fn with_expected_files(run: &Run) -> Place {
     let sources = fs::read_dir(&run.case).unwrap().map(|entry| entry.unwrap().path());
     let mut place = Place::new();
@@ -391,7 +390,7 @@ fn deps_are_rules_for_make() {
     assert_snapshot!(place.read("out.d"));
 }
 
-/// A drawing that may hold an embedded path by its name was read: an edit may make it a second definition.
+/// A drawing whose name admits an embedded path was read: an edit may turn it into a second definition.
 #[test]
 fn deps_have_drawings_that_were_searched_in_vain() {
     let other = LIBRARY.split("== components/1300.dxf ==").nth(1).unwrap().split("== ").next().unwrap();
@@ -433,7 +432,7 @@ fn two_outputs_of_one_name_are_both_refused() {
     assert_snapshot!(same.run("emit --out-dir all"));
 }
 
-/// Where files are the same in whatever case, as on Windows, there are no two such drawings.
+/// If file names ignore case, as on Windows, two such drawings cannot exist.
 #[cfg(not(windows))]
 #[test]
 fn outputs_whose_names_differ_in_case_are_both_refused() {
@@ -462,12 +461,12 @@ fn what_nothing_writes_any_more_is_stale() {
     assert_eq!(gone, ["projects/8001 a b_Milling.gcode"]);
 }
 
-/// Each of these is still somebody's, or may be.
+/// Each of these files still has an owner, or may have one.
 #[test]
 fn what_may_be_written_again_is_not_stale() {
     let place = Place::of(LIBRARY);
     place.run("emit");
-    // A path that is wrong just now; one that is no target; what adjust makes; a drawing that is ignored.
+    // A path with errors at the moment, a path that is not a target, a file of adjust, an ignored drawing.
     place.run("emit 1234.1P");
     let values = place.read("projects/8002_Z.txt").replace("=\n", "=5.125\n");
     let place = place.file("projects/8002_Z.txt", values);
@@ -485,7 +484,7 @@ fn what_may_be_written_again_is_not_stale() {
     assert!(!run.stderr.contains("stale"), "{run}");
 }
 
-/// Nobody knows which paths are in a drawing that cannot be read just now.
+/// The paths of a drawing that cannot be read at the moment are unknown.
 #[test]
 fn programs_of_a_drawing_that_cannot_be_read_are_not_stale() {
     for arguments in ["", "projects ", "--out-dir all ", "projects --out-dir all "] {
@@ -515,7 +514,7 @@ fn outputs_of_a_path_that_changed_its_name_are_stale() {
     ));
 }
 
-/// Of an output directory that is shared with other drawings a run knows only what the library tells.
+/// A run only knows the library's own files in an output directory that is shared with other drawings.
 #[test]
 fn other_drawings_of_a_shared_output_directory_are_left_alone() {
     let place = library("library = [\"components\", \"projects\"]", "");
@@ -533,7 +532,7 @@ fn a_missing_subpath_that_the_library_has_says_where() {
     assert!(check.stderr.contains("add components to `search`"), "{check}");
 }
 
-/// What is joined is milled through, without leaving the groove; what is farther apart is a gap.
+/// Joined ends are milled through without leaving the groove; larger distances are gaps.
 #[test]
 fn ends_within_the_tolerance_are_milled_through() {
     let place = |gap: &str| {

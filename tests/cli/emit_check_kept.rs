@@ -1,5 +1,5 @@
-//! `emit --check` with kept results: the same answers as without, whatever changed in between, and no drawing read where nothing did.
-//! (book: reference/commands, `emit --check`)
+//! `emit --check` with a cache: the same answers as without, whatever changed in between, and no drawing is read if nothing did. (book:
+//! reference/commands, `emit --check`)
 
 use std::fs;
 use std::time::Duration;
@@ -43,7 +43,7 @@ end 40,0
 const ALL_CURRENT: &str = "4 current, 0 not current
 ";
 
-/// A library whose programs were written just now.
+/// A library whose programs were just written.
 fn emitted() -> Place {
     let place = Place::of(LIBRARY);
     let run = place.run("emit");
@@ -51,7 +51,7 @@ fn emitted() -> Place {
     place
 }
 
-/// A file of the library with something exchanged.
+/// Replaces a part of a file of the library.
 fn with(place: Place, file: &str, from: &str, to: &str) -> Place {
     let drawn = Place::of(&LIBRARY.replace(from, to));
     let bytes = fs::read(drawn.path().join(file)).unwrap();
@@ -63,7 +63,7 @@ fn said(run: &Run) -> (Option<i32>, &str, &str) {
     (run.status, &run.stdout, &run.stderr)
 }
 
-/// What a check says: with the cache as it is, from what that run kept, and without.
+/// The output of a check: with the current cache, with the cache of that run, and without.
 #[track_caller]
 fn answer(place: &Place, arguments: &str) -> Run {
     let without = place.run(&format!("emit --check --no-cache {arguments}"));
@@ -80,7 +80,7 @@ fn is_known(place: &Place, arguments: &str) -> bool {
     paths.0 == paths.1 && drawings.0 == drawings.1
 }
 
-/// Of how many of the paths and drawings results are known.
+/// The numbers of cached and of all paths, and of drawings.
 fn known(run: &Run) -> ((u32, u32), (u32, u32)) {
     let count = |phrase: &str| {
         let line =
@@ -120,7 +120,7 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
         "layer 8001.1P\nstart 0,0 \"T6",
     );
     assert!(!is_known(&place, ""));
-    // The component is thinner than the plate: an error, and what lies there is older.
+    // The component is thinner than the plate: an error, and its program is older.
     let run = answer(&place, "");
     assert_eq!(run.status, Some(1), "{run}");
     let rows = place.run("emit --check --format json").stdout;
@@ -133,7 +133,7 @@ fn an_edited_drawing_is_noticed_and_its_mending_too() {
         "subpath 0,0 40,0 \">1234.1P\"\nend 40,0",
         "subpath 0,0 40,0 \">1234.1P\"\nend 40,0\nlayer 8001.2P\nstart 0,50 \"T5 O2 MPlate I1 B4\"\nmill 0,50 40,50\nend 40,50",
     );
-    // Two paths now: the program has another name.
+    // There are two paths now, so the program has another name.
     let run = answer(&place, "");
     assert!(run.stdout.contains("missing"), "{run}");
 }
@@ -172,7 +172,7 @@ fn a_changed_setting_is_noticed() {
     let place = place.file("pathbuild.toml", configuration.replace("\"8*\"", "\"8*\", \"9*\""));
     let run = answer(&place, "");
     assert!(run.stderr.contains("9*") && run.status == Some(1), "{run}");
-    // What messages name is a line of the configuration.
+    // Messages name a line of the configuration.
     let moved = format!("\n{}", place.read("pathbuild.toml"));
     let place = place.file("pathbuild.toml", moved);
     answer(&place, "");
@@ -263,7 +263,7 @@ fn an_edited_post_is_noticed() {
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
 }
 
-/// A file that a post puts into programs is as much a part of them as the post, however its name is spelt there, also in a macro.
+/// A file inserted by a post belongs to the programs like the post itself, however the post spells its name, including in a macro.
 #[test]
 fn an_edited_file_that_a_post_inserts_is_noticed() {
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");
@@ -286,7 +286,7 @@ fn an_edited_file_that_a_post_inserts_is_noticed() {
     }
 }
 
-/// The fault is kept with its place: a post of the same bytes has it in its own file.
+/// A fault is cached with its place: an identical post has the fault in its own file.
 #[test]
 fn a_fault_of_a_post_is_in_its_own_file() {
     let post = "<PostProcessor><PostFile>{$mops}{$nothing}</PostFile></PostProcessor>";
@@ -301,8 +301,8 @@ fn a_fault_of_a_post_is_in_its_own_file() {
     }
 }
 
-/// Results name files as they are seen from where they were asked for: a copy of a drawing has the same name in a directory below, and its
-/// program another one.
+/// Results name files relative to the working directory: the copy of a drawing in a subdirectory has the same name there, but its program
+/// has another one.
 #[test]
 fn results_hold_where_they_were_asked_for() {
     let configuration =
@@ -321,7 +321,7 @@ fn results_hold_where_they_were_asked_for() {
     }
 }
 
-/// The machine may have been busy: with a path of many passes, and with one of many lines, which already its walk takes time for.
+/// The machine may have been busy: with a path of many passes, and with one of many lines, for which even the walk takes time.
 #[test]
 fn what_took_too_long_is_asked_again() {
     let lines: Vec<String> =
@@ -342,7 +342,7 @@ fn what_took_too_long_is_asked_again() {
     }
 }
 
-/// The stamps of the programs, and what is in them.
+/// Modification times and contents of the programs.
 fn programs(place: &Place) -> Vec<(std::path::PathBuf, std::time::SystemTime, Vec<u8>)> {
     let listed = fs::read_dir(place.path().join("projects")).unwrap().map(|entry| entry.unwrap().path());
     let mut programs: Vec<_> = listed
@@ -400,7 +400,7 @@ fn a_program_that_was_changed_or_removed_by_hand_is_made_again() {
             } else {
                 fs::remove_file(path).unwrap();
             }
-            // With other probes, people's values would be lost.
+            // With other probes, the user's measured values would be lost.
             let run = place.run("emit");
             if run.stderr.contains("PB605") {
                 fs::write(path, bytes).unwrap();
@@ -480,7 +480,7 @@ fn programs_of_the_same_moves_are_not_taken_for_those_that_would_be_written() {
         let program = place.read("projects/8001_Milling.gcode").replace("M30", "(mine)\nM30");
         place.file("projects/8001_Milling.gcode", program)
     });
-    // Only of files that have rested stamps are kept.
+    // Stamps are only cached for files that have not changed for a while.
     std::thread::sleep(Duration::from_millis(3_500));
     for (place, (task, said)) in places.iter().zip(tasks) {
         assert_eq!(place.run(&format!("emit --check {task}")).stderr, said);
@@ -527,8 +527,7 @@ fn without_a_configuration_nothing_is_kept() {
     assert!(!place.cache().exists());
 }
 
-/// What `emit` says with `arguments` as often as it is typed: what it says without kept results, and from the second time on without reading a
-/// drawing or writing a file.
+/// The output of repeated `emit` runs: the same as without a cache, and from the second run on without reading drawings or writing files.
 #[track_caller]
 fn settles(place: &Place, arguments: &str) -> Run {
     place.run(&format!("emit {arguments}"));
@@ -543,14 +542,14 @@ fn settles(place: &Place, arguments: &str) -> Run {
     without
 }
 
-/// Of how many of its paths the next `emit` knows the results.
+/// The numbers of cached and of all paths in the next `emit`.
 fn paths_known(place: &Place, arguments: &str) -> (u32, u32) {
     known(&place.run(&format!("emit -v {arguments}"))).0
 }
 
 const POST: &str = "<PostProcessor><PostFile>{$mops}</PostFile></PostProcessor>";
 
-/// A library in which two paths can be joined.
+/// A library with two paths that can be joined.
 fn joinable() -> Place {
     Place::of(&LIBRARY.replace("probe 20,20 \"LA\"\n", "")).file("my.cbpp", POST)
 }
@@ -563,7 +562,7 @@ fn whatever_is_named_is_made_once() {
     for arguments in all {
         settles(&place, arguments);
     }
-    // What one run made is known to the others, whatever they name.
+    // The results of one run are available to the others, whichever paths they name.
     for arguments in all {
         let (known, all) = paths_known(&place, arguments);
         assert_eq!(known, all, "{arguments}");
@@ -587,7 +586,7 @@ fn errors_of_what_is_named_are_known() {
     for arguments in ["8001.1P", "projects/8001.dxf", "projects"] {
         assert_eq!(settles(&place, arguments).status, Some(1));
     }
-    // Probes cannot be posted: the path is right, and becomes nothing.
+    // Programs with probes cannot be posted: the path is correct, but gives no program.
     let place = Place::of(LIBRARY).file("my.cbpp", POST);
     for arguments in ["8002.1P --post my.cbpp", "8001 8002 --join both --post my.cbpp"] {
         assert_eq!(settles(&place, arguments).status, Some(1));
@@ -636,7 +635,7 @@ fn options_and_posts_of_what_is_named_count() {
     let place = place.file("my.cbpp", POST.replace("{$mops}", "(other)\n{$mops}"));
     assert_eq!(paths_known(&place, arguments), (0, 2));
     settles(&place, arguments);
-    // Another name, or the same paths in another order, is another program.
+    // Another name, or another order of paths, gives another program.
     assert_eq!(paths_known(&place, "8001 8002 --join other --post my.cbpp"), (0, 2));
     assert_eq!(paths_known(&place, "8002 8001 --join both --post my.cbpp"), (0, 2));
     assert_eq!(paths_known(&place, arguments), (0, 2), "the file is of the paths in another order");
@@ -691,11 +690,11 @@ fn paths_that_claim_one_file_are_known_to_do_so_and_made_when_they_no_longer_do(
 fn records_of_drawings_that_were_not_looked_at_stay_unless_they_are_of_other_bytes() {
     let place = emitted();
     settles(&place, "");
-    // Read by a run that names one project only.
+    // Read by a run that names a single project.
     let drawing = String::from_utf8(fs::read(place.path().join("components/1234.dxf")).unwrap()).unwrap();
     let place = place.file("components/1234.dxf", drawing.replace("I1 B4", "I1 B3"));
     settles(&place, "8001.1P");
-    // The component itself was not looked at; its record was of other bytes.
+    // The component itself was not checked; its cached result refers to other bytes.
     assert_eq!(known(&place.run("emit -v")), ((2, 2), (3, 4)));
 }
 
@@ -710,7 +709,7 @@ fn a_program_that_may_not_be_written_is_not_made_again() {
     assert_eq!(run.status, Some(1), "{run}");
 }
 
-/// What is kept of a run that found another version's program is what this version writes: a colleague may have written it with this one.
+/// A program of another version that is replaced by an equivalent one of this version stays current, since a colleague may have written it.
 #[test]
 fn a_program_of_this_version_takes_the_place_of_another_ones() {
     let place = emitted();
@@ -719,7 +718,7 @@ fn a_program_of_this_version_takes_the_place_of_another_ones() {
     let place = place
         .file(program, own.replacen(concat!("pathbuild ", env!("CARGO_PKG_VERSION")), "pathbuild 0.0.9", 1));
     assert_ne!(place.read(program), own);
-    // It was written just now, so it is compared anew each time.
+    // It was just written, so it is compared again each time.
     assert_eq!(place.run("emit --check").status, Some(0));
     let place = place.file(program, own);
     assert_eq!(place.run("emit --check").status, Some(0));
@@ -727,7 +726,7 @@ fn a_program_of_this_version_takes_the_place_of_another_ones() {
     assert_eq!(place.run("emit --check").status, Some(1));
 }
 
-/// The language of comments is that of messages, unless a key says another: whether it is set counts, not its value alone.
+/// The language of comments is that of messages, unless a key sets another: it matters whether the key is set, not only its value.
 #[test]
 fn a_language_that_is_no_longer_set_is_noticed() {
     let place = Place::of(&LIBRARY.replace("feed = 150", "feed = 150\nlang = \"de\"\ncomment-lang = \"en\""));
@@ -738,7 +737,7 @@ fn a_language_that_is_no_longer_set_is_noticed() {
     assert_eq!(run.status, Some(1), "{run}");
 }
 
-/// A post refuses what it inserts, or what it does not find: with the file that passes.
+/// A post that rejects an inserted file, or does not find it, succeeds once the file is corrected.
 #[test]
 fn a_refusal_for_an_inserted_file_passes_with_it() {
     let texts = "comment = '(~CommentText~)'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\n\
@@ -755,7 +754,7 @@ fn a_refusal_for_an_inserted_file_passes_with_it() {
     }
 }
 
-/// The limit of drawings is none of programs.
+/// The limit for drawings does not apply to programs.
 #[test]
 fn a_program_may_be_larger_than_a_drawing() {
     let place = Place::of(LIBRARY);
@@ -769,7 +768,7 @@ fn a_program_may_be_larger_than_a_drawing() {
     assert!(answer(&deep, "").stderr.contains(" 0 not current\n"));
 }
 
-/// Moves can be compared without a speed of rapid moves; what is known of that run is not enough for one that tells times.
+/// Moves can be compared without the rapid feed, but the cached result does not suffice for a run that reports times.
 #[test]
 fn a_value_that_is_missing_is_missing_though_moves_are_known() {
     let place = Place::of(&LIBRARY.replace("rapid = 1000\n", ""));
@@ -779,7 +778,7 @@ fn a_value_that_is_missing_is_missing_though_moves_are_known() {
     assert!(run.status == Some(2) && run.stderr.contains("--rapid"), "{run}");
 }
 
-/// Something lies there; it cannot be read.
+/// The file exists but cannot be read.
 #[cfg(unix)]
 #[test]
 fn a_program_that_leads_to_itself_is_not_missing() {

@@ -1,4 +1,4 @@
-//! The examples on the pages of `explain` give exactly the diagnostics that are noted in them.
+//! The examples on the pages of `explain` give exactly the noted diagnostics.
 
 use crate::support::fixture;
 use pathbuild_diagnostic::{Code, example};
@@ -10,7 +10,7 @@ fn every_example_gives_what_it_says() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is wrong with an example.
+/// The fault of an example.
 fn verdict(code: Code, text: &str) -> Option<String> {
     let faults = fixture::faults(text);
     (!faults.is_empty()).then(|| format!("{code}:\n  {}", faults.join("\n  ")))

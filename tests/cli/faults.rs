@@ -1,5 +1,5 @@
-//! What the machine does to a run: a full disk, a directory of somebody else, a clock that goes back, a cache that is cleaned meanwhile.
-//! What a machine does not permit is skipped, and that is said. (docs/reliability.md)
+//! Faults of the machine: a full disk, a directory of another user, a clock that goes backwards, a cache that is cleaned during a run.
+//! Tests that the machine does not permit are skipped, with a note. (docs/reliability.md)
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -28,7 +28,7 @@ fn debris(directory: &Path) -> Vec<String> {
     names.filter(|name| Path::new(name).extension().is_some_and(|it| it == "tmp")).collect()
 }
 
-/// A file system of 64 KiB for as long as this lives.
+/// A file system of 64 KiB that exists as long as this value.
 struct Small<'a>(&'a Path);
 
 impl<'a> Small<'a> {
@@ -46,7 +46,7 @@ impl Drop for Small<'_> {
     }
 }
 
-/// At every size of what is left, a program is whole or what lay there before is; nothing half written stays.
+/// At any amount of free space, a program is either complete or the previous one; no partial file is left.
 #[test]
 fn a_full_disk_leaves_whole_programs() {
     let place = place().file("1202.1P.dxf", dxf("0.02"));
@@ -81,7 +81,7 @@ fn a_full_disk_leaves_whole_programs() {
     drop(small);
 }
 
-/// The cache's disk may be full too: findings are those of a run without it.
+/// If the disk of the cache is full, the findings are the same as without a cache.
 #[test]
 fn a_full_cache_changes_nothing() {
     let place = place();
@@ -91,18 +91,18 @@ fn a_full_cache_changes_nothing() {
     };
     let without = place.run("check --no-cache --format json");
     for pages in 0..=16 {
-        // It may not fit: then the disk is full.
+        // If it does not fit, the disk is full.
         _ = fs::write(caches.join("filler"), vec![b'x'; pages * 4096]);
         let kept = place.run("check --cache-dir caches/kept --format json");
         assert_eq!((kept.status, &kept.stdout), (Some(0), &without.stdout), "{kept}");
-        // With room, something is kept: else nothing was tried.
+        // With enough space something must be cached, or the test is void.
         assert!(pages > 0 || fs::read_dir(caches.join("kept")).unwrap().count() > 1, "{kept}");
         fs::remove_dir_all(caches.join("kept")).ok();
     }
     drop(small);
 }
 
-/// As a user who may read the tree and write nothing in it.
+/// As a user with read-only access to the tree.
 #[test]
 fn a_directory_of_somebody_else_is_left_alone() {
     let place = place();
@@ -131,7 +131,7 @@ fn a_directory_of_somebody_else_is_left_alone() {
     assert_eq!(left, ["1202.1P.dxf", "pathbuild.toml"]);
 }
 
-/// Files from a future, and then from a past: what is kept is compared with what lies there, not with the clock.
+/// Files with modification times in the future, and then in the past: the cache compares file contents, not the clock.
 #[test]
 fn a_clock_that_goes_back_hides_no_change() {
     let place = place();
@@ -140,7 +140,7 @@ fn a_clock_that_goes_back_hides_no_change() {
     let now = std::time::SystemTime::now();
     for (round, time) in [now + year, now, now - year, now + year, now].into_iter().enumerate() {
         let is_wrong = round % 2 == 1;
-        // The same number of bytes, so that only the content tells.
+        // The same length, so that only the content differs.
         fs::write(&drawing, dxf(if is_wrong { "X" } else { "1" })).unwrap();
         fs::File::options().write(true).open(&drawing).unwrap().set_modified(time).unwrap();
         for _ in 0..2 {
@@ -152,7 +152,7 @@ fn a_clock_that_goes_back_hides_no_change() {
     }
 }
 
-/// The clock of the process itself goes back by a year while results are kept.
+/// The process's clock goes back by a year while there is a cache.
 #[test]
 fn a_run_under_an_older_clock_finds_the_same() {
     let faketime =
@@ -176,7 +176,7 @@ fn a_run_under_an_older_clock_finds_the_same() {
     }
 }
 
-/// `cache clean` beside checks that read and write it: both end well, and findings stay what they are.
+/// `cache clean` during checks that use the cache: both succeed, and findings stay the same.
 #[test]
 fn a_cache_may_be_cleaned_beside_checks() {
     let drawings = (0..40).map(|path| {

@@ -1,9 +1,9 @@
-//! `import`, `verify` and `post`: programs of any origin. (book: program/posts, book: program/reading)
+//! `import`, `verify` and `post` for programs of any origin. (book: program/posts, book: program/reading)
 
 use crate::support::{Place, runs, shared};
 use insta::assert_snapshot;
 
-/// A program as other software writes it: two tools, a circle, a dwell; no word on the plane.
+/// A program of other software: two tools, a circle, a dwell, and no word for the plane.
 const FOREIGN: &str = "\
 %
 G21 G90 G94
@@ -164,7 +164,7 @@ fn what_was_emitted_is_what_the_drawing_says() {
     assert_snapshot!(cut_off);
 }
 
-/// The cut would lie within rounding, and yet the number is another one.
+/// The cut is within rounding, but the number is different.
 #[test]
 fn an_arc_that_goes_on_into_the_next_line_is_another() {
     let round = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 30,0\nmill arc centre 30,10 r 10 from 270 to 0\nmill 40,10 40,40\nend 40,40\n";
@@ -189,7 +189,7 @@ fn an_arc_that_goes_on_into_the_next_line_is_another() {
     }
 }
 
-/// M30 leaves a tool length on; where G43 follows, that counts.
+/// M30 does not reset a tool length; it is overridden by a following G43.
 #[test]
 fn a_tool_length_of_the_program_before_is_switched_off() {
     let place = Place::of(LIBRARY);
@@ -207,7 +207,7 @@ fn a_tool_length_of_the_program_before_is_switched_off() {
     }
 }
 
-/// What another program wrote, and people milled, is no fault.
+/// Programs of other software that have been milled successfully have no faults.
 #[test]
 fn programs_of_cambam_have_no_finding() {
     let Some(folder) = shared("cambam-output") else { return };
@@ -368,7 +368,7 @@ fn a_header_weakens_no_check() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));
     let good = place.read("out/1234_Milling.gcode");
-    // A narrow cutter in thin material meets nothing; the drawing's does.
+    // A narrow cutter in thin material hits nothing, but the one of the drawing does.
     let claims = "(pathbuild 0.1.0 3f2a-09c1 grbl O0.5 T-9)\n";
     let plunge = good.replace("G1 F150.0 Z4.0", "G0 Z4.0\nG1 F150.0 Z4.0");
     assert_ne!(plunge, good);
@@ -376,7 +376,7 @@ fn a_header_weakens_no_check() {
     let verified = place.run("verify --against 1234.1P claims.nc --format concise");
     assert_eq!(verified.status, Some(1), "{verified}");
     assert!(verified.stderr.contains("PB741"), "{verified}");
-    // Without a drawing the header says dialect, cutter and material.
+    // Without a drawing, the header gives dialect, cutter and material.
     let honest = format!("(pathbuild 0.1.0 3f2a-09c1 grbl O2 T5)\n{plunge}");
     let verified = place.file("honest.nc", honest).run("verify honest.nc --format concise");
     assert!(verified.stderr.contains("PB741"), "{verified}");

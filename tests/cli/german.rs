@@ -1,4 +1,4 @@
-//! The command line in German, and in English word for word. (book: reference/commands)
+//! The command line in German, and in English, word for word. (book: reference/commands)
 
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -10,7 +10,7 @@ use pathbuild::args::Cli;
 use pathbuild::german::{self, CATALOGUE};
 use pathbuild_diagnostic::Lang;
 
-/// Texts of the catalogue that are no part of the definition: why a value is refused.
+/// Texts of the catalogue outside of the definition: reasons for rejecting a value.
 const REFUSALS: [&str; 6] = [
     "expected a number from 1 to 1024",
     "expected FORMAT=FILE",

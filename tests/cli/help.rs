@@ -1,4 +1,4 @@
-//! What the program says about itself: pages on codes, completions, the manual. (book: reference/commands)
+//! Built-in documentation: pages on codes, completions, the manual. (book: reference/commands)
 
 use crate::support::{Place, runs};
 use clap::CommandFactory;
@@ -55,7 +55,7 @@ fn without_a_code_all_are_listed() {
     assert_eq!(run.stdout.lines().next(), Some("PB001  unreadable-file              error"));
 }
 
-/// That they give what they say is tested where there is a command to run them.
+/// Their output is tested where there are commands to run.
 #[test]
 fn every_example_is_a_fixture_that_can_be_drawn() {
     for code in Code::ALL {

@@ -1,5 +1,5 @@
-//! Files that are no drawings: an error each that says so, and nothing written. (book: reference/diagnostics)
-//! What a release build takes for 200 MB of each noise stands in benches/README.md.
+//! Files that are not drawings: each gives a clear error, and nothing is written. (book: reference/diagnostics) benches/README.md has the
+//! time that a release build takes for 200 MB of each kind of noise.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -10,16 +10,16 @@ use pathbuild_testkit::sheet;
 const NAME: &str = "1234.1P.dxf";
 const OPTIONS: &[&str] = &["--feed=150", "--rapid=1000", "--sweep-height=20", "--format=concise"];
 
-/// Noise of so many bytes. Debug builds of the reader take about a second for it.
+/// The size of the noise in bytes. Debug builds of the reader take about a second for it.
 const NOISE: usize = 8_000_000;
 
-/// A drawing of one path, whole.
+/// A complete drawing of one path.
 fn drawing() -> Vec<u8> {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0";
     sheet(drawn).unwrap().to_dxf()
 }
 
-/// Bytes without a pattern, the same in every run (xorshift).
+/// Deterministic pseudo-random bytes (xorshift).
 fn noise(alphabet: &[u8]) -> Vec<u8> {
     let mut state = 0x2545_f491_4f6c_dd1d_u64;
     let mut next = || {
@@ -31,7 +31,7 @@ fn noise(alphabet: &[u8]) -> Vec<u8> {
     (0..NOISE).map(|_| alphabet[next() % alphabet.len()]).collect()
 }
 
-/// The error that `emit` and `check` say of these bytes; that there is one, and no other, and nothing is written.
+/// The error of `emit` and `check` for these bytes, after checking that it is the only one and nothing is written.
 #[track_caller]
 fn error(bytes: &[u8]) -> String {
     let place = Place::new().file(NAME, bytes);
@@ -81,11 +81,11 @@ fn an_empty_file_is_no_drawing() {
 #[test]
 fn a_text_is_no_drawing() {
     assert_says(&error(b"This is a letter.\n"), "PB002", "not a DXF file");
-    // Not even one that looks like one for some lines.
+    // Not even a file that looks like one for a few lines.
     assert_says(&error(b"  0\nSECTION\n  2\nENTITIES\nDear Sir,\n"), "PB002", "Dear Sir,");
 }
 
-/// At every tenth of the file, and one byte before the entities end.
+/// Cut off at every tenth of the file, and one byte before the entities end.
 #[test]
 fn a_file_that_is_cut_off_has_no_paths() {
     let whole = drawing();
@@ -111,7 +111,7 @@ fn noise_is_no_drawing() {
     assert_says(&error(&noise(b"\n")), "PB002", "nothing but blanks");
 }
 
-/// Noise behind something that announces a drawing.
+/// Noise after the beginning of a drawing.
 #[test]
 fn noise_within_a_drawing_is_found() {
     let start = find(&drawing(), b"ENTITIES") + 10;
@@ -137,7 +137,7 @@ fn a_file_that_is_not_there_is_named() {
     assert_says(&one_error(&Place::new(), NAME), "PB001", NAME);
 }
 
-/// Tests may run as a user who may read everything: what nobody can read is a process's memory from its beginning.
+/// Tests may run as a user who may read everything, but nobody can read the beginning of a process's memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_cannot_be_read_is_an_error_of_its_own() {
@@ -146,7 +146,7 @@ fn a_file_that_cannot_be_read_is_an_error_of_its_own() {
     assert_says(&one_error(&place, NAME), "PB001", "cannot read");
 }
 
-/// Five million passes, begun and given up.
+/// Five million passes, started and cancelled.
 #[test]
 fn what_takes_too_long_is_given_up() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I0.000001 B0\"\nmill 0,0 40,0\nend 40,0";
@@ -159,7 +159,7 @@ fn what_takes_too_long_is_given_up() {
     assert_says(&errors(&run).join("\n"), "PB005", "the time that this path takes");
 }
 
-/// A drawing has as many paths as it has layers: each is found without a look at all others.
+/// A drawing may have as many paths as layers: each is found without scanning all the others.
 #[test]
 fn twenty_thousand_paths_in_one_drawing_take_no_square_of_them() {
     let line = |path: u32| {
@@ -175,7 +175,7 @@ fn twenty_thousand_paths_in_one_drawing_take_no_square_of_them() {
     assert_eq!(errors(&run).len(), 40_000);
 }
 
-/// In a library with all of them each is told, and what is right is checked.
+/// In a library with all of them, each is reported, and correct drawings are checked.
 #[test]
 fn bad_files_hide_nothing() {
     let place = Place::new()

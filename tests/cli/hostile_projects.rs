@@ -1,5 +1,5 @@
-//! Projects that embed beyond all measure: a clear limit or the right result, in bounded time and memory.
-//! (book: language/embedding; book: reference/configuration, [limits])
+//! Projects with excessive embedding: a clear limit or the correct result, in bounded time and memory. (book: language/embedding; book:
+//! reference/configuration, [limits])
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;
 
-/// What each of these takes at most, in a debug build on a busy machine.
+/// Maximum duration of a run, in a debug build on a busy machine.
 const LONGEST: Duration = Duration::from_mins(1);
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
@@ -21,7 +21,7 @@ fn file(level: usize) -> String {
     format!("{}.{}.dxf", 1000 + level / 1000, level % 1000)
 }
 
-/// A path that mills 10 mm at depth B, in five passes; `start` is what its start says besides.
+/// A path that mills 10 mm at depth B in five passes; `start` adds to the text of its start.
 fn component(level: usize, start: &str) -> String {
     format!("layer {}\nstart 0,0 \"T5 O2 I1 B0 MX {start}\"\nmill 0,0 10,0\nend 10,0\n", name(level))
 }
@@ -47,7 +47,7 @@ fn place(drawings: impl IntoIterator<Item = (usize, String)>, limits: &str) -> P
         .fold(place, |place, (level, text)| place.file(&file(level), sheet(&text).unwrap().to_dxf()))
 }
 
-/// Runs the program, which must not take long.
+/// Runs the program with a limit on its duration.
 fn timed(place: &Place, arguments: &str) -> Run {
     let begun = Instant::now();
     let run = place.run(&format!("{arguments} --format concise --no-cache"));
@@ -67,7 +67,7 @@ fn cuts(program: &str) -> usize {
     program.lines().filter(|line| line.starts_with("G01 F") && line.contains(" X")).count()
 }
 
-/// Ten levels of ten: a thousand million components.
+/// Ten levels of ten embeddings: a thousand million components.
 #[test]
 fn ten_levels_of_ten_embeddings_exceed_the_limit_of_moves() {
     let levels = (1..=10).map(|it| (it, project(it, "", &times(10, &embedded(it - 1)))));
@@ -101,7 +101,7 @@ fn a_thousand_embeddings_of_one_component_are_compiled() {
     assert_eq!(program.matches("START Subpath 1000.0P").count(), 1000);
 }
 
-/// Each level hands down its value twice: the tenth has it 2^9 times.
+/// Each level passes its value on twice: the tenth has 2^9 copies.
 #[test]
 fn values_that_double_nine_times_are_handed_down() {
     let lengths = (0..=9).map(|power| "x".repeat(1 << power)).collect::<Vec<_>>().join(",");
@@ -117,7 +117,7 @@ fn values_that_double_nine_times_are_handed_down() {
     assert_eq!(written(&place, 10).matches(&comment).count(), 5, "one a pass");
 }
 
-/// Values that refer to each other in one path: with every variable the text is twice as long.
+/// Values of one path that refer to each other: the text doubles with each variable.
 #[test]
 fn a_text_that_doubles_with_every_variable_ends_at_the_limit() {
     let path = |doublings: usize| {
@@ -158,7 +158,7 @@ fn paths_with_very_many_values_exceed_the_limit_of_paths() {
     assert_eq!(few.status, Some(0), "85 are not too many: {few}");
 }
 
-/// A chain of four hundred embeddings: what is more than ten levels below is refused, and nothing overflows.
+/// A chain of four hundred embeddings: everything below ten levels is rejected, and nothing overflows.
 #[test]
 fn a_chain_of_very_many_levels_ends_at_the_tenth() {
     let levels = (1..400).map(|it| (it, project(it, "", &[embedded(it - 1)])));
@@ -173,7 +173,7 @@ fn a_chain_of_very_many_levels_ends_at_the_tenth() {
     assert!(run.status == Some(1) && run.stderr.contains("PB508"), "{run}");
 }
 
-/// What embeds what is known beyond the ten levels that are compiled.
+/// The graph of embeddings exceeds the ten levels that are compiled.
 #[test]
 fn a_graph_shows_chains_of_any_depth_whole() {
     let levels = (1..100).map(|it| (it, project(it, "", &[embedded(it - 1)])));
@@ -193,7 +193,7 @@ fn a_cycle_through_ten_files_is_said_with_its_names() {
     assert!(run.stderr.contains(&format!("path 1000.3P embeds itself: {}", chain.join(" > "))), "{run}");
 }
 
-/// A cycle that is longer than embedding may be deep is too deep before it is a cycle.
+/// A cycle that is longer than the maximum depth is too deep before it is a cycle.
 #[test]
 fn a_cycle_through_a_hundred_files_ends() {
     let levels = (0..100).map(|it| (it, project(it, "", &[embedded((it + 1) % 100)])));
@@ -203,7 +203,7 @@ fn a_cycle_through_a_hundred_files_ends() {
     assert_eq!(run.stderr.lines().filter(|line| line.contains("[PB508]")).count(), 100);
 }
 
-/// Eleven levels below two projects is the same segment: that is said once.
+/// The eleventh level below two projects is the same segment, which is reported once.
 #[test]
 fn a_segment_that_is_too_deep_below_several_projects_is_reported_once() {
     let levels = (1..=10).map(|it| (it, project(it, "", &[embedded(it - 1)])));
@@ -226,7 +226,7 @@ fn each_of_very_many_wrong_embeddings_is_reported() {
 fn a_directory_with_too_much_below_it_is_not_walked_through() {
     let files = (0..40).map(|it| (it, component(it, "")));
     let place = place(files, "library-entries = 40");
-    // There are forty drawings and pathbuild.toml.
+    // There are forty drawings, and pathbuild.toml.
     for command in ["check .", "emit .", "graph .", "rdeps 1000.0P", "check 1000.99P"] {
         let run = timed(&place, command);
         assert_eq!(run.status, Some(1), "{run}");

@@ -1,4 +1,4 @@
-//! Clamps on the table: what comes into them is an error, in each command that looks at moves. (book: language/keep-outs)
+//! Clamps on the table: hitting one is an error in each command that examines moves. (book: language/keep-outs)
 
 use std::fs;
 
@@ -28,7 +28,7 @@ fn codes(run: &Run) -> Vec<String> {
     found.map(|rest| rest[..3].to_owned()).collect()
 }
 
-/// `check` and `emit` find this, from what is kept or not; with an error `emit` writes nothing.
+/// Checks the findings of `check` and `emit`, with and without a cache; with an error, `emit` must write nothing.
 #[track_caller]
 fn assert_found(place: &Place, expected: &[&str]) {
     for command in
@@ -73,7 +73,7 @@ fn rapids_are_above_or_beside() {
 
 #[test]
 fn arcs_are_arcs() {
-    // A half circle to the right, whose highest point is at (25, 12.5 + ...): its chord is far from the clamp.
+    // A half circle to the right, whose chord is far from the clamp.
     let arc = |radius: f64| {
         let (left, right) = (25.0 - radius, 25.0 + radius);
         path(
@@ -99,7 +99,7 @@ fn holes_and_helical_circles_count() {
     assert_hits(&circle("17.01", "6"), "cut");
 }
 
-/// One fault for each element, however many passes it takes.
+/// One finding for each element, regardless of the number of passes.
 #[test]
 fn passes_are_counted() {
     let drawing = path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15").replace("I5", "I1");
@@ -121,7 +121,7 @@ fn without_the_setting_nothing_is_looked_at() {
     }
 }
 
-/// An edit of the clamp alone is noticed, in both directions.
+/// An edit of the clamp alone is detected, in both directions.
 #[test]
 fn an_edited_clamp_is_a_change() {
     let drawing = path("21", "mill 0,0 0,8\nmill 0,8 50,8\nend 50,8");
@@ -144,7 +144,7 @@ fn a_clamp_that_is_not_clear_stops_its_paths() {
     assert_found(&place(&drawing.replace("Z20", "20")), &["117"]);
     assert_found(&place(&drawing.replace(" closed", "")), &["117", "117"]);
     assert_found(&place(&drawing.replace("layer clamps", "layer clamp")), &[]);
-    // Nothing of the drawing is written, nor what embeds it.
+    // Neither the drawing nor what embeds it is written.
     let project = "layer 8001.1P\nstart 0,0 \"T5 O2 S21 MAl\"\nsubpath 0,0 9,0 \">1234.1P\"\nend 9,0\n";
     let place = place(&drawing.replace("Z20", "20")).file("8001.1P.dxf", dxf(project));
     assert_eq!(codes(&place.run("emit 8001.1P.dxf --search . --format concise")), ["117", "511"]);
@@ -171,10 +171,10 @@ fn embedding(project: &str) -> Place {
         .file("8001.1P.dxf", dxf(&format!("layer 8001.1P\nstart 0,0 \"T5 O2 I5 B0 S22 MAl\"\n{project}")))
 }
 
-/// The clamps of a component are moved, turned and raised with it, and stand in the way of everything in the program.
+/// The clamps of a component are moved, rotated and raised with it, and affect the whole program.
 #[test]
 fn clamps_of_components_lie_where_they_are_embedded() {
-    // Embedded upwards from (20, 0): its clamp is from (12, 2) to (17, 7).
+    // Embedded upwards from (20, 0), its clamp is from (12, 2) to (17, 7).
     let project = |y: &str, more: &str| {
         format!(
             "sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P{more}\"\nsweep 20,9 30,9\nsweep 30,9 30,{y}\n\
@@ -192,7 +192,7 @@ fn clamps_of_components_lie_where_they_are_embedded() {
             assert!(expected == 0 || format!("{run}").contains("8001.1P.dxf"), "{run}");
         }
     }
-    // Raised by 2 mm it is higher than S.
+    // Raised by 2 mm, it is higher than S.
     let over = |height: &str| {
         project("8", height)
             .replace("mill 30,8 0,8", "sweep 30,8 30,5\nsweep 30,5 0,5")
@@ -202,7 +202,7 @@ fn clamps_of_components_lie_where_they_are_embedded() {
     assert_eq!(codes(&embedding(&over(" H2.01")).run("check 8001.1P.dxf --format concise")), ["407"]);
 }
 
-/// A component that comes into its own clamp is one fault, wherever it is embedded.
+/// A component that hits its own clamp is reported once, however often it is embedded.
 #[test]
 fn a_fault_within_a_component_is_said_once() {
     let project = "sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P\"\nsweep 20,9 50,9\nsubpath 50,9 50,18 \">1234.1P\"\nend 50,18\n";
@@ -212,7 +212,7 @@ fn a_fault_within_a_component_is_said_once() {
     assert!(run.stderr.contains("1234.1P.dxf:"), "{run}");
 }
 
-/// Heights are those of the drawing in which it stands, by however much H raises it.
+/// Heights refer to the drawing of the finding, regardless of H.
 #[test]
 fn a_fault_within_a_component_has_the_components_heights() {
     let place = embedding("sweep 0,0 20,0\nsubpath 20,0 20,9 \">1234.1P H1\"\nend 20,9\n")
@@ -222,7 +222,7 @@ fn a_fault_within_a_component_has_the_components_heights() {
     assert_eq!(codes(&run), ["407"], "{run}");
 }
 
-/// The path that is emitted may have another O than what it embeds.
+/// The emitted path may have a greater O than the paths it embeds.
 #[test]
 fn the_largest_cutter_of_a_program_keeps_away() {
     let component = "layer 1235.1P\nstart 0,0 \"T5 O6 I5 B0 S21 MAl\"\nmill 0,0 40,0\nend 40,0\n";
@@ -241,7 +241,7 @@ fn the_largest_cutter_of_a_program_keeps_away() {
     assert!(found("7.01"));
 }
 
-/// Polylines, which PathDxf2GCode leaves out of paths, are outlines of clamps all the same.
+/// Polylines, which PathDxf2GCode ignores in paths, are outlines of clamps nevertheless.
 #[test]
 fn clamps_are_of_all_curves_in_compatible_mode_too() {
     let place = place(&path("21", "mill 0,0 0,15\nmill 0,15 50,15\nend 50,15"));
@@ -249,7 +249,7 @@ fn clamps_are_of_all_curves_in_compatible_mode_too() {
     assert_found(&place, &["407"]);
 }
 
-/// Through a post too, and the program of a post is held against clamps as the native one is.
+/// Also through a post; and the program of a post is checked for clamps like the native one.
 #[test]
 fn posts_and_verify_know_clamps() {
     let drawing = path("21", "mill 0,0 0,8\nmill 0,8 50,8\nend 50,8");

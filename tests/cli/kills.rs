@@ -1,5 +1,5 @@
-//! Runs that are killed at any moment: every file is one that a whole run writes, and the next run leaves nothing behind.
-//! `PATHBUILD_KILLS` says how often each command is killed (20 without it). (docs/reliability.md)
+//! Runs that are killed at any moment: every file equals that of some complete run, and the next run leaves nothing behind.
+//! `PATHBUILD_KILLS` sets how often each command is killed (default 20). (docs/reliability.md)
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,11 +14,11 @@ fn kills() -> u64 {
     std::env::var("PATHBUILD_KILLS").map_or(20, |count| count.parse().unwrap())
 }
 
-/// Numbers without a pattern, the same in every run (xorshift).
+/// Deterministic pseudo-random numbers (xorshift).
 struct Chance(u64);
 
 impl Chance {
-    /// From 0 to 1.
+    /// A random number from 0 to 1.
     fn part(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -31,7 +31,7 @@ fn configuration(feed: u32) -> String {
     format!("feed = {feed}\nrapid = 1000\nsweep-height = 20\nlibrary = [\".\"]\n[emit]\ntargets = [\"*\"]\n")
 }
 
-/// Drawings of many programs, so that a good part of the kills meets one that is written.
+/// Drawings of many programs, so that many kills hit one being written.
 fn library() -> Place {
     let mut place = Place::new();
     for path in 10..40 {
@@ -43,7 +43,7 @@ fn library() -> Place {
     place
 }
 
-/// What lies in the directory but drawings and configuration: temporary files by name, others with their bytes.
+/// The files in the directory besides drawings and configuration: temporary files by name, others with their bytes.
 fn files(place: &Place) -> (Vec<String>, BTreeMap<String, Vec<u8>>) {
     let (mut debris, mut outputs) = (Vec::new(), BTreeMap::new());
     for entry in fs::read_dir(place.path()).unwrap() {
@@ -65,7 +65,7 @@ fn start(place: &Place, arguments: &[&str]) -> Child {
     command.spawn().unwrap()
 }
 
-/// Kills a command at moments of its run, while what it makes changes from one state to the other. `change` puts the tree into a state.
+/// Kills a command at random moments while its output changes between two states. `change` puts the tree into a state.
 #[expect(clippy::print_stdout, reason = "how many kills met a running program is a part of the result")]
 fn kill_at_any_moment(place: &Place, arguments: &[&str], last: &[&str], change: impl Fn(&Place, u64)) {
     let mut states = Vec::new();
@@ -143,7 +143,7 @@ fn adjust_that_is_killed_leaves_a_whole_program() {
     });
 }
 
-/// What is kept between runs is whole or not there: findings are those of a run without it.
+/// A cached result is either complete or absent: findings are the same as without a cache.
 #[test]
 fn a_check_that_is_killed_keeps_nothing_wrong() {
     let place = library().file("pathbuild.toml", configuration(150));
@@ -169,7 +169,7 @@ fn a_check_that_is_killed_keeps_nothing_wrong() {
     }
 }
 
-/// Two to four runs at the same time, of the same directory; beside the most of them the cache is cleaned.
+/// Two to four simultaneous runs in the same directory, while the cache is being cleaned during most of them.
 #[test]
 fn runs_beside_each_other_write_whole_programs() {
     let place = library().file("pathbuild.toml", configuration(150));

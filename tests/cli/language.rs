@@ -1,4 +1,4 @@
-//! Which language is spoken, and that it changes no program. (book: reference/configuration)
+//! The language of messages, which does not affect programs. (book: reference/configuration)
 
 use crate::support::{Place, program};
 
@@ -63,7 +63,7 @@ fn the_environment_comes_between_the_option_and_the_configurations() {
     }
 }
 
-/// The system's locale is asked last, and only for messages.
+/// The system's locale has the lowest priority, and only affects messages.
 #[test]
 fn the_systems_locale_is_the_last_that_is_asked() {
     let run = |keys: &str, variables: &[(&str, &str)], arguments: &str| {
@@ -105,7 +105,7 @@ fn the_systems_locale_is_the_last_that_is_asked() {
     assert!(messages.contains("Aufruf") || messages.contains("Befehle"), "{messages}");
 }
 
-/// A configuration that chooses a language says so to everybody in that tree.
+/// A language in the configuration applies to all users of that tree.
 #[test]
 fn the_configurations_language_comes_before_the_systems_locale() {
     let place = Place::of(PATH).file("pathbuild.toml", "lang = \"en\"\nfeed = 100\n");

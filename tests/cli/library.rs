@@ -1,5 +1,5 @@
-//! The example library: its drawings are made from their text form, all furniture included, and are what the README's first command
-//! works on. `PATHBUILD_UPDATE=1 cargo test --test library` writes them anew.
+//! The example library: its drawings, including all furniture, are generated from their text form, and the README's first command works on
+//! them. `PATHBUILD_UPDATE=1 cargo test --test library` regenerates them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,7 @@ fn drawings_are_what_their_text_form_says() {
     }
 }
 
-/// Runs the program in the library's folder; gives the exit status and what it said.
+/// Runs the program in the library's folder. Returns the exit status and the output.
 fn pathbuild(arguments: &[&str]) -> (Option<i32>, String) {
     let output = output(arguments);
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
@@ -72,7 +72,7 @@ fn the_library_is_right() {
     assert!(said.starts_with("34 paths in 31 drawings: no errors, no warnings"), "{said}");
 }
 
-/// As the program writes it.
+/// As written by the program.
 #[test]
 fn its_q_project_is_that_of_its_drawing() {
     let (status, said) = pathbuild(&["q-project", "components/2057.1-2057.2P.dxf"]);
@@ -89,7 +89,7 @@ fn its_projects_are_emitted() {
     assert_eq!(written, 9, "six programs, and three files of the one with probes: {said}");
 }
 
-/// What is said of each drawing with a mistake stands beside them.
+/// The expected findings for each faulty drawing are next to it.
 #[test]
 fn mistakes_are_named() {
     let (status, said) = pathbuild(&["check", "mistakes", "--format", "concise"]);
@@ -103,8 +103,8 @@ fn mistakes_are_named() {
     assert_eq!(findings, fs::read_to_string(&file).expect("it is there").replace("\r\n", "\n"));
 }
 
-/// Drawings are surveyed, or read and then checked path by path where somebody wants to know how long that takes: with one thread or several,
-/// drawing by drawing or all at once, nothing else is found.
+/// Drawings are checked as a whole, or path by path if the duration of each is requested; on one thread or several, one by one or all at
+/// once. The findings are the same.
 #[test]
 fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
     let check = |arguments: &[&str]| {
@@ -131,7 +131,7 @@ fn what_is_found_does_not_depend_on_how_drawings_are_gone_through() {
     assert_eq!(found, mistakes);
 }
 
-/// A finding without the embeddings that led to it: of several the first is told.
+/// A finding without the embeddings that led to it, since only the first of several is shown.
 fn without_trace(line: &str) -> String {
     let mut finding: serde_json::Value = serde_json::from_str(line).expect("each line is a finding");
     finding["trace"].take();

@@ -1,10 +1,10 @@
-//! Every dependency has a licence that MIT OR Apache-2.0 software can be shipped with, and none brings what nobody here uses.
+//! Every dependency has a licence compatible with MIT OR Apache-2.0 distribution, and none brings in unused heavy dependencies.
 
 use std::process::Command;
 
 use serde_json::Value;
 
-/// Licences that ask for no more than their text. A crate with a choice needs one of them; one with several (`AND`) needs all.
+/// Licences that only require their text to be included. A crate with a choice needs one of them; one with several (`AND`) needs all.
 const ALLOWED: [&str; 13] = [
     "0BSD",
     "Apache-2.0",
@@ -21,7 +21,7 @@ const ALLOWED: [&str; 13] = [
     "Zlib",
 ];
 
-/// All packages of the workspace and of what it stands on, as Cargo.lock has them.
+/// All packages of the workspace and its dependencies, according to Cargo.lock.
 fn packages() -> Vec<Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
@@ -45,7 +45,8 @@ fn every_dependency_has_an_allowed_licence() {
     assert!(refused.is_empty(), "not on the list in this test:\n{}", refused.join("\n"));
 }
 
-/// Later versions of `subsetter` and `image` bring them, a fifth of a build: Cargo.lock holds earlier ones, and `cargo update` does not know why.
+/// Later versions of `subsetter` and `image` bring them in and take a fifth of a build; Cargo.lock pins earlier ones, which `cargo update`
+/// would undo.
 #[test]
 fn nothing_writes_fonts_or_colour_profiles() {
     let packages = packages();

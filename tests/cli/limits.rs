@@ -1,4 +1,4 @@
-//! `[limits]` of programs: each with an input just inside and one just outside, and shapes that would come to gigabytes.
+//! `[limits]` of programs: each with an input just inside and one just outside, and inputs that would otherwise expand to gigabytes.
 //! (docs/reliability.md)
 
 use std::fs;
@@ -10,7 +10,7 @@ use pathbuild_testkit::sheet;
 
 const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n";
 
-/// A control text, and a definition of CamBam's language: each writes its own native moves.
+/// A control text, and a definition in CamBam's language: each writes the native moves in its own way.
 const CAMBAM: &str = "m.cbpp";
 
 fn place(limits: &str, parameters: &str) -> Place {
@@ -35,7 +35,7 @@ fn assert_exceeds(run: &Run, key: &str) {
     assert!(run.stderr.contains("PB005") && run.stderr.contains(&format!("`{key}`")), "{run}");
 }
 
-/// What takes so much passes with that limit, and exceeds one that is less by one: then nothing is written.
+/// Checks that an input passes with this limit and exceeds it if it is one less, in which case nothing is written.
 #[track_caller]
 fn assert_limited(key: &str, most: u64, parameters: &str, commands: &[&str]) {
     for command in commands {
@@ -79,7 +79,7 @@ fn what_is_written_is_limited() {
     }
 }
 
-/// Counted before they are made.
+/// Counted before they are generated.
 #[test]
 fn the_moves_of_a_program_are_limited() {
     let parameters = "T5 O2 I1 B0 MX";
@@ -90,7 +90,7 @@ fn the_moves_of_a_program_are_limited() {
     assert_limited("embedding-moves", count, parameters, &["check 1202.1P.dxf", "emit 1202.1P.dxf"]);
 }
 
-/// Some hundred bytes of drawing each: whoever checks or emits them hears of it at once.
+/// A few hundred bytes of drawing each: checking or emitting them fails immediately.
 #[test]
 fn few_bytes_do_not_become_gigabytes() {
     for parameters in ["T5 O2 I1 B-10000000 MX", "T5 O2 I0.0000001 B0 MX", "T5 O2 I0.0000001 B0 W4 MX"] {
@@ -113,7 +113,7 @@ fn few_bytes_do_not_become_gigabytes() {
     }
 }
 
-/// A comment that every pass repeats.
+/// A comment that is repeated in every pass.
 #[test]
 fn a_comment_does_not_fill_the_disk() {
     let drawn = format!(
@@ -128,10 +128,10 @@ fn a_comment_does_not_fill_the_disk() {
     }
 }
 
-/// A line that would not be read back is not written.
+/// A line that could not be read back is not written.
 #[test]
 fn the_lines_of_a_program_are_limited() {
-    // Two brackets, and the words in front of the comment.
+    // Two brackets, and the words before the comment.
     let rest = "(Q:)".len();
     for (length, is_right) in [(65_536 - rest, true), (65_537 - rest, false)] {
         let drawn = format!(
@@ -152,7 +152,7 @@ fn the_lines_of_a_program_are_limited() {
     }
 }
 
-/// Rules of ignore files take much memory: all together have 16 times what one may have.
+/// Ignore rules take much memory: all files together have 16 times the limit of a single one.
 #[test]
 fn ignore_files_are_limited_together() {
     let rules = "*a*b*c*d\n".repeat(100);
@@ -170,7 +170,7 @@ fn ignore_files_are_limited_together() {
     }
 }
 
-/// A thousand faults of one text do not keep it a thousand times.
+/// A thousand faults in one text do not keep a thousand copies of it.
 #[test]
 fn faults_of_a_long_text_take_no_square_of_it() {
     let words = "X ".repeat(20_000);
@@ -186,8 +186,8 @@ fn faults_of_a_long_text_take_no_square_of_it() {
     assert!(run.stdout.lines().all(|line| line.len() < 20_000));
 }
 
-/// `entities`: what is looked at in blocks, 16 of them for each entity. Here 40 blocks, each inserted in the next and, outermost first, by
-/// itself: to find what they come to, and to put it in its place, is to look at 40 + 39 + ... + 1 insertions, twice.
+/// `entities`: entities visited in blocks, 16 for each entity of the limit. Here 40 blocks are each inserted in the next and, outermost
+/// first, on their own: finding their content and then placing it visits 40 + 39 + ... + 1 insertions, twice.
 #[test]
 fn what_is_looked_at_in_blocks_is_limited() {
     const DEPTH: usize = 40;
@@ -209,7 +209,7 @@ fn what_is_looked_at_in_blocks_is_limited() {
     assert_exceeds(&check(most - 1), "entities");
 }
 
-/// `verify-pieces`: what arcs and slopes are cut into.
+/// `verify-pieces`: the pieces of arcs and ramps.
 #[test]
 fn arcs_that_are_followed_are_limited() {
     let circles = "G2 X0 Y0 I50 J0\n".repeat(4);

@@ -1,4 +1,4 @@
-//! `list` and `stats`, what a shell completes, and names that are nearly right. (book: reference/commands)
+//! `list` and `stats`, shell completion, and similar names. (book: reference/commands)
 
 use std::fs;
 
@@ -51,7 +51,7 @@ fn paths_are_listed_with_what_a_workshop_asks_of_them() {
     assert_snapshot!(runs(&place, ["stats", "stats --lang de", "stats 1234.* --format json"]));
 }
 
-/// A pattern beside a directory means paths in that directory: of one that the library has elsewhere the drawing is named.
+/// A pattern next to a directory selects paths in that directory; for a path that is elsewhere in the library, its drawing is named.
 #[test]
 fn a_path_of_another_directory_is_told_with_its_drawing() {
     let place = Place::of(LIBRARY);
@@ -134,14 +134,14 @@ fn help_of_a_command_is_shown_by_the_command_help() {
     assert_eq!(place.run("help check").stdout, place.run("check --help").stdout);
 }
 
-/// What a shell is offered for the last word.
+/// The completions for the last word.
 fn completed(place: &Place, words: &[&str]) -> Vec<String> {
     let mut program = program();
     program.env("PATHBUILD_COMPLETE", "bash").env("_CLAP_COMPLETE_INDEX", words.len().to_string());
     program.env("_CLAP_IFS", "\n").args(["--", "pathbuild"]).args(words).current_dir(place.path());
     let output = program.output().unwrap();
     assert!(output.status.success());
-    // Directories are completed by clap, as the system spells them.
+    // Directories are completed by clap, in the spelling of the system.
     let stdout = String::from_utf8(output.stdout).unwrap().replace('\\', "/");
     stdout.lines().map(str::to_owned).collect()
 }

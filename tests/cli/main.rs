@@ -1,4 +1,4 @@
-//! The program as users run it: one binary, since each would be linked for itself. A module is a subject.
+//! The program as run by users. A single binary, since linking several takes long; each module is a subject.
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,

@@ -1,5 +1,5 @@
-//! A drawing that changes between two looks of one command is looked at again: no command ends with a panic, and none shows one drawing's
-//! elements with another's places. (ARCHITECTURE.md, "Invariants")
+//! A drawing that changes during a command is read again: no command panics, and none combines the elements of one version with the
+//! positions of another. (ARCHITECTURE.md, "Invariants")
 
 use std::fs;
 use std::ops::ControlFlow;
@@ -34,7 +34,7 @@ mill 0,0 40,0
 end 40,0
 "#;
 
-/// The files of the operating system. After a drawing was read for the n-th time, another one is there.
+/// Files of the operating system, where a drawing is replaced after it was read for the n-th time.
 #[derive(Debug)]
 struct Changing {
     left: AtomicU32,
@@ -102,11 +102,11 @@ impl System for Changing {
     }
 }
 
-/// Runs a command while a drawing changes after it was read for the n-th time; whether it was read so often.
+/// Runs a command while a drawing changes after its n-th read. Returns whether it was read that often.
 fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
     let place = Place::of(BEFORE);
     let root = Utf8Path::from_path(place.path()).unwrap();
-    // One more element before all others: every number and line is another.
+    // One more element before all others changes every number and line.
     let changed = Place::of(&BEFORE.replace("layer ", "layer REMARKS\nmill 90,90 91,91\nlayer "));
     let bytes = fs::read(changed.path().join(victim)).unwrap();
     let system = Arc::new(Changing { left: AtomicU32::new(reads), victim: root.join(victim), bytes });

@@ -1,4 +1,4 @@
-//! Paths embedded in embedded paths, turned and raised at every level. (book: language/embedding)
+//! Nested embedding, rotated and raised at every level. (book: language/embedding)
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ sweep 20,0 10,0
 end 10,0
 ";
 
-/// A path of 10 mm that embeds the one before it, turned by so many degrees and raised by a millimetre, which S stays above.
+/// A path of 10 mm that embeds the previous one, rotated by an angle and raised by a millimetre, still below S.
 fn level(level: usize, degrees: f64) -> String {
     let (from, to) = (Point::new(100.0, 50.0), Point::new(100.0, 50.0).polar(10.0, degrees));
     let mut text = format!("layer {}.1P\nstart 0,0 \"T5 O2 S20 MX\"\n", 1000 + level);
@@ -25,7 +25,7 @@ fn level(level: usize, degrees: f64) -> String {
     text
 }
 
-/// The angles at which half circles, rounded, may be a little more or less than half.
+/// Angles at which rounding may make half circles slightly larger or smaller than half.
 #[test]
 fn half_circles_are_milled_however_they_are_turned() {
     let place = Place::new().file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");

@@ -1,4 +1,4 @@
-//! Looking at nothing is not right. (book: reference/diagnostics, PB513, PB518)
+//! An empty input is not a success. (book: reference/diagnostics, PB513, PB518)
 
 use std::fs;
 
@@ -24,7 +24,7 @@ fn found(run: &Run) -> (Option<i32>, Vec<&str>) {
 
 #[track_caller]
 fn assert_found(place: &Place, arguments: &str, status: i32, codes: &[&str]) {
-    // With kept results, and without.
+    // With and without a cache.
     for cache in ["", "--no-cache", ""] {
         let run = place.run(&format!("{arguments} {cache} --format concise"));
         assert_eq!(found(&run), (Some(status), codes.to_vec()), "{run}");
@@ -50,7 +50,7 @@ fn a_searched_directory_of_the_command_line_that_is_missing_is_an_error() {
     let place = place(&[("1234.1P.dxf", PATH)]);
     assert_found(&place, "check 1234.1P.dxf --search gone", 1, &["003"]);
     assert_found(&place, "check 1234.1P.dxf --search .", 0, &[]);
-    // A drawing is no directory to search, though a library may name one.
+    // A drawing is not a valid search directory, although a library may list one.
     assert_found(&place, "check 1234.1P.dxf --search 1234.1P.dxf", 1, &["003"]);
 }
 
@@ -61,7 +61,7 @@ fn a_drawing_that_was_named_holds_a_path() {
     assert_found(&place, "check remarks.dxf 1234.1P.dxf", 1, &["513"]);
     assert_found(&place, "check 1234.1P.dxf", 0, &[]);
     assert_found(&place, "check remarks.dxf --compatible", 0, &[]);
-    // In a directory drawings without paths are usual.
+    // Drawings without paths are common in a directory.
     assert_found(&place, "check .", 0, &[]);
 }
 
@@ -80,7 +80,7 @@ fn a_directory_without_drawings_is_an_error() {
     assert_found(&place, "check .", 0, &[]);
 }
 
-/// A new library has no project yet.
+/// A new library has no projects yet.
 #[test]
 fn a_library_needs_one_drawing() {
     let configured = [("pathbuild.toml", "library = [\"parts\", \"new\"]"), ("new/notes.toml", "")];
@@ -117,7 +117,7 @@ fn a_path_that_became_wrong_leaves_an_older_program() {
     }
     let compared = emit(". --check").stdout;
     assert_eq!(compared, "1234.1P_Milling.gcode: not current\n");
-    // What is printed says nothing of files.
+    // Printing does not concern files.
     assert!(!emit("1234.1P -o -").stderr.contains("PB522"));
     fs::remove_file(place.path().join("1234.1P_Milling.gcode")).unwrap();
     assert!(!emit(".").stderr.contains("PB522"));

@@ -30,7 +30,7 @@ fn pictures(place: &Place, directory: &str) -> BTreeMap<String, String> {
     entries.map(|entry| read(entry.unwrap())).collect()
 }
 
-/// All drawings with mistakes that there are.
+/// All drawings with mistakes.
 fn mistakes() -> Place {
     let folder = support::project().join("fixtures/library/mistakes");
     let mut place = Place::new().file("pathbuild.toml", "feed = 150\nsweep-height = 20\n");
@@ -57,10 +57,10 @@ fn every_finding_with_a_place_has_a_picture() {
     for it in &found {
         assert!(page.contains(it["code"].as_str().unwrap()), "{it}");
     }
-    // Another run, another order of threads: the same names and bytes.
+    // Another run with another order of threads gives the same names and bytes.
     place.run("check . --pictures again -j 1 --no-cache");
     assert_eq!(pictures(&place, "again"), seen);
-    // They do not change when the directory does.
+    // They do not depend on the directory.
     for (name, text) in seen {
         assert!(text.starts_with("<svg ") && name.contains("-PB"), "{name}");
     }
@@ -73,7 +73,7 @@ fn a_gap_is_circled_with_the_nearest_open_end() {
     let seen = pictures(&place, "seen");
     let gap = seen.iter().find(|(name, _)| name.contains("PB401")).unwrap_or_else(|| panic!("{seen:?}"));
     let finding = gap.1.split_once("id=\"finding\"").unwrap().1.split_once("</g>").unwrap().0;
-    // The place, its middle, and the end that is near.
+    // The place, its centre, and the nearby end.
     assert_eq!((finding.matches("<circle").count(), finding.matches("<line").count()), (3, 1), "{finding}");
     assert_snapshot!(gap.1);
 }
@@ -102,7 +102,7 @@ fn a_clamp_in_the_way_is_seen() {
 #[test]
 fn what_a_drawing_says_is_no_markup_in_pages() {
     let hostile = format!("{GAP}text 20,12 \"Q<script>alert(1)</script>&\"\n");
-    // Windows has no such names.
+    // Such names do not exist on Windows.
     let (name, shown) =
         if cfg!(windows) { ("x&b.dxf", "x&amp;b.dxf") } else { ("x&<b>.dxf", "x&amp;&lt;b&gt;.dxf") };
     let place = Place::new().file("1234.1P.dxf", dxf(&hostile)).file(name, dxf(GAP));
@@ -117,7 +117,7 @@ fn what_a_drawing_says_is_no_markup_in_pages() {
     }
 }
 
-/// A system counts the bytes of a name.
+/// The length of a file name is limited in bytes.
 #[test]
 fn long_names_of_drawings_are_cut_in_those_of_pictures() {
     let name = format!("{}1234.1P.dxf", "\u{20000}".repeat(56));

@@ -1,4 +1,4 @@
-//! `emit` through a post: names, tools, joined programs, what it is refused for. (book: program/posts)
+//! `emit` through a post: names, tools, joined programs, rejections. (book: program/posts)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
@@ -53,7 +53,7 @@ probe 20,20 "LA"
 end 40,0
 "#;
 
-/// The same with other lines at the head of its configuration.
+/// The library with other lines at the top of its configuration.
 fn library(head: &str) -> Place {
     Place::of(&LIBRARY.replace("library = [\".\"]", &format!("library = [\".\"]\n{head}")))
 }
@@ -137,7 +137,7 @@ fn what_the_machine_cannot_do_is_not_written() {
     ));
 }
 
-/// A program that `post` writes from one of ours says of itself what dialect it is in.
+/// A program rewritten by `post` states its new dialect.
 #[test]
 fn a_rewritten_program_names_its_own_dialect() {
     let place = library("spindle = \"manual\"\nprobe-feed = 40");
@@ -295,7 +295,7 @@ fn current_and_stale_programs_of_posts_are_known() {
     assert!(stale.stderr.contains("1300X_Milling.nc: warning[PB520]"), "{stale}");
 }
 
-/// Where nobody says what the words of a post mean, its programs are compared byte for byte.
+/// If the words of a post are unknown, its programs are compared byte for byte.
 #[test]
 fn a_program_that_cannot_be_read_is_compared_as_it_is() {
     let post = "<PostProcessor><PostFile>(anna)\n{$mops}\n{$footer}</PostFile></PostProcessor>";
@@ -310,7 +310,7 @@ fn a_program_that_cannot_be_read_is_compared_as_it_is() {
     assert_eq!((check(&place, ""), check(&place, " --dialect linuxcnc")), (Some(1), Some(0)));
 }
 
-/// What was written for another machine is harmless while the path has the same moves, and dangerous once it has others.
+/// A program for another machine is harmless while the path has the same moves, and dangerous once it has others.
 #[test]
 fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
     let before = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n";
@@ -346,7 +346,7 @@ fn the_leftover_of_another_post_counts_once_the_path_has_other_moves() {
     }
 }
 
-/// Programs are known by their extension: a person's copies are no machine's.
+/// Programs are identified by their extension: a user's copies are not programs.
 #[test]
 fn copies_that_are_no_programs_by_name_are_left_alone() {
     let place = library("");
@@ -360,7 +360,7 @@ fn copies_that_are_no_programs_by_name_are_left_alone() {
     assert_eq!(["gcode", "nc", "bak", "txt"].map(named), [true, true, false, false], "{stale}");
 }
 
-/// Also under another post than the one that wrote it, by the extension.
+/// Even with another post than the one that wrote it, by the extension.
 #[test]
 fn programs_of_every_built_in_post_are_known_when_their_drawing_is_gone() {
     for post in pathbuild_post::BUILT_IN.iter().map(|post| post.name) {
@@ -413,7 +413,7 @@ fn the_posts_command_runs_only_when_asked() {
     assert!(missing.status == Some(1) && missing.stderr.contains("PB768"), "{missing}");
 }
 
-/// What could not be written is nothing to work on.
+/// A program that could not be written must not be processed.
 #[cfg(unix)]
 #[test]
 fn the_posts_command_runs_on_what_was_written_only() {
@@ -429,7 +429,7 @@ fn the_posts_command_runs_on_what_was_written_only() {
 
 #[test]
 fn the_native_program_is_read_back_whatever_the_drawing_holds() {
-    // What cannot differ cannot be shown to; the conformance cases run through the same check.
+    // A difference cannot be produced; the conformance cases run through the same check.
     let place = library("z-model = \"tin\"\nz-split = 3");
     assert_eq!(place.run("emit .").status, Some(0));
 }

@@ -1,4 +1,4 @@
-//! The progress bar: after half a second, and gone when the work is done. (book: reference/commands)
+//! The progress bar: appears after half a second, and disappears when the work is done. (book: reference/commands)
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
@@ -8,7 +8,7 @@ use std::time::Duration;
 use pathbuild::progress::Progress;
 use pathbuild_workspace::Advance;
 
-/// A stream whose text can be looked at.
+/// A stream whose text can be inspected.
 #[derive(Clone, Default)]
 struct Screen(Arc<Mutex<Vec<u8>>>);
 

@@ -1,9 +1,9 @@
-//! Commands around projects: what embeds what, where paths are. (book: reference/commands, book: language/layers-and-names)
+//! Commands about embeddings and the locations of paths. (book: reference/commands, book: language/layers-and-names)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
 
-/// Components, a project, a fixture project with variables for names, a variable project, and a project that lacks something.
+/// Components, a project, a fixture project with names as variables, a variable project, and a project with a missing component.
 const LIBRARY: &str = r#"
 == pathbuild.toml ==
 library = ["components", "projects"]
@@ -80,7 +80,7 @@ fn rdeps_are_a_tree_of_what_embeds_over_the_library() {
     assert_snapshot!(runs(&Place::of(LIBRARY), lines));
 }
 
-/// A path with variables is asked for as often as there are sets of values.
+/// A path with variables is listed once for each set of values.
 #[test]
 fn rdeps_show_what_embeds_each_set_of_values() {
     let second = "subpath 80,0 120,0 \">2051.1P :B0,5\"\nsubpath 120,0 160,0 \">2051.1P :B0\"\nend 160,0";
@@ -119,7 +119,7 @@ fn without_a_library_rdeps_looks_below_the_working_directory() {
     assert_snapshot!(runs(&place, ["rdeps 2051.1P", "graph"]));
 }
 
-/// A cycle ends where it began, and what is embedded again below is not written again.
+/// A cycle ends where it began, and repeated embeddings are not expanded again.
 #[test]
 fn cycles_and_repetitions_end() {
     let place = Place::of(
@@ -151,14 +151,14 @@ fn where_says_file_line_layer_and_start() {
     assert_snapshot!(runs(&place, lines));
 }
 
-/// It is the one command that helps with PB504.
+/// This command helps with PB504.
 #[test]
 fn where_lists_every_definition_of_a_path_that_has_two() {
     let second = "== projects/1234.1.dxf ==\nlayer 1234_1P\nstart 0,0 \"T5 O2\"\nend 0,0\n";
     assert_snapshot!(Place::of(&format!("{LIBRARY}{second}")).run("where 1234.1P --lang de"));
 }
 
-/// One text of each kind: of a marker, a line, an arc, a circle, a polyline; one that is continued, and one without an element.
+/// One text of each kind: at a marker, a line, an arc, a circle and a polyline; one with a continuation, and one without an element.
 const TEXTS: &str = r#"
 == 1234.dxf ==
 layer 1234.1P
@@ -191,7 +191,7 @@ fn texts_need_a_drawing_and_a_regular_expression() {
     assert_snapshot!(runs(&Place::of(TEXTS), ["texts", "texts 1234.dxf --match (", "texts broken.dxf"]));
 }
 
-/// A fault that one value shows, which is not among the examples; one that some combinations show; one that all do.
+/// A fault with a single value that is not among the examples, one with some combinations, and one with all.
 const VALUES: &str = r#"
 == 2051.dxf ==
 layer 2051.1P
@@ -216,7 +216,7 @@ fn all_values_of_variables_are_checked() {
     assert_snapshot!(without_times(&runs(&Place::of(VALUES), lines)));
 }
 
-/// Ten digits for each of three variables are as many as are checked; one more is too many.
+/// Ten digits for each of three variables give as many combinations as are checked; one more is too many.
 #[test]
 fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
     let place = |definitions: &str| {
@@ -227,13 +227,13 @@ fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
     };
     let all = place(":A?0123456789 :B?0123456789 :C?0123456789").run("check --all-bindings 2051.dxf");
     assert!(!all.stderr.contains("PB005"), "{all}");
-    // The value that is at fault comes last of all, and is met nevertheless.
+    // The faulty value comes last, but is checked nevertheless.
     let cut = place(":A?0123456789 :B?0123456789 :C0,1,2,3,4,5,6,7,8,9,21")
         .run("check --all-bindings 2051.dxf --lang de");
     assert_snapshot!(without_times(&cut.to_string()));
 }
 
-/// What a run took differs from run to run.
+/// The duration varies between runs.
 fn without_times(text: &str) -> String {
     let lines = text.lines().map(|line| match line.rfind(" (") {
         Some(at) if line.ends_with(" s)") => &line[..at],
@@ -242,7 +242,7 @@ fn without_times(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What is meant is often in the drawing that is looked into.
+/// The intended path is often in the searched drawing.
 #[test]
 fn names_like_one_that_is_not_found_are_named() {
     let place = Place::of(LIBRARY).file("projects/8009.dxf", {

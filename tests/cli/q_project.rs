@@ -1,8 +1,8 @@
-//! Q-projects: `pathbuild q-project`, and what `check` says of them. (book: language/q-projects)
+//! Q-projects: `pathbuild q-project`, and the findings of `check`. (book: language/q-projects)
 
 use crate::support::{Place, fixture};
 
-/// A drawing with a proxy line, a path with variables, a closed path, and lines and texts that are none of a proxy's.
+/// A drawing with a proxy line, a path with variables, a closed path, and lines and texts that are not proxies.
 const DRAWING: &str = r#"
 == pathbuild.toml ==
 library = ["."]
@@ -65,7 +65,7 @@ fn every_path_is_embedded_as_its_proxy_line_says_else_with_its_own_values() {
     }
 }
 
-/// A project has one cutter.
+/// A project has a single cutter.
 #[test]
 fn it_has_a_path_for_each_cutter() {
     let place = written();
@@ -74,7 +74,7 @@ fn it_has_a_path_for_each_cutter() {
     let written = |path| place.run_with(&["emit", path, "-o", "-"]).stdout;
     assert!(written("1234.0Q").contains("START Subpath 1234.2P") && !written("1234.0Q").contains("1234.3P"));
     assert!(written("1234.1Q").contains("START Subpath 1234.3P") && !written("1234.1Q").contains("1234.2P"));
-    // A name that the drawing has itself is passed over.
+    // A name that the drawing itself uses is skipped.
     let place = Place::of(&DRAWING.replace("1234.2P", "1234.1Q"));
     assert_eq!(place.run_with(&["q-project", "gear 1234.dxf"]).status, Some(0));
     assert_eq!(place.run_with(&["emit", "1234.2Q"]).status, Some(0));
@@ -119,7 +119,7 @@ fn a_name_that_is_none_or_is_taken_is_wrong_usage() {
     assert!(run.stderr.contains("PB503"), "{run}");
 }
 
-/// A path is found by the name of its file: a range of paths there does not cover that of the Q-project. (PB503)
+/// A path is found by the name of its file: a range of paths does not admit that of the Q-project. (PB503)
 #[test]
 fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     let place = written();
@@ -140,7 +140,7 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     assert_eq!(place.run("emit 1234.1-1234.3P_Q.dxf").status, Some(0));
 }
 
-/// Nothing is written of a drawing that projects could not embed.
+/// Nothing is written for a drawing that projects could not embed.
 fn is_refused(drawing: &str, code: &str) {
     let place = Place::of(drawing);
     let run = place.run_with(&["--format", "concise", "q-project", "gear 1234.dxf"]);
@@ -166,7 +166,7 @@ fn a_wrong_proxy_line_is_not_copied() {
     is_refused(&DRAWING.replace(">1234.1P O2 H2", ">1234.1P O3 H2"), "PB517");
 }
 
-/// A drawing and its Q-project, where a path, its proxy line and the subpath of the Q-project agree.
+/// A drawing and its Q-project, whose path, proxy line and subpath agree.
 const PAIR: &str = r#"
 $ check .
 #! exit 0
@@ -222,7 +222,7 @@ fn a_value_other_than_the_proxy_lines_is_a_warning() {
     expect(&[(EMBEDDING, &format!("{other} #! PB516 :B"))], 0);
 }
 
-/// What differs from the path itself as well is an error of the embedding.
+/// A difference from the path itself is an error of the embedding.
 #[test]
 fn a_text_or_length_other_than_the_proxy_lines_is_a_warning() {
     for (letter, other) in [("T5", "T4"), ("O2", "O3"), ("MPlate", "MPlate2")] {
@@ -277,7 +277,7 @@ fn a_drawing_without_a_q_project_may_have_any_lines() {
     assert!(run.stderr.contains("no errors, no warnings"), "{run}");
 }
 
-/// What the Q-project embeds is not known where it has errors itself: that is said alone.
+/// If the Q-project has errors, its embeddings are unknown, and only the errors are reported.
 #[test]
 fn nothing_is_said_against_a_q_project_with_errors() {
     let wrong = EMBEDDING.replace("T5", "T5x");

@@ -1,4 +1,4 @@
-//! Diagnostics in every format: the same findings, shown by the library. (book: reference/commands)
+//! Diagnostics in every format, rendered by the library. (book: reference/commands)
 
 use camino::Utf8Path;
 use insta::assert_snapshot;
@@ -114,7 +114,7 @@ fn json_spans_count_characters() {
     assert_eq!(object["span"], serde_json::json!([9, 11]));
 }
 
-/// So many errors, in places of their own.
+/// A number of errors in different places.
 fn many(count: u32) -> Findings {
     let error =
         |line| Diagnostic::new(&files::EMPTY_FILE).in_file(Utf8Path::new("/work/a.dxf")).at_line(line, None);
@@ -149,7 +149,7 @@ fn sarif_is_what_its_schema_says() {
 #[test]
 fn sarif_has_no_more_results_than_github_takes_and_says_so() {
     let view = View { lang: Lang::En, color: false, width: None, base: "/work".into(), root: None };
-    // Counted in the text: to parse so much takes a debug build many seconds.
+    // Counted in the text, since parsing it takes a debug build many seconds.
     let shown = |count| render(Format::Sarif, &many(count), &view);
     let count = |text: &str, part| text.matches(part).count();
     let inside = shown(25_000);
@@ -180,7 +180,8 @@ fn github_gets_ten_annotations_of_a_severity_and_the_rest_as_lines() {
     );
 }
 
-/// GitLab's page on code quality: these keys, severities out of five, fingerprints that differ, relative names, lines from 1.
+/// The requirements of GitLab's page on code quality: these keys, severities out of five, distinct fingerprints, relative names, lines from
+/// 1.
 #[test]
 fn gitlab_issues_have_what_gitlab_wants() {
     let text = shown(Format::Gitlab, Lang::En);
@@ -204,7 +205,7 @@ fn gitlab_issues_have_what_gitlab_wants() {
     assert_eq!(issues.len(), findings().diagnostics.len());
 }
 
-/// What the schemas in use (Jenkins, Maven Surefire) agree on.
+/// The common subset of the schemas in use (Jenkins, Maven Surefire).
 #[test]
 fn junit_is_xml_with_counts_that_are_right() {
     let text = shown(Format::Junit, Lang::En);

@@ -1,5 +1,5 @@
-//! What is done with findings before they are shown: once each, in order, judged, compared with a baseline, counted.
-//! (book: reference/commands, book: reference/diagnostics)
+//! Processing of findings before display: deduplication, sorting, severities, baseline, counting. (book: reference/commands, book:
+//! reference/diagnostics)
 
 use std::time::Duration;
 
@@ -104,7 +104,7 @@ fn findings_that_look_alike_have_fingerprints_of_their_own() {
     assert_eq!(all[0], fingerprint(diagnostic()), "one more does not change the first");
 }
 
-/// Fingerprints stand in files of users, so they are for ever.
+/// Fingerprints are stored in users' files, so they must never change.
 #[test]
 fn a_fingerprint_is_the_same_in_every_version() {
     assert_eq!(fingerprint(diagnostic()).to_string(), "5de19581b4c0da5ba455d08b2bcd2ebf");

@@ -1,4 +1,4 @@
-//! `watch --serve`: who is answered, and what.
+//! `watch --serve`: authorization and answers.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -22,7 +22,7 @@ fn dxf(name: &str, thickness: u32) -> Vec<u8> {
     sheet(&text).unwrap().to_dxf()
 }
 
-/// A path whose start says nothing, so that it has errors.
+/// A path with errors, because its start has no text.
 fn wrong(name: &str) -> Vec<u8> {
     sheet(&format!("layer {name}\nstart 0,0\nmill 0,0 40,0\nend 40,0\n")).unwrap().to_dxf()
 }
@@ -35,18 +35,18 @@ fn library() -> Place {
         .file("library/1003.dxf", wrong("1003.1P"))
 }
 
-/// A server that goes on. It ends when this is dropped.
+/// A running server, which ends when this value is dropped.
 struct Served<'a> {
     place: &'a Place,
     child: Child,
     lines: Said,
-    /// What was said until everything was checked.
+    /// The output until everything was checked.
     said: Vec<String>,
     link: String,
     port: u16,
 }
 
-/// An answer: its status, its head, its body.
+/// An answer: its status, header and body.
 struct Answer {
     status: u16,
     head: String,
@@ -80,7 +80,7 @@ impl<'a> Served<'a> {
         served
     }
 
-    /// The lines up to one that holds a text.
+    /// The lines up to one that contains a text.
     #[track_caller]
     fn until(&self, text: &str) -> Vec<String> {
         self.lines.until(text)
@@ -96,7 +96,7 @@ impl<'a> Served<'a> {
         stream
     }
 
-    /// Sends lines as they are; `PORT` in them is the server's.
+    /// Sends raw lines; `PORT` is replaced by the server's port.
     fn send(&self, lines: &[&str]) -> Answer {
         let mut stream = self.connect();
         let request = format!("{}\r\nConnection: close\r\n\r\n", lines.join("\r\n"));
@@ -112,20 +112,20 @@ impl<'a> Served<'a> {
         self.send(&[&format!("GET {what} HTTP/1.1"), "Host: localhost:PORT"])
     }
 
-    /// The status that a request has with these headers.
+    /// The status of a request with these headers.
     fn status(&self, what: &str, headers: &[&str]) -> u16 {
         let first = format!("GET {what} HTTP/1.1");
         self.send(&[&[first.as_str()], headers].concat()).status
     }
 
-    /// The numbers of changes, as they come.
+    /// The stream of revisions.
     fn events(&self) -> Events {
         let mut stream = self.connect();
         write!(stream, "GET /api/events HTTP/1.1\r\nHost: localhost:{}\r\n\r\n", self.port).unwrap();
         Events(BufReader::new(stream))
     }
 
-    /// Interrupts as Ctrl+C does.
+    /// Interrupts the server like Ctrl+C.
     #[cfg(unix)]
     fn interrupt(&self) {
         let id = self.child.id().to_string();
@@ -136,7 +136,7 @@ impl<'a> Served<'a> {
 struct Events(BufReader<TcpStream>);
 
 impl Events {
-    /// The next one.
+    /// The next event.
     fn next(&mut self) -> (String, u64) {
         loop {
             let mut line = String::new();
@@ -149,7 +149,7 @@ impl Events {
         }
     }
 
-    /// The next one above.
+    /// The next event after a revision.
     fn after(&mut self, revision: u64) -> u64 {
         loop {
             let (_, next) = self.next();
@@ -167,7 +167,7 @@ impl Drop for Served<'_> {
     }
 }
 
-/// Only a name that nobody else can point to this machine is answered (DNS rebinding).
+/// Only names that cannot be redirected to this machine are answered (DNS rebinding).
 #[test]
 fn only_own_names_are_answered() {
     let place = library();
@@ -239,7 +239,7 @@ fn only_get_is_answered() {
     assert_eq!(served.get("/nothing").status, 404);
 }
 
-/// Who can be reached from elsewhere asks for a token, which stands behind the `#` of the link.
+/// A server that is reachable from elsewhere requires a token, which is in the fragment of the link.
 #[test]
 fn from_elsewhere_a_token_is_needed() {
     let place = library();
@@ -268,11 +268,11 @@ fn from_elsewhere_a_token_is_needed() {
         assert_eq!(served.status(path, &[&host]), 401, "{path}");
         assert_eq!(served.status(&format!("{path}?token={token}"), &[&host]), 401, "{path}");
     }
-    // The page itself says nothing of drawings.
+    // The page itself contains nothing about drawings.
     let page = served.send(&["GET / HTTP/1.1", &host]);
     assert_eq!(page.status, 200);
     assert!(!page.body.contains(token) && !page.head.contains(token));
-    // Addresses are answered, names are not: somebody else decides what they mean.
+    // IP addresses are answered, but names are not, since others control their resolution.
     let right = format!("Authorization: Bearer {token}");
     assert_eq!(served.status("/api/library", &["Host: 10.1.2.3:PORT", &right]), 200);
     assert_eq!(served.status("/api/library", &["Host: [fe80::1]:PORT", &right]), 200);
@@ -309,7 +309,7 @@ fn answers_forbid_whatever_a_page_does_not_need() {
     assert!(!page.body.contains("http:") && !page.body.contains("<style"), "{}", page.body);
 }
 
-/// The rows are those of `list`, the statistics those of `stats`, a picture that of `view`.
+/// Rows equal those of `list`, statistics those of `stats`, pictures those of `view`.
 #[test]
 fn what_is_shown_is_what_commands_print() {
     let place = library();
@@ -345,10 +345,10 @@ fn what_is_shown_is_what_commands_print() {
     assert!(picture.head.contains("content-type: image/svg+xml") && picture.body.starts_with("<svg"));
 }
 
-/// As hostile as a file system allows.
+/// The most hostile name that the file system allows.
 const HOSTILE: &str = if cfg!(windows) { "a&b 'i'.dxf" } else { "a&b \"<i>.dxf" };
 
-/// What is not listed cannot be seen, whatever it is called.
+/// Drawings that are not listed are inaccessible, whatever their names.
 #[test]
 fn only_listed_drawings_are_read() {
     let place = library()
@@ -407,7 +407,7 @@ fn saved_drawings_are_told() {
     let drawings = changed(first);
     assert_eq!(drawings.as_array().unwrap().len(), 1, "{drawings}");
     assert_eq!(drawings[0]["rows"][0]["state"], "ok", "{drawings}");
-    // Nobody changed the others.
+    // The others did not change.
     fs::remove_file(place.path().join("library/1002.dxf")).unwrap();
     events.after(second);
     served.until("1002.dxf: removed");
@@ -416,11 +416,11 @@ fn saved_drawings_are_told() {
     assert_eq!(drawings[0]["rows"], Value::Null);
     assert_eq!(served.get("/api/library").json()["statistics"]["paths"], 2);
     assert_eq!(served.get("/api/scene?file=library/1002.dxf").status, 404);
-    // A page of another run, or one that has slept, gets everything.
+    // A page of another run, or one that was suspended, gets everything.
     assert_eq!(served.get("/api/library?since=1000000").json()["all"], true);
 }
 
-/// What there is can be seen before anything of it is checked.
+/// Names are available before anything is checked.
 #[test]
 fn names_come_first_and_states_follow() {
     const DRAWINGS: usize = 150;
@@ -445,7 +445,7 @@ fn names_come_first_and_states_follow() {
     assert!(was_unchecked);
 }
 
-/// A large library is painted before all of it has come.
+/// A large library is displayed before it is complete.
 #[test]
 fn a_page_gets_as_many_drawings_as_it_asks_for() {
     let place = library();
@@ -463,7 +463,7 @@ fn a_page_gets_as_many_drawings_as_it_asks_for() {
     assert_eq!(served.get("/api/library?most=-1").status, 400);
 }
 
-/// Who opens connections and leaves them open keeps nobody out for good.
+/// A client that keeps connections open cannot lock out others permanently.
 #[test]
 fn so_many_connections_are_answered_at_a_time() {
     const MOST: usize = 256;
@@ -473,11 +473,11 @@ fn so_many_connections_are_answered_at_a_time() {
     for events in &mut open {
         events.next();
     }
-    // The last one that is answered.
+    // The last connection that is answered.
     assert_eq!(served.get("/api/library").status, 200);
     let mut last = served.events();
     last.next();
-    // One more has to wait until another ends.
+    // One more has to wait until another one ends.
     let Events(mut waiting) = served.events();
     waiting.get_ref().set_read_timeout(Some(Duration::from_secs(2))).unwrap();
     assert!(waiting.fill_buf().is_err(), "it is answered");
@@ -486,7 +486,7 @@ fn so_many_connections_are_answered_at_a_time() {
     Events(waiting).next();
 }
 
-/// Silence ends a connection; an answer that takes its time does not.
+/// Idle connections are closed, but slow answers are not.
 #[test]
 fn connections_that_say_nothing_are_closed() {
     let place = library();
@@ -498,7 +498,7 @@ fn connections_that_say_nothing_are_closed() {
     let (mut silent, mut late) = ([served.connect(), served.connect()], served.connect());
     silent[1].write_all(half.as_bytes()).unwrap();
     std::thread::sleep(Duration::from_secs(7));
-    // Not too late, and then no more than the others.
+    // In time, and then no longer than the others.
     write!(late, "{half}\r\n").unwrap();
     let mut answered = BufReader::new(late);
     assert!(answered.fill_buf().unwrap().starts_with(b"HTTP/1.1 200"));
@@ -514,7 +514,7 @@ fn connections_that_say_nothing_are_closed() {
     events.after(first);
 }
 
-/// Programs that are written are current, also through a post.
+/// Written programs are current, even through a post.
 #[test]
 fn with_emit_the_state_is_that_after_writing() {
     for post in ["", "post = \"linuxcnc\"\nspindle = \"manual\"\n"] {
@@ -554,7 +554,7 @@ fn ctrl_c_ends_it_without_an_error() {
     let _open = served.events();
     served.interrupt();
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
-    // While nothing can be checked too.
+    // Also while nothing can be checked.
     let mut served = Served::begin(&place, "watch --serve 127.0.0.1:0");
     served.write("pathbuild.toml", "feed = \n");
     served.until("put right");
@@ -578,7 +578,7 @@ fn it_ends_once_the_page_is_closed_if_that_is_wanted() {
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
 }
 
-/// Nobody sees what such a run prints: its page says what is wrong.
+/// The output of such a run is invisible, so its page shows the problem.
 #[test]
 fn until_closed_even_a_wrong_beginning_is_shown() {
     let place = library().file("pathbuild.toml", "feed = \n");
@@ -598,7 +598,7 @@ fn a_port_that_is_taken_is_told() {
     let run = place.run(&format!("watch --serve 127.0.0.1:{port}"));
     assert_eq!(run.status, Some(2), "{run}");
     assert!(run.stderr.contains("--serve: "), "{run}");
-    // Without a port another is taken, whoever has the usual one.
+    // Without an explicit port, another one is taken if the default is in use.
     let _usual = TcpListener::bind(("127.0.0.1", 8347));
     let served = Served::begin(&place, "watch --serve");
     assert!(served.said.iter().any(|line| line == "port 8347 is taken"), "{:?}", served.said);
@@ -619,7 +619,7 @@ fn what_is_no_address_is_wrong_usage() {
     assert!(run.stderr.contains("--serve"), "{run}");
 }
 
-/// A browser that notes what it is to open.
+/// A simulated browser that records what it is told to open.
 #[cfg(target_os = "linux")]
 struct Browser(tempfile::TempDir);
 
@@ -642,7 +642,7 @@ impl Browser {
         Self(directory)
     }
 
-    /// `pathbuild-open` with what was dropped on it.
+    /// Runs `pathbuild-open` with dropped files.
     fn open(&self, directory: &std::path::Path, dropped: &[&str]) -> Child {
         self.start(env!("CARGO_BIN_EXE_pathbuild-open").as_ref(), directory, dropped)
     }
@@ -654,7 +654,7 @@ impl Browser {
         command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     }
 
-    /// What it was to open.
+    /// The address it was told to open.
     fn opened(&self) -> String {
         for _ in 0..200 {
             if let Ok(opened) = fs::read_to_string(self.0.path().join("opened")) {
@@ -671,7 +671,7 @@ fn extension(file: &str) -> &str {
     file.rsplit('.').next().unwrap()
 }
 
-/// The drawings that a page lists once all is checked; then it is closed.
+/// The drawings that a page lists once everything is checked; then it is closed.
 #[cfg(target_os = "linux")]
 fn listed_and_closed(address: &str) -> Vec<String> {
     let authority = address.strip_prefix("http://").unwrap().trim_end_matches('/');
@@ -721,7 +721,7 @@ fn pathbuild_open_shows_programs_and_what_went_wrong() {
     let mut child = browser.open(place.path(), &["a.gcode"]);
     assert_eq!(extension(&browser.opened()), "html");
     child.wait().unwrap();
-    // Alone it can do nothing, and says so.
+    // Alone it can do nothing, and reports that.
     let browser = Browser::new();
     let alone = place.path().join("alone");
     fs::copy(env!("CARGO_BIN_EXE_pathbuild-open"), &alone).unwrap();
@@ -733,7 +733,7 @@ fn pathbuild_open_shows_programs_and_what_went_wrong() {
     fs::remove_file(opened).unwrap();
 }
 
-/// As `list` does.
+/// As with `list`.
 #[test]
 fn without_a_library_all_that_lies_there_is_shown() {
     let place = library();
@@ -744,7 +744,7 @@ fn without_a_library_all_that_lies_there_is_shown() {
     served.until("1010.dxf: changed");
 }
 
-/// What was checked under a configuration that is gone is not current.
+/// Results under a configuration that was removed are not current.
 #[test]
 fn a_page_says_that_the_configuration_is_gone() {
     let place = library();
@@ -763,7 +763,7 @@ fn a_page_says_that_the_configuration_is_gone() {
     assert_ne!(served.get("/api/library").json()["halted"], Value::Null);
 }
 
-/// Who looks at a picture again and again keeps no edit from being noticed.
+/// A client that keeps requesting pictures does not delay the detection of edits.
 #[test]
 fn requests_without_end_hold_up_no_change() {
     let place = library();

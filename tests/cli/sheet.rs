@@ -1,4 +1,4 @@
-//! Sheets for who stands at the machine. (book: program/sheet)
+//! Setup sheets for the machine operator. (book: program/sheet)
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::support::{self, Place};
 
 const OPTIONS: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
-/// Four strokes round a rectangle of 40 by 20, and a hole.
+/// Four lines around a rectangle of 40 by 20, and a hole.
 const DRAWING: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B-0.2 MAl<3>&\"\nmill 0,0 40,0\nmill 40,0 40,20\n\
     mill 40,20 0,20\nmill 0,20 0,0\nend 0,0\n";
 
@@ -31,13 +31,13 @@ fn library() -> Place {
     })
 }
 
-/// The texts of a page in their order.
+/// The texts of a page in order.
 fn texts(svg: &str) -> Vec<&str> {
     let parts = svg.split("<text ").skip(1);
     parts.map(|part| part.split_once('>').unwrap().1.split_once("</text>").unwrap().0).collect()
 }
 
-/// The value that stands behind a name in the column of facts.
+/// The value after a name in the column of facts.
 fn fact<'s>(texts: &[&'s str], name: &str) -> &'s str {
     let is_axis = ["X", "Y", "Z"].contains(&name);
     let mut found = texts.iter().zip(&texts[1..]).filter(|(it, _)| **it == name);
@@ -88,7 +88,7 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
-/// One that is turned on a page of its own, and one that is enlarged beside its true size.
+/// One that is rotated on a page of its own, and one that is enlarged next to its true size.
 #[test]
 fn long_and_small_ones_are_seen() {
     for (name, drawing) in [
@@ -146,7 +146,7 @@ fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
         let scales = texts(&svg).into_iter().filter_map(|it| it.strip_prefix("scale "));
         scales.map(str::to_owned).collect::<Vec<_>>()
     };
-    // The first page holds 150 mm; a page turned by a quarter 223 mm.
+    // The first page holds 150 mm; a rotated page holds 223 mm.
     assert_eq!(scale(40), ["2:1"]);
     assert_eq!(scale(100), ["1:1"]);
     assert_eq!(scale(148), ["1:1"]);
@@ -156,7 +156,8 @@ fn the_scale_is_true_where_the_paper_holds_it_and_else_round() {
     assert_eq!(scale(700), ["1:5", "1:5"][..1]);
 }
 
-/// `output-size` holds for all that belongs to a program: what was written is current, and nothing is written of what could not be compared.
+/// `output-size` applies to everything that belongs to a program: written files are current, and nothing is written if the program cannot
+/// be compared.
 #[test]
 fn what_belongs_to_a_program_is_limited_too() {
     let probes = (0..100).map(|index| format!("probe {index},30\n")).collect::<Vec<_>>().concat();
@@ -210,7 +211,7 @@ fn emit_writes_sheets_and_keeps_them_current() {
     let sheet = place.path().join("1234.1P_Sheet.html");
     let first = emit("");
     assert!(first.stderr.contains("1234.1P_Sheet.html: written"), "{first}");
-    // The language is that of comments in programs, whoever runs it.
+    // The language is that of comments in programs, for every user.
     let text = place.read("1234.1P_Sheet.html");
     assert!(text.contains("Vor dem Start"), "{text}");
     place.run("sheet 1234.1P -o own.html --lang de");
@@ -278,7 +279,7 @@ fn joined_paths_have_one_sheet_with_all_cutters() {
     assert!(!svg.contains("started by hand"));
 }
 
-/// Clamps are where they are on the machine, whose zero is the path's start.
+/// Clamps are positioned relative to the machine's zero, which is the path's start.
 #[test]
 fn clamps_are_listed_from_the_start() {
     let drawing = "layer 1234.1P\nstart 100,50 \"T2 O2 I1 B0\"\nmill 100,50 140,50\nend 140,50\n\
@@ -293,7 +294,7 @@ fn clamps_are_listed_from_the_start() {
     assert!(row, "{texts:?} {run}");
 }
 
-/// Onto a bar the tool rises: that is a rapid move like any other.
+/// The tool rises onto a bar by a rapid move like any other.
 #[test]
 fn the_lowest_rapid_may_be_one_that_rises() {
     let drawing = "layer 1234.1P\nstart 0,20 \"T5 O3 I2 B0.5 D2 P6 U30\"\nmill 0,20 300,20\n\

@@ -1,5 +1,5 @@
-//! Names, layers and texts of strangers, in every command and format: nothing that is printed acts on a terminal, or begins a command of
-//! a CI runner. (book: reference/commands)
+//! Untrusted names, layers and texts in every command and format: no output controls a terminal or begins a command of a CI runner. (book:
+//! reference/commands)
 #![cfg(unix)]
 
 use crate::support::{Place, Run};
@@ -8,13 +8,12 @@ use pathbuild_diagnostic::shown;
 const FORMATS: [&str; 9] =
     ["full", "concise", "json", "sarif", "github", "gitlab", "junit", "dot", "mermaid"];
 
-/// What a stranger would put into a name: a colour, a title for the window, C1's escape, text turned round, and lines that begin
-/// commands of GitHub's and Azure's runners.
+/// A hostile name: a colour, a window title, C1's escape, reversed text, and lines that begin commands of GitHub's and Azure's runners.
 const HOSTILE: &str =
     "\u{1b}[31m\u{1b}]0;x\u{7}\u{9b}2J\u{202e}\u{2066}\r\u{2028}\u{85}##[add-mask]b\n::add-mask::e";
 
-/// A drawing with such names on layers and line types, and in texts: in one without an element, in parameters and values that are wrong,
-/// in names of paths that are not there.
+/// A drawing with such names on layers and line types and in texts: one without an element, faulty parameters and values, and names of
+/// missing paths.
 fn drawing(path: &str) -> String {
     let hostile = HOSTILE.replace('\n', "\\P").replace('\r', "^M");
     let text = |layer: &str, x: u32, content: &str| {
@@ -92,7 +91,7 @@ fn assert_harmless(run: &Run, is_github: bool) {
     assert!(matches!(run.status, Some(0..=2)), "{run}");
 }
 
-/// Every command that looks at drawings or programs, with names as arguments and found in directories.
+/// Every command that reads drawings or programs, with names as arguments and found in directories.
 fn commands() -> Vec<Vec<String>> {
     let drawings = [
         format!("a{HOSTILE}/1301.1P.dxf"),
@@ -150,7 +149,7 @@ fn hostile_names_act_on_nobody() {
     }
 }
 
-/// What machines read stays what they read, and says the names as they are.
+/// Machine-readable output stays valid and contains the exact names.
 #[test]
 fn json_of_hostile_names_is_whole() {
     let place = place();
@@ -170,7 +169,7 @@ fn json_of_hostile_names_is_whole() {
     roxmltree::Document::parse(&run.stdout).unwrap();
 }
 
-/// Reports in files are harmless too: they are shown by others.
+/// Reports in files are harmless too, since other programs display them.
 #[test]
 fn reports_of_hostile_names_act_on_nobody() {
     for format in ["full", "concise", "json", "sarif", "gitlab", "junit", "html"] {
@@ -203,7 +202,7 @@ fn what_is_seen_of_hostile_names_acts_on_nobody() {
     }
 }
 
-/// A link, a number or a mention is made of nothing, a directive neither.
+/// Nothing becomes a link, a number, a mention or a directive.
 #[test]
 fn graphs_hold_no_directive_of_mermaid() {
     let place = Place::new().file("%%{init: {}}%%1303.1P.dxf", right_drawing("1303.1P"));
@@ -211,7 +210,7 @@ fn graphs_hold_no_directive_of_mermaid() {
     assert!(run.stdout.contains("#37;#37;{init") && !run.stdout.contains("%%"), "{run}");
 }
 
-/// What a configuration says is shown as TOML that says the same.
+/// The displayed configuration is equivalent TOML.
 #[test]
 fn a_shown_configuration_says_the_same() {
     let text = "\u{e0041}b\\c ##[d]";

@@ -19,7 +19,7 @@ fn git(place: &Place, arguments: &[&str]) {
     assert!(run.status.success(), "git {arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
 }
 
-/// A library under Git, of which everything is committed. The project 8003 looks for something that is not there.
+/// A library under Git with everything committed. The project 8003 embeds a missing path.
 fn library() -> Place {
     let place = Place::new()
         .file("pathbuild.toml", "library = [\"parts\", \"projects\"]\nsearch = [\"parts\"]\n")
@@ -34,7 +34,7 @@ fn library() -> Place {
     place
 }
 
-/// What the summary says of how much was checked.
+/// The numbers in the summary.
 fn checked(place: &Place, arguments: &str) -> String {
     let run = place.run(arguments);
     let summary = run.stderr.lines().last().unwrap_or_default().to_owned();
@@ -56,7 +56,7 @@ fn what_depends_on_a_change_is_checked_and_nothing_else() {
     }
 }
 
-/// A hook runs before the first commit too.
+/// A hook also runs before the first commit.
 #[test]
 fn before_the_first_commit_everything_has_changed() {
     let place = library();
@@ -104,7 +104,7 @@ fn what_git_cannot_tell_is_wrong_usage() {
     assert_eq!(run.status, Some(2), "{run}");
 }
 
-/// A few objects of Git can name any number of files.
+/// A few Git objects can name any number of files.
 #[test]
 fn the_files_of_a_revision_are_counted() {
     for (most, is_right) in [(6, true), (5, false)] {
@@ -120,12 +120,12 @@ fn the_files_of_a_revision_are_counted() {
     }
 }
 
-/// Git would read it to its end, which may take hours.
+/// Git would read it to the end, which may take hours.
 #[cfg(unix)]
 #[test]
 fn a_drawing_that_is_too_large_has_changed() {
     let place = library();
-    // Without content: it takes no room on disk.
+    // A sparse file takes no space on disk.
     let drawing = fs::File::create(place.path().join("parts/1002.dxf")).unwrap();
     drawing.set_len(64 << 30).unwrap();
     let begun = std::time::Instant::now();
@@ -167,7 +167,7 @@ fn a_clone_that_does_not_reach_the_revision_is_called_shallow() {
     assert!(!run.stderr.contains("shallow"), "a whole clone is not: {run}");
 }
 
-/// What kinds of changes there are: none, of one drawing, of everything.
+/// The extent of a change: nothing, one drawing, or everything.
 const NOTHING: &str = "0 paths in 0 drawings";
 const ONE: &str = "1 path in 1 drawing";
 const ALL: &str = "5 paths in 5 drawings";
@@ -190,7 +190,7 @@ fn commit(place: &Place) {
     git(place, &["commit", "-q", "-m", "more"]);
 }
 
-/// Git's own lists of what it does not look at are not pathbuild's.
+/// Git's own exclude lists do not apply to pathbuild.
 #[test]
 fn drawings_that_git_passes_over_are_checked() {
     let place = library().file(".git/info/exclude", "2*\n");
@@ -200,7 +200,7 @@ fn drawings_that_git_passes_over_are_checked() {
     commit(&place);
     since(&place, NOTHING);
     since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), ONE);
-    // What pathbuild passes over is not checked.
+    // Files that pathbuild ignores are not checked.
     let place = library().file("parts/.gitignore", "2*\n");
     commit(&place);
     since(&place.file("parts/2001.dxf", dxf("2001.1P", 5, None)), NOTHING);
@@ -221,7 +221,7 @@ fn what_is_checked_and_how_concerns_everything() {
     let configuration = "library = [\"parts\", \"projects\"]\nsearch = [\"parts\"]\n";
     since(&library().file("pathbuild.toml", configuration), NOTHING);
     since(&library().file("pathbuild.toml", format!("{configuration}[limits]\nentities = 10\n")), ALL);
-    // A new file of rules, one that other text has, and one that is gone.
+    // A new ignore file, one that is changed, and one that is removed.
     for name in ["parts/.gitignore", "parts/.ignore"] {
         let place = library().file(name, "# nothing\n");
         since(&place, ALL);
@@ -244,7 +244,7 @@ mod links {
 
     use super::*;
 
-    /// The library with a link among its drawings, or beside them.
+    /// The library with a link among its drawings, or next to them.
     fn linked(target: &str, link: &str) -> Place {
         let place = library()
             .file("store/a.bin", dxf("2001.1P", 5, None))
@@ -305,7 +305,7 @@ mod links {
         assert!(run.stderr.contains(ONE) && !run.stderr.contains("everything"), "{run}");
     }
 
-    /// Writes a script that leaves a mark.
+    /// Writes a script that creates a marker file.
     fn script(place: &Place, name: &str, mark: &Path) {
         let file = place.path().join(name);
         fs::create_dir_all(file.parent().unwrap()).unwrap();
@@ -313,7 +313,7 @@ mod links {
         fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
     }
 
-    /// Everything that asks Git for something.
+    /// Runs everything that calls Git.
     fn ask(place: &Place, directory: &str, revision: &str, mark: &Path) {
         for option in [&[][..], &["--untrusted"]] {
             for command in [&["check", ".", "--changed-since", revision][..], &["diff", revision, "."]] {
@@ -344,12 +344,12 @@ mod links {
         let place = place.file("parts/1001.dxf", dxf("1001.1P", 4, None));
         ask(&place, ".", "HEAD", &mark);
         since(&place, "3 paths in 3 drawings");
-        // Git itself would.
+        // Git itself would run it.
         _ = Command::new("git").args(["diff", "HEAD"]).current_dir(place.path()).output().unwrap();
         assert!(mark.exists());
     }
 
-    /// A partial clone gets what it lacks with commands that its configuration names.
+    /// A partial clone fetches missing objects with commands from its configuration.
     #[test]
     fn nothing_is_fetched() {
         let place = library();
@@ -372,7 +372,7 @@ mod links {
         assert!(mark.exists());
     }
 
-    /// A pull request can bring the layout of a bare repository, which Git takes for one.
+    /// A pull request can contain the layout of a bare repository, which Git would recognise as one.
     #[test]
     fn files_of_a_tree_are_no_repository() {
         let place = library().file("cnc/3001.dxf", dxf("3001.1P", 5, None));
@@ -398,7 +398,7 @@ mod links {
         assert!(run.stderr.contains(ONE), "{run}");
     }
 
-    /// A `.git` that leads out of a stranger's tree: followed only to where `git worktree` made it.
+    /// A `.git` that leads out of an untrusted tree is only followed if `git worktree` created it.
     #[test]
     fn a_strangers_repository_lies_in_its_tree() {
         let place = library();
@@ -430,7 +430,7 @@ mod links {
     }
 }
 
-/// The index is as it was: Git would write down that files only look newer.
+/// The index is unchanged: Git would record that files only look newer.
 #[test]
 fn the_index_is_not_touched() {
     let place = library();

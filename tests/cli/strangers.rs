@@ -1,4 +1,4 @@
-//! What lies in a tree of strangers and is no regular file, or has no end: it is told, not waited for. (book: reference/configuration)
+//! Special or endless files in an untrusted tree are reported, and do not block. (book: reference/configuration)
 #![cfg(unix)]
 
 use std::fs;
@@ -18,7 +18,7 @@ fn dxf() -> Vec<u8> {
     sheet(drawn).unwrap().to_dxf()
 }
 
-/// What is no file and not a directory.
+/// Kinds of special files.
 const KINDS: [&str; 4] = ["device", "fifo", "socket", "link to a fifo"];
 
 fn place(kind: &str, name: &str) -> Place {
@@ -41,7 +41,7 @@ fn place(kind: &str, name: &str) -> Place {
     place
 }
 
-/// Runs a command over a tree in which a name is each kind of thing that is no file.
+/// Runs a command on a tree in which a name is each kind of special file.
 #[track_caller]
 fn each(name: &str, command: &str, status: i32, expected: &str) {
     for kind in KINDS {
@@ -68,7 +68,7 @@ fn a_file_of_rules_must_be_a_file() {
     each(".gitignore", "emit .", 1, "not a regular file");
 }
 
-/// Nobody waits until somebody reads a pipe; whoever reads it gets all.
+/// Writing never waits for the reader of a pipe; an existing reader gets everything.
 #[test]
 fn a_report_into_a_pipe_has_a_reader_or_is_refused() {
     for arguments in ["--report json=pipe", "--baseline pipe --update-baseline"] {
@@ -112,7 +112,7 @@ fn a_configuration_must_be_a_file() {
 fn what_is_written_over_must_be_a_file() {
     each("1202.1P_Milling.gcode", "emit .", 1, "PB004");
     each("1202.1P_Milling.gcode", "emit --check .", 1, "not current");
-    // Others' are no programs of ours.
+    // Special files of other names are not our programs.
     each("x_Milling.gcode", "emit .", 0, "written");
 }
 
@@ -126,7 +126,7 @@ fn what_else_is_named_must_be_a_file() {
     each("out.ngc", "post 1202.1P.dxf --post linuxcnc -o out.ngc", 1, "PB");
 }
 
-/// One just inside a limit, and one just outside.
+/// One input just inside a limit, and one just outside.
 #[test]
 fn files_have_limits_with_names() {
     let place = |rules: &str| {
@@ -156,7 +156,7 @@ fn files_have_limits_with_names() {
     assert!(configuration((4 << 20) + 1).stderr.contains("PB003"));
 }
 
-/// What rules mean, where a walk of our own reads them: names, negation, directories, hidden names, rules of repositories inside.
+/// The meaning of ignore rules in our own directory walk: names, negation, directories, hidden names, rules of nested repositories.
 #[test]
 fn rules_say_what_counts() {
     let place = Place::new()
@@ -203,14 +203,14 @@ fn rules_say_what_counts() {
     );
 }
 
-/// A directory whose name is too long for the system cannot be looked into: what lies in it is not passed over in silence.
+/// A directory whose path is too long for the system cannot be listed: its content is not skipped silently.
 #[test]
 fn directories_too_deep_for_the_system_are_told() {
     for (depth, status) in [(2, 0), (10, 1)] {
         let place = Place::new().file("1202.1P.dxf", dxf());
         let below = |levels: usize| place.path().join(vec!["d".repeat(200); levels].join("/"));
         fs::create_dir_all(below(depth)).unwrap();
-        // The system takes no longer name at once.
+        // The system does not accept a longer name at once.
         let aside = place.path().join("aside");
         fs::rename(below(1), &aside).unwrap();
         fs::create_dir_all(below(15)).unwrap();
@@ -241,7 +241,7 @@ fn globs_and_expressions_that_go_too_deep_are_refused() {
     assert_eq!(place.run("config show").status, Some(0));
 }
 
-/// Faults of a configuration, in many lines and in one: what each takes does not grow with the file.
+/// Faults of a configuration, on many lines and on a single one: the cost of each does not grow with the file.
 #[test]
 fn a_configuration_of_many_faults_takes_no_square_of_them() {
     let entries: Vec<String> = (0..5_000).map(|key| format!("unknown{key} = \"error\"")).collect();
@@ -258,7 +258,7 @@ fn a_configuration_of_many_faults_takes_no_square_of_them() {
     }
 }
 
-/// Work that ends just as it is given up is not held against what is asked next.
+/// Work that ends just as it is cancelled does not affect the next query.
 #[test]
 fn a_time_limit_ends_in_its_code() {
     let drawn = "layer 1202.1P\nstart 0,0 \"T5 O2 I0.0001 B0 MX\"\nmill 0,0 40,0\nend 40,0";
@@ -275,7 +275,7 @@ fn a_time_limit_ends_in_its_code() {
     }
 }
 
-/// A run that was killed holds no lock: what it left goes with the next run there, what others are writing stays.
+/// A killed run holds no lock: its leftovers are removed by the next run, but files being written by others stay.
 #[test]
 fn what_killed_runs_left_goes_with_the_next_run() {
     let place = Place::new()

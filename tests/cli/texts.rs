@@ -1,4 +1,4 @@
-//! `texts`: the table of what holds for each element, and where it comes from.
+//! `texts`: the table of effective parameters of each element, and their origins.
 
 use serde_json::Value as Json;
 
@@ -15,7 +15,7 @@ fn place(configuration: &str) -> Place {
     Place::new().file("1234.dxf", drawing.to_dxf()).file("pathbuild.toml", configuration)
 }
 
-/// What holds for the element at a place: letter, value, and where it comes from.
+/// The effective parameters of the element at a place: letter, value and origin.
 fn in_force(place: &Place, at: [f64; 2], element: &str) -> Vec<String> {
     let run = place.run("texts 1234.dxf --format json");
     assert_eq!(run.status, Some(0), "{run}");
@@ -40,7 +40,7 @@ fn each_parameter_says_where_it_comes_from() {
         in_force(&place, [0.0, 0.0], segment),
         [&["B0.5 own", "F150 path", "I1 own"], &of_path[..]].concat()
     );
-    // I of a chain is that of its first segment; B is each segment's own.
+    // I of a chain comes from its first segment; B from each segment.
     assert_eq!(
         in_force(&place, [20.0, 0.0], segment),
         [&["B0 path", "F150 path", "I1 chain"], &of_path[..]].concat()
@@ -80,7 +80,7 @@ fn without_options_defaults_hold() {
     assert!(probe.contains(&"Z150 path".to_owned()), "{probe:?}");
 }
 
-/// The same drawing as its program: with --compatible the path's F is not that of its probes.
+/// The same drawing gives the same feeds as its program: with --compatible, probes do not use the path's F.
 #[test]
 fn probing_feeds_are_those_of_the_program() {
     let feed = |configuration: &str| in_force(&place(configuration), [10.0, 10.0], "a Z-probe").pop();
@@ -101,7 +101,7 @@ fn the_table_is_for_people_in_both_languages() {
     assert!(run.stdout.contains("    F 150          text of the path that @ names: 1234.1P\n"), "{run}");
     let run = place.run("texts 1234.dxf --lang de");
     assert!(run.stdout.contains("    A 8            Vorgabe\n"), "{run}");
-    // Who looks for a text sees that alone.
+    // A search for a text shows only that text.
     let run = place.run("texts 1234.dxf --match S12");
     assert!(run.stdout.contains("S12") && !run.stdout.contains("parameters of path"), "{run}");
 }

@@ -1,4 +1,4 @@
-//! `--untrusted`, and the user's own configuration: what a stranger's tree may say, read and write. Each rule with one case just inside and
+//! `--untrusted`, and the user's own configuration: what an untrusted tree may set, read and write. Each rule has one case just inside and
 //! one just outside. (book: reference/configuration)
 #![cfg(unix)]
 
@@ -17,7 +17,7 @@ fn dxf(name: &str) -> Vec<u8> {
     sheet(&drawn).unwrap().to_dxf()
 }
 
-/// A repository in a directory `tree`, whose configuration lies in `tree/work`; drawings lie in there and outside of the repository.
+/// A repository in the directory `tree` with its configuration in `tree/work`; there are drawings in it and outside.
 fn repository(more: &str) -> Place {
     Place::new()
         .file("tree/.git/HEAD", "ref: refs/heads/main\n")
@@ -31,7 +31,7 @@ fn run(place: &Place, arguments: &str) -> Run {
     place.run_in("tree/work", &arguments.split_whitespace().collect::<Vec<_>>())
 }
 
-/// A configuration that is right for one's own tree and for a stranger's.
+/// A configuration that is valid in trusted and in untrusted trees.
 #[track_caller]
 fn inside(more: &str) {
     for option in ["", " --untrusted"] {
@@ -40,7 +40,7 @@ fn inside(more: &str) {
     }
 }
 
-/// One that is right for one's own tree only.
+/// A configuration that is valid in trusted trees only.
 #[track_caller]
 fn outside(more: &str, expected: &str) {
     assert_eq!(run(&repository(more), "config show").status, Some(0), "{more}");
@@ -70,7 +70,7 @@ fn paths_of_a_strangers_configuration_lie_in_its_repository() {
     outside("post = { name = \"../../mine.cbpp\" }", leads_out);
 }
 
-/// Without Git the repository is the configuration's directory.
+/// Without Git, the repository is the directory of the configuration.
 #[test]
 fn without_git_the_configurations_directory_is_the_repository() {
     for (name, status) in [("below", 0), ("../beside", 2)] {
@@ -100,7 +100,7 @@ fn links_of_a_strangers_configuration_lead_into_its_repository() {
     }
 }
 
-/// A drawing, an ignore file, a program, a post's definition and a directory that are links.
+/// A drawing, an ignore file, a program, a post definition and a directory that are links.
 #[test]
 fn links_that_lead_out_are_not_read() {
     let outside = "it leads out of the repository, which is not trusted";
@@ -141,7 +141,7 @@ fn links_that_lead_out_are_not_read() {
     }
 }
 
-/// As in one's own tree: a program says in its head which path it was made from.
+/// As in a trusted tree: the header of a program names its path.
 #[test]
 fn programs_that_are_older_than_a_strangers_drawing_are_told() {
     let wrong = "layer 1202.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 50,0";
@@ -154,7 +154,8 @@ fn programs_that_are_older_than_a_strangers_drawing_are_told() {
     }
 }
 
-/// What a trusted run kept of a linked drawing is not what is said of a stranger's, also where the drawing has rested, and is not read again.
+/// The cached result of a trusted run for a linked drawing does not apply to an untrusted run, even if the drawing has not changed for a
+/// while and is not read again.
 #[test]
 fn kept_results_of_a_trusted_run_are_no_ones_of_a_stranger() {
     let place = repository("library = [\".\"]");
@@ -180,7 +181,7 @@ fn a_strangers_configuration_that_is_a_link_leads_into_its_repository() {
     }
 }
 
-/// Programs are written in the repository only: a directory among those on the way to them may be a link.
+/// Programs are only written in the repository: a directory on the way may be a link.
 #[test]
 fn nothing_is_written_through_links_that_lead_out() {
     for (target, status) in [("../parts", 0), ("../../outside", 1)] {
@@ -203,7 +204,7 @@ fn nothing_is_written_through_links_that_lead_out() {
     }
 }
 
-/// What a person names on the command line is a person's.
+/// Paths on the command line are chosen by the user.
 #[test]
 fn what_the_command_line_names_may_lie_anywhere() {
     let place = repository("").file("own.toml", CONFIGURATION);
@@ -256,11 +257,11 @@ fn posts_of_strangers_run_no_command() {
     }
 }
 
-/// What was read before the tree was a stranger's is not told again.
+/// Results from when the tree was trusted are not used.
 #[test]
 fn what_is_known_of_ones_own_tree_is_not_known_of_a_strangers() {
     let place = repository("");
-    // A file that has rested is not read again for a result to hold.
+    // A file that has not changed for a while is not read again.
     let drawing = crate::support::project().join("fixtures/library/components/2050.1P.dxf");
     symlink(drawing, place.path().join("tree/work/2050.1P.dxf")).unwrap();
     for (option, status) in [("", 0), ("", 0), (" --untrusted", 1), ("", 0)] {
@@ -269,7 +270,7 @@ fn what_is_known_of_ones_own_tree_is_not_known_of_a_strangers() {
     }
 }
 
-/// `[trust] roots`: trees that lie elsewhere are strangers' without being asked.
+/// `[trust] roots`: trees elsewhere are untrusted even without the option.
 #[test]
 fn trees_that_do_not_lie_below_a_trusted_root_are_strangers() {
     for (root, status) in [("tree", 0), ("", 0), ("outside", 2), ("tree/work", 2)] {
@@ -277,12 +278,12 @@ fn trees_that_do_not_lie_below_a_trusted_root_are_strangers() {
         let root = place.path().canonicalize().unwrap().join(root);
         let place = place.users(&format!("[trust]\nroots = [\"/nowhere\", {:?}]\n", root.to_str().unwrap()));
         assert_eq!(run(&place, "check .").status, Some(status), "{}", root.display());
-        // Who says so is believed.
+        // The explicit option is always respected.
         assert_eq!(run(&place, "check . --untrusted").status, Some(2));
     }
 }
 
-/// A person's language is that of messages, the tree's that of its programs.
+/// Messages use the user's language, programs that of the tree.
 #[test]
 fn a_persons_language_is_said_and_the_trees_is_written() {
     let place = repository("lang = \"en\"").users("lang = \"de\"\n");
@@ -323,7 +324,7 @@ fn faults_of_a_persons_configuration_are_told() {
     }
 }
 
-/// A directory that cannot be listed is told, and nothing else is held back by it.
+/// A directory that cannot be listed is reported, and nothing else is affected.
 #[test]
 fn a_directory_that_cannot_be_listed_is_told() {
     let place = repository("library = [\".\"]");

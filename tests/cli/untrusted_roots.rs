@@ -1,4 +1,4 @@
-//! `--untrusted`: what a run may not leave where there are several trees, links between them, and a cache in one. (book: reference/configuration)
+//! `--untrusted` with several trees, links between them, and a cache in one of them. (book: reference/configuration)
 #![cfg(unix)]
 
 use std::fs;
@@ -33,7 +33,7 @@ fn assert_status(run: &Run, status: i32, code: &str) {
     assert_eq!((run.status, run.stderr.contains(code)), (Some(status), !code.is_empty()), "{run}");
 }
 
-/// The configuration may be a person's own, and the tree of another argument a stranger's.
+/// The configuration may be the user's own while the tree of another argument is untrusted.
 #[test]
 fn each_argument_is_confined_to_its_own_repository() {
     for arguments in ["check one two", "check two one", "check two", "--config own/pathbuild.toml check two"]
@@ -41,7 +41,7 @@ fn each_argument_is_confined_to_its_own_repository() {
         let run = trees().run(&format!("--untrusted {arguments}"));
         assert_eq!(run.status, Some(1), "{arguments}: {run}");
         assert!(run.stderr.contains("PB001") && run.stderr.contains("1204.1P.dxf"), "{arguments}: {run}");
-        // Trusted, the link is one like any other.
+        // In a trusted tree, the link is like any other.
         let run = trees().run(arguments);
         assert_eq!(run.status, Some(0), "{arguments}: {run}");
     }
@@ -59,7 +59,7 @@ fn one_tree_that_is_not_trusted_makes_the_run_untrusted() {
     assert_status(&trusting(&["two"]), 1, "PB001");
 }
 
-/// Else whoever may put a link into a tree says which tree is read and written.
+/// Otherwise a link in a tree would decide which tree is read and written.
 #[test]
 fn a_link_in_a_repository_leads_to_no_other_one() {
     let place = || {
@@ -70,7 +70,7 @@ fn a_link_in_a_repository_leads_to_no_other_one() {
             .file("other/pathbuild.toml", CONFIGURATION)
             .file("other/1204.1P.dxf", dxf("1204.1P"));
         symlink("../other", place.path().join("tree/components")).unwrap();
-        // A person's own way to a tree, from where no repository is.
+        // The user's own link to a tree, outside of any repository.
         symlink("other", place.path().join("mine")).unwrap();
         place
     };
@@ -83,14 +83,14 @@ fn a_link_in_a_repository_leads_to_no_other_one() {
     assert!(program(&own));
 }
 
-/// A pull request may bring results that its drawings do not have.
+/// A pull request may contain cached results that do not match its drawings.
 #[test]
 fn a_cache_in_a_strangers_tree_is_not_used() {
     for (cache, is_used) in [
         ("../cache", true),
         (".cache", false),
         ("link/cache", false),
-        // Links from outside lead into the tree.
+        // Links from outside that lead into the tree.
         ("../alias/.cache", false),
         ("../outside/inner/deep/.cache", false),
         ("../alias/../cache", true),
@@ -111,13 +111,13 @@ fn a_cache_in_a_strangers_tree_is_not_used() {
         assert_eq!(found.status, Some(0), "{cache}: {found}");
         assert_eq!(found.stderr.contains("is not trusted"), !is_used, "{cache}: {found}");
         assert_eq!(place.path().join("tree").join(cache).exists(), is_used, "{cache}");
-        // In one's own tree it is used wherever it lies.
+        // In a trusted tree it is used wherever it is.
         run("");
         assert!(place.path().join("tree").join(cache).exists(), "{cache}");
     }
 }
 
-/// The user's cache directory can be such a link, too.
+/// The user's cache directory may be such a link, too.
 #[test]
 fn a_persons_cache_directory_in_a_strangers_tree_is_not_used() {
     let place = Place::new()
@@ -147,14 +147,14 @@ fn an_example_is_not_written_out_of_a_strangers_tree() {
     }
 }
 
-/// The bytes and the stamp of a file are the same behind a link.
+/// A file has the same bytes and stamp behind a link.
 #[test]
 fn what_is_known_of_a_drawing_is_not_known_of_it_behind_a_link() {
     let place = Place::new()
         .file("tree/.git/HEAD", "")
         .file("tree/pathbuild.toml", CONFIGURATION)
         .file("tree/sub/1202.1P.dxf", dxf("1202.1P"));
-    // Its stamp is kept once it has rested.
+    // Its stamp is cached once it has not changed for a while.
     std::thread::sleep(Duration::from_secs(4));
     let check = || place.run_in("tree", &["--untrusted", "check", "sub/1202.1P.dxf"]);
     assert_eq!(check().status, Some(0));

@@ -14,7 +14,7 @@ use serde_json::Value;
 use crate::conformance::recorded::{self, Form, What};
 use crate::support::{self, Place, Run};
 
-/// What statistics say has three decimals at most in a program's text; here nothing is rounded.
+/// Statistics in a program's text are rounded to three decimals; here nothing is rounded.
 const EXACT: f64 = 1e-4;
 
 fn scene(run: &Run) -> Value {
@@ -47,7 +47,7 @@ fn scenes_add_up_to_the_statistics() {
     assert!(paths > 150, "{paths} paths with programs only");
 }
 
-/// Views what a recorded run emits; gives how many programs there were to see.
+/// Views the programs that a recorded run emits. Returns their number.
 fn adds_up(case: &Path, what: &What) -> usize {
     let What::Compile(arguments) = what else { return 0 };
     let output = tempfile::tempdir().unwrap();
@@ -65,7 +65,7 @@ fn adds_up(case: &Path, what: &What) -> usize {
         line.extend(options.iter().filter(|option| !is_of_emit(option)).map(|option| (*option).clone()));
         let ran = support::program().args(&line).current_dir(case).output().unwrap();
         let Ok(text) = fs::read_to_string(&file) else {
-            // What cannot be shown has said why.
+            // If it cannot be shown, a reason was printed.
             assert!(!ran.stderr.is_empty(), "{}: {line:?}", case.display());
             continue;
         };
@@ -85,7 +85,7 @@ fn is_of_emit(option: &str) -> bool {
     option.starts_with("--out-dir") || option == "--force"
 }
 
-/// Whether a path has a program; its moves must have the lengths of its statistics, and the box of its G-code.
+/// Whether a path has a program; its moves must match the lengths of its statistics and the bounding box of its G-code.
 fn agrees(path: &Value, name: &str) -> bool {
     let moves = path["moves"].as_array().unwrap();
     if moves.is_empty() {
@@ -96,7 +96,7 @@ fn agrees(path: &Value, name: &str) -> bool {
     };
     let totals = &path["totals"];
     let total = |name: &str| totals[name].as_f64().unwrap();
-    // What is drawn is as long as what is counted, and as long as it says.
+    // The drawn length equals the counted length and the stated length.
     let drawn = |it: &Value| in_plane(it).hypot(number(it, "from", 2) - number(it, "to", 2));
     let said = |it: &Value| it["length"].as_f64().unwrap();
     let kinds: [(&[&str], &str); 3] =
@@ -129,10 +129,10 @@ fn in_plane(it: &Value) -> f64 {
     }
 }
 
-/// What three decimals, and arcs in pieces of half a degree, leave of a place.
+/// Tolerance for three decimals, and for arcs in pieces of half a degree.
 const DIGITS: f64 = 0.005;
 
-/// Points of a move, many of an arc.
+/// Points of a move; many points of an arc.
 fn points(it: &Value) -> Vec<[f64; 3]> {
     let place = |end: &str| [0, 1, 2].map(|axis| number(it, end, axis));
     let (from, to) = (place("from"), place("to"));
@@ -148,7 +148,7 @@ fn points(it: &Value) -> Vec<[f64; 3]> {
     inner.chain([from, to]).collect()
 }
 
-/// The box of a path's moves is that of its G-code, to the digits that it is written with.
+/// Checks that the bounding box of a path's moves equals that of its G-code, up to the written digits.
 fn boxes_agree(path: &Value, moves: &[Value], name: &str) {
     let text = path["gcode"].as_str().unwrap();
     let options = Options { heights: Heights::Nominal, ..Options::default() };
@@ -191,7 +191,7 @@ fn library() -> Place {
     place
 }
 
-/// The posts whose programs are read in a dialect of the same name.
+/// The posts whose programs are read in the dialect of the same name.
 const POSTS: [&str; 7] = ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "xpertmill"];
 
 #[test]
@@ -216,7 +216,7 @@ fn the_text_is_the_file_that_emit_writes_and_each_cut_has_its_line() {
     }
 }
 
-/// The line of each milling move begins where the move does, in a text that is read in this dialect; plunges have a line, too.
+/// Checks that the line of each milling move starts where the move does, in a text read in this dialect; plunges have a line, too.
 fn lines_lead_to_moves(path: &Value, text: &str, dialect: Dialect) {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let read = interpret(text.as_bytes(), dialect, &options).moves();
@@ -341,7 +341,7 @@ fn a_program_is_seen_without_elements() {
     assert_eq!(place.run("view a.nc -o a.svg").status, Some(0));
 }
 
-/// What the book has no pictures of: a drawing whose path has errors, and a program of another origin.
+/// Cases without pictures in the book: a drawing with an erroneous path, and a program of another origin.
 #[test]
 fn without_a_program_and_without_elements() {
     let broken = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 20,0 \"B3\"\nmark 20,0 20,10\nsweep 20,10 30,10\nbars 31,10 40,10\nprobe 5,5 \"LA\"\nturn 20,0\nend 40,10\n";
@@ -390,7 +390,7 @@ fn pictures_are_the_same_bytes_on_every_run() {
     assert!(place.read("a.svg").contains("Stützsteg"));
 }
 
-/// A name from a drawing is never markup.
+/// A name from a drawing is never interpreted as markup.
 #[test]
 fn hostile_names_are_escaped() {
     let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0 \"Q<script>&\"\nend 40,0";
@@ -431,7 +431,7 @@ fn what_cannot_be_shown_says_so() {
     }
 }
 
-/// About where the texts of some layers of a picture stand: left, top, right, bottom in px, and what they say.
+/// The approximate rectangles of the texts in some layers of a picture, as left, top, right and bottom in px, with their content.
 fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     let document = roxmltree::Document::parse(svg).unwrap();
     let layers = ["texts", "order", "ends", "probes", "embedded", "findings", "keep-outs"];
@@ -442,7 +442,7 @@ fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     let label = |node: roxmltree::Node<'_, '_>| {
         let number = |name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
         let (text, size) = (node.text().unwrap_or_default().to_owned(), number("font-size"));
-        // Narrower than it is, so that what only touches counts as apart.
+        // Narrower than they are, so that adjoining texts do not count as overlapping.
         let width = 0.5 * size * text.chars().count() as f64;
         let left =
             if node.attribute("text-anchor").is_some() { number("x") - width / 2.0 } else { number("x") };
@@ -451,7 +451,7 @@ fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     document.descendants().filter(is_label).map(label).collect()
 }
 
-/// Number, start, parameters and names are read: none is printed over another.
+/// Numbers, start, parameters and names are legible: they do not overlap.
 #[test]
 fn texts_of_a_picture_are_apart() {
     let mut place = Place::new().file("pathbuild.toml", "sweep-height = 9\nfeed = 150\nrapid = 900\n");
@@ -493,7 +493,7 @@ fn texts_of_a_picture_are_apart() {
     assert!(pictures > 50, "{pictures}");
 }
 
-/// Short lines in a narrow place, each with parameters of its own.
+/// Short lines close together, each with its own parameters.
 fn crowded() -> String {
     use std::fmt::Write;
 
@@ -513,7 +513,7 @@ fn crowded() -> String {
     text + &format!("end {x},{y}\n")
 }
 
-/// Of a picture whose tool is as wide as the drawing is long nothing is cut off, and a drilled hole is a disc.
+/// With a tool as wide as the drawing is long, nothing is cut off, and a drilled hole is a disc.
 #[test]
 fn what_the_cutter_takes_is_whole_in_a_picture() {
     let drawing = "layer 1236.1P\nstart 0,0 \"T5 O12 I1 B0 MPlate\"\nmill 0,0 30,0\nsweep 30,0 15,40\nmill circle 15,40 d 12\nsweep 15,40 30,0\nend 30,0\n";
@@ -547,7 +547,7 @@ fn what_the_cutter_takes_is_whole_in_a_picture() {
         .unwrap();
     let bottom: f64 = clip.attribute("height").unwrap().parse().unwrap();
     assert!(y + width / 2.0 <= bottom, "{line} {width}: {bottom}");
-    // As wide as the cutter, and its number beside it.
+    // As wide as the cutter, with its number next to it.
     let [x, y, radius, _] =
         below("cuts", "circle").into_iter().map(|it| it.1).find(|it| it[2] > 5.0).unwrap();
     assert!((2.0 * radius - width).abs() < 0.02, "{radius} {width}");

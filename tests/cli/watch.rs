@@ -1,4 +1,4 @@
-//! `watch`: what it says and writes as drawings change.
+//! `watch`: its output and files as drawings change.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -35,12 +35,12 @@ fn library() -> Place {
         .file("library/projects/8002.dxf", dxf("8002.1P", 5, &["1002.1P"]))
 }
 
-/// A run that goes on. It ends when this is dropped.
+/// A running process, which ends when this value is dropped.
 struct Watch<'a> {
     place: &'a Place,
     child: Child,
     lines: Said,
-    /// What was said until it watched.
+    /// The output until it was watching.
     beginning: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Watch<'a> {
         Self::begin_in(place, ".", program(), arguments)
     }
 
-    /// In a directory below.
+    /// Starts in a subdirectory.
     fn begin_in(place: &'a Place, directory: &str, mut command: Command, arguments: &str) -> Self {
         command.args(arguments.split_whitespace()).current_dir(place.path().join(directory));
         let mut child = command.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -59,7 +59,7 @@ impl<'a> Watch<'a> {
         watch
     }
 
-    /// The lines up to one that holds a text.
+    /// The lines up to one that contains a text.
     #[track_caller]
     fn until(&self, text: &str) -> Vec<String> {
         self.lines.until(text)
@@ -106,7 +106,7 @@ fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
     assert!(said.iter().any(|line| line.contains("8002_Milling.gcode: written")), "{said:#?}");
     assert_ne!(place.read("library/projects/8002_Milling.gcode"), other);
 
-    // What depended on the edited drawing no longer does.
+    // The drawing that depended on the edited one no longer does.
     watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
     watch.until("1002.dxf: changed");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
@@ -114,7 +114,7 @@ fn an_edit_asks_again_what_depends_on_it_and_writes_its_programs() {
     assert!(said.last().unwrap().contains(": changed; 2 drawings checked"), "{said:#?}");
 }
 
-/// Names of drawings and directories are none of paths: who writes them there would wait for programs in vain.
+/// The names of drawings and directories are not paths: a user would wait for programs that never come.
 #[test]
 fn targets_that_mean_no_path_are_told_at_the_beginning() {
     let unmet = |targets: &str, arguments: &str| {
@@ -160,12 +160,12 @@ fn drawings_that_come_go_and_are_renamed_are_noticed() {
     let from = place.path().join("library/projects/1001.dxf");
     fs::rename(from, place.path().join("library/projects/7001.dxf")).unwrap();
     let said = watch.until("7001.dxf: changed");
-    // It is no longer looked for there.
+    // It is no longer searched there.
     assert!(said.last().unwrap().contains(" 1 new finding,"), "{said:#?}");
     assert!(said.iter().any(|line| line.contains("7001.dxf: warning[PB521]")), "{said:#?}");
 }
 
-/// As people type it: without a separator it could be the name of a path.
+/// Typed without a separator, it could be the name of a path.
 #[test]
 fn a_directory_by_its_name_is_watched() {
     let place = library().file("aside/1003.dxf", dxf("1003.1P", 5, &[]));
@@ -175,7 +175,7 @@ fn a_directory_by_its_name_is_watched() {
     assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
 }
 
-/// A drawing of the library may be hidden, where a rule takes it in again.
+/// A drawing of the library may be hidden if a rule includes it again.
 #[test]
 fn a_hidden_drawing_that_counts_is_watched() {
     let place = library()
@@ -190,7 +190,7 @@ fn a_hidden_drawing_that_counts_is_watched() {
     assert!(!said.iter().any(|line| line.contains(".1004.dxf") && line.contains("PB503")), "{said:#?}");
 }
 
-/// Where only projects are watched, what is wrong with a component alone is not asked.
+/// If only projects are watched, findings of components on their own are not queried.
 #[test]
 fn an_edit_of_what_is_not_watched_asks_only_what_is() {
     let place = library();
@@ -227,7 +227,7 @@ fn a_drawing_that_never_ends_is_taken_as_it_is() {
 fn polling_notices_the_same() {
     let place = library();
     let watch = Watch::begin(&place, "watch --poll --format concise");
-    // The time of last change must differ, by which polling tells.
+    // Polling detects changes by the modification time, which must differ.
     std::thread::sleep(Duration::from_millis(1100));
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     let said = watch.until("1001.dxf: changed");
@@ -258,8 +258,8 @@ fn an_edited_post_begins_anew() {
     assert!(place.read(program).starts_with("(anna)"));
 }
 
-/// A change that concerns one drawing, while two hundred are asked again because of another that is not made once more: what was still open
-/// is asked together with it. The pauses are such that it comes before, between and after the portions.
+/// A change to one drawing while two hundred others are being checked because of another change that is not repeated: the pending ones are
+/// checked together with it. The pauses put it before, between and after the batches.
 #[test]
 fn changes_that_come_while_others_are_worked_on_are_not_lost() {
     const PROJECTS: usize = 200;
@@ -268,7 +268,7 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
     });
     let watch = Watch::begin(&place, "watch --emit --format concise");
-    // Each project is wrong, 8001 among them; 1002, and 8002 that embeds it, miss a path.
+    // Each project is wrong, including 8001; 1002, and 8002 that embeds it, lack a path.
     let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
     for pause in [65, 90, 120, 180, 260, 400] {
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
@@ -286,7 +286,7 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
     }
 }
 
-/// The same with a drawing that goes while it is still open: it is not asked.
+/// With a drawing that is removed while it is pending: it is not checked.
 #[test]
 fn a_drawing_that_goes_while_it_waits_is_not_asked() {
     const PROJECTS: usize = 200;
@@ -296,7 +296,7 @@ fn a_drawing_that_goes_while_it_waits_is_not_asked() {
     });
     let watch = Watch::begin(&place, "watch --format concise");
     for (index, pause) in [65, 90, 120, 180, 260].into_iter().enumerate() {
-        // The last in order of name that is left: 8001 and others before it are wrong then.
+        // The last remaining one by name; 8001 and others before it are wrong then.
         let wrong = i64::try_from(PROJECTS - index).unwrap();
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
         std::thread::sleep(Duration::from_millis(pause));
@@ -311,7 +311,7 @@ fn a_drawing_that_goes_while_it_waits_is_not_asked() {
     }
 }
 
-/// How many findings more there are. Each file that changed has a line, and those of one revision say the same.
+/// The increase in the number of findings. Each changed file has a line, and the lines of one revision agree.
 fn difference(said: &[String]) -> i64 {
     let counts = said.iter().filter_map(|line| {
         let revision = line.strip_prefix('[')?.split(']').next()?;
@@ -322,7 +322,7 @@ fn difference(said: &[String]) -> i64 {
     counts.collect::<BTreeMap<_, _>>().values().sum()
 }
 
-/// Nobody tells that a drawing can be read again whose link leads out of what is watched.
+/// No event reports that a drawing becomes readable whose link leads out of the watched directories.
 #[cfg(unix)]
 #[test]
 fn what_may_have_passed_is_tried_again_with_the_next_change() {
@@ -333,7 +333,7 @@ fn what_may_have_passed_is_tried_again_with_the_next_change() {
     assert!(watch.beginning.iter().any(|line| line.contains("1003.dxf: error[PB001]")));
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     watch.until("1001.dxf: changed");
-    // Nothing comes of it yet, and is said of it.
+    // It has no effect yet, and nothing is reported.
     std::thread::sleep(Duration::from_millis(500));
     watch.write("elsewhere/1003.dxf", dxf("1003.1P", 5, &[]));
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
@@ -344,7 +344,7 @@ fn what_may_have_passed_is_tried_again_with_the_next_change() {
     assert!(line.starts_with(expected), "{line}");
 }
 
-/// Whether each revision names the files of the one before that left drawings to it.
+/// Whether each revision names the files of the previous one that left drawings for it.
 fn are_named_again(said: &[String]) -> bool {
     let mut revisions: BTreeMap<u32, (BTreeSet<&str>, bool)> = BTreeMap::new();
     for line in said.iter().filter_map(|line| line.strip_prefix('[')) {
@@ -394,7 +394,7 @@ fn a_configuration_that_is_wrong_for_a_moment_ends_nothing() {
 
 const REPLACED: &str = "a directory that is watched came, went or was replaced";
 
-/// The system watches a directory, not its name: as Git and synchronising programs exchange it.
+/// The system watches a directory, not its name; Git and synchronisation programs replace directories.
 #[test]
 fn a_directory_that_takes_the_place_of_one_is_watched() {
     let place = library();
@@ -416,7 +416,7 @@ fn a_directory_that_takes_the_place_of_one_is_watched() {
     assert!(watch.until("parts/1001.dxf: changed").iter().any(|line| line.contains("PB503")));
 }
 
-/// The same where the new one is there at once, and is a link.
+/// If the replacement appears at once, and is a link.
 #[cfg(unix)]
 #[test]
 fn a_link_that_takes_the_place_of_a_directory_is_watched() {
@@ -431,7 +431,7 @@ fn a_link_that_takes_the_place_of_a_directory_is_watched() {
     assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
 }
 
-/// Where only what leads to a watched directory is another.
+/// If only a parent of a watched directory is replaced.
 #[test]
 fn what_leads_to_a_directory_may_be_replaced() {
     let configuration = CONFIGURATION.replace("library", "all/library").replace("all/library =", "library =");
@@ -446,7 +446,7 @@ fn what_leads_to_a_directory_may_be_replaced() {
     watch.until("parts/1001.dxf: changed");
 }
 
-/// Other directories come and go, also those that programs are written to, and nothing begins anew.
+/// Other directories may come and go, including output directories, without a restart.
 #[test]
 fn other_directories_begin_nothing_anew() {
     let place = library().file("pathbuild.toml", format!("out-dir = \"gcode\"\n{CONFIGURATION}"));
@@ -474,7 +474,7 @@ fn a_library_that_is_missing_at_the_beginning_is_watched_once_it_comes() {
     watch.until("watching ");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
     watch.until("1001.dxf: changed");
-    // The same of an argument, without any configuration.
+    // The same for an argument without a configuration.
     let place = Place::new();
     let watch = Watch::begin(&place, "watch parts --format concise");
     fs::create_dir(place.path().join("parts")).unwrap();
@@ -483,7 +483,7 @@ fn a_library_that_is_missing_at_the_beginning_is_watched_once_it_comes() {
     watch.until("1001.dxf: changed");
 }
 
-/// From a directory beside it: events have no `..`.
+/// From a sibling directory: events contain no `..`.
 #[test]
 fn a_directory_above_is_watched() {
     for arguments in ["watch ../library --format concise", "watch ../library/parts/1001.dxf --format concise"]
@@ -510,7 +510,7 @@ fn a_post_whose_directory_is_exchanged_begins_anew() {
     assert!(place.read("library/projects/8001_Milling.nc").starts_with("(anna)"));
 }
 
-/// What cannot be written is told once, tried again after each change, and counted when it is mended.
+/// A program that cannot be written is reported once, retried after each change, and counted once it succeeds.
 #[test]
 fn a_program_that_could_not_be_written_is_written_later() {
     let place = library().file("library/projects/8001_Milling.gcode/x.txt", "");
@@ -530,7 +530,7 @@ fn a_program_that_could_not_be_written_is_written_later() {
     assert!(said.last().unwrap().contains(" 0 new findings, 1 fixed"), "{said:#?}");
 }
 
-/// The program as somebody who may not do everything; `None` where nobody can be anybody else.
+/// The program as an unprivileged user; `None` if that is impossible.
 #[cfg(target_os = "linux")]
 fn as_nobody() -> Option<Command> {
     let nobody = || {
@@ -543,7 +543,7 @@ fn as_nobody() -> Option<Command> {
     version.is_ok_and(|run| run.status.success()).then(nobody)
 }
 
-/// All but that directory is watched, which is told, and watched as soon as it can be listed.
+/// All other directories are watched; this one is reported, and watched as soon as it can be listed.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_directory_that_cannot_be_listed_keeps_nothing_else_from_being_watched() {
@@ -583,7 +583,7 @@ fn drawings_that_a_rule_hides_have_their_line() {
     watch.until("8002.dxf: changed; 1 drawing checked");
 }
 
-/// The user's own configuration may be what is wrong.
+/// The fault may be in the user's own configuration.
 #[cfg(unix)]
 #[test]
 fn a_users_configuration_that_is_put_right_is_noticed() {

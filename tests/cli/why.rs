@@ -1,4 +1,4 @@
-//! `pathbuild why`: what keeps the results of the last check from holding. (book: reference/commands)
+//! `pathbuild why`: the reasons why results of the last check no longer apply. (book: reference/commands)
 
 use std::fmt::Write;
 
@@ -90,7 +90,7 @@ fn without_a_configuration_there_is_nothing_to_ask() {
     assert_eq!(checked().run("why 8001.1P --no-cache").status, Some(2));
 }
 
-/// The machine may have been busy: of what was given up nothing is kept.
+/// The machine may have been busy: the result of cancelled work is not cached.
 #[test]
 fn what_took_too_long_is_compiled_again() {
     let mut lines = String::new();

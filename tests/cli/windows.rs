@@ -1,4 +1,4 @@
-//! What a shell of Windows leaves to programs, and how its paths are written. It holds wherever pathbuild runs; tests/tools/windows.sh runs it there.
+//! What Windows shells leave to programs, and the spelling of paths. Runs on all systems; tests/tools/windows.sh runs it on Windows.
 
 use crate::support::Place;
 
@@ -26,7 +26,7 @@ end 40,0
 no drawing
 "#;
 
-/// How many paths a check of these arguments finds, all of them without an error.
+/// The number of paths that a check of these arguments finds, all without errors.
 fn paths(place: &Place, arguments: &[&str]) -> usize {
     let run = place.run_with(&[&["check", "--no-cache"], arguments].concat());
     assert_eq!(run.status, Some(0), "{run}");
@@ -61,7 +61,7 @@ fn a_pattern_that_nothing_matches_is_a_file_that_is_not_there() {
     }
 }
 
-/// In names of files brackets are letters, on Windows too.
+/// Brackets in file names are ordinary characters, on Windows too.
 #[test]
 fn a_file_of_just_that_name_is_meant() {
     let place = Place::of(&PARTS.replace("parts/1235.dxf", "parts/123[4].dxf"));
@@ -71,7 +71,7 @@ fn a_file_of_just_that_name_is_meant() {
     assert_eq!(paths(&place, &["parts/123[4]*.dxf"]), 1, "a pattern again: 1234.dxf");
 }
 
-/// Windows has 260 characters for a path that nothing is done for.
+/// Windows limits paths to 260 characters unless a program takes precautions.
 #[test]
 fn paths_of_more_than_260_characters_are_read_and_written() {
     let deep = ["a directory with a name of so many characters, and a few more"; 5].join("/");
@@ -85,7 +85,7 @@ fn paths_of_more_than_260_characters_are_read_and_written() {
     assert_eq!(place.run_with(&["emit", "--check", &drawing]).status, Some(0));
 }
 
-/// The console's code page is no matter of what is piped: UTF-8, which the names of drawings are.
+/// The console's code page does not affect piped output, which is UTF-8 like the names of drawings.
 #[cfg(windows)]
 #[test]
 fn what_is_piped_is_utf_8_whatever_the_code_page() {

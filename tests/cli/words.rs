@@ -1,11 +1,11 @@
-//! What readers stumbled over once, in both languages: a drawing or a command for each, and what it prints. (book: first/first-part)
+//! Wording that readers once stumbled over, in both languages: a drawing or a command for each, and its output. (book: first/first-part)
 
 use crate::support::{Place, runs};
 use insta::assert_snapshot;
 
 const START: &str = "start 0,0 \"T5 O2 I5 B0 F100 M20x2\"";
 
-/// A draughtsman's mistakes: what is drawn, and the whole answer.
+/// Typical mistakes: the drawing, and the complete output.
 #[test]
 fn mistakes_of_draughtsmen_are_named() {
     let mistakes = [
@@ -35,7 +35,7 @@ fn mistakes_of_draughtsmen_are_named() {
     assert_snapshot!(mistakes.map(said).join("\n"));
 }
 
-/// A cutter, a thickness or a material that is not that of the embedded path: each has advice of its own.
+/// A different cutter, thickness or material than that of the embedded path: each has its own advice.
 #[test]
 fn what_differs_from_an_embedded_path_has_its_own_advice() {
     let said = |parameters: &str| {
@@ -48,7 +48,7 @@ fn what_differs_from_an_embedded_path_has_its_own_advice() {
     assert_snapshot!(["T5 O3 M20x2", "T6.5 O2 M20x2", "T5 O2 MWood"].map(said).join("\n"));
 }
 
-/// A path that the library has, but that is not where the command looks.
+/// A path of the library that is not where the command searches.
 #[test]
 fn a_path_that_is_elsewhere_is_named_with_its_drawing() {
     let place = Place::of(&format!(
@@ -60,7 +60,7 @@ fn a_path_that_is_elsewhere_is_named_with_its_drawing() {
     assert_snapshot!(said.join("\n"));
 }
 
-/// A measured value that is missing, a probe without contact, nested brackets.
+/// A missing measured value, a probe without contact, nested brackets.
 #[test]
 fn words_of_other_commands() {
     let place = Place::of(&format!(

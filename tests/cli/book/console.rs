@@ -1,13 +1,13 @@
-//! Console blocks. A page's blocks run one after the other in one place: the copy of the folder of docs/drawings that has the
-//! page's name (its last part), else an empty directory. Remarks in the page, invisible to readers, say more:
+//! Console blocks. The blocks of a page run one after the other in one directory: a copy of the folder of docs/drawings that has the page's
+//! name (its last part), or else an empty directory. Comments in the page, which readers do not see, give instructions:
 //!
-//! - `<!-- place: FOLDER -->`: from here on in a new copy of this folder. `empty`, `example` (what `init --example` writes) and
-//!   `fixtures` (fixtures/library) and `recorded` (a drawing with the program that PathDxf2GCode made of it) are known too;
-//! - `<!-- put: DRAWING as FILE -->`: what somebody draws meanwhile: DRAWING is in text form, below docs/drawings;
-//! - `<!-- file: FILE -->`: the next block is written into this file.
+//! - `<!-- place: FOLDER -->`: switch to a new copy of this folder. `empty`, `example` (created by `init --example`),
+//!   `fixtures` (fixtures/library) and `recorded` (a drawing with the program that PathDxf2GCode made of it) also work;
+//! - `<!-- put: DRAWING as FILE -->`: add a drawing in text form from docs/drawings;
+//! - `<!-- file: FILE -->`: write the next block into this file.
 //!
-//! Besides `pathbuild` a block may say `cat FILE`, `head -n N FILE`, `mkdir DIRECTORY` and `cd DIRECTORY`. `...` on a line of its
-//! own stands for any lines.
+//! Besides `pathbuild`, a block may use `cat FILE`, `head -n N FILE`, `mkdir DIRECTORY` and `cd DIRECTORY`. `...` on a line of its own
+//! stands for any number of lines.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -15,7 +15,7 @@ use std::fs;
 use super::{Page, scratch};
 use crate::support::Place;
 
-/// The page with what its commands print now.
+/// The page with the current output of its commands.
 pub(super) fn replayed(page: &Page, text: &str) -> String {
     let mut session = Session { page, place: None, directory: String::new(), file: None };
     let mut now = String::new();
@@ -43,7 +43,7 @@ struct Session<'p> {
     page: &'p Page,
     place: Option<Place>,
     directory: String,
-    /// Where the next block is written.
+    /// The file that the next block is written to.
     file: Option<String>,
 }
 
@@ -80,7 +80,7 @@ impl Session<'_> {
         fs::write(file, content).unwrap();
     }
 
-    /// What a block says now.
+    /// The current output of a block.
     fn block(&mut self, language: &str, lines: &[&str]) -> String {
         let text = lines.join("\n");
         if let Some(file) = self.file.take() {
@@ -100,7 +100,7 @@ impl Session<'_> {
         now
     }
 
-    /// What a command prints.
+    /// The output of a command.
     fn typed(&mut self, line: &str) -> String {
         let page = self.page.file.display().to_string();
         let command = line.strip_prefix("$ ").unwrap_or_else(|| panic!("{page}: a block begins with {line}"));
@@ -136,7 +136,7 @@ impl Session<'_> {
     }
 }
 
-/// Cuts a block before each `$ `.
+/// Splits a block before each `$ `.
 fn commands(mut found: Vec<String>, line: &str) -> Vec<String> {
     match found.last_mut() {
         Some(last) if !line.starts_with("$ ") => last.push_str(line),
@@ -145,7 +145,7 @@ fn commands(mut found: Vec<String>, line: &str) -> Vec<String> {
     found
 }
 
-/// Whether what is shown, with `...` for any lines, is what is printed.
+/// Whether the shown output, with `...` for any lines, matches the printed output.
 fn stands_for(shown: &str, printed: &str) -> bool {
     let shown: Vec<&str> = shown.lines().collect();
     let parts: Vec<&[&str]> = shown.split(|line| *line == "...").collect();

@@ -1,11 +1,11 @@
-//! Each drawing of the books lies there twice: as text, which we write, and as DXF, which anyone can open.
+//! Each drawing of the books exists twice: as text, which we edit, and as DXF, which any CAD program can open.
 
 use std::path::PathBuf;
 
 use super::{assert_none, files_below, kept, scratch};
 use crate::support::project;
 
-/// Where drawings lie that are written as text.
+/// The folders of drawings in text form.
 fn folders() -> [PathBuf; 2] {
     [scratch::drawings(), project().join("crates/pathbuild/example")]
 }

@@ -1,5 +1,5 @@
-//! The last part of each page of `explain`: its example as a draughtsman reads it. Drawings are tables of their elements in which what is
-//! wrong is marked, then comes what pathbuild says. Made of PBnnn.draw beside the page.
+//! The last part of each page of `explain`: its example as a draughtsman reads it. Drawings are shown as tables of their elements with the
+//! faults marked, followed by pathbuild's output. Generated from PBnnn.draw next to the page.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -40,7 +40,7 @@ fn fault(of: Code, lang: Lang) -> Option<String> {
     kept(&file, format!("{written}{heading}{}", shown(of, example, lang)).as_bytes())
 }
 
-/// An example in words: its files, and what the commands say.
+/// An example in words: its files and the output of its commands.
 fn shown(of: Code, example: &str, lang: Lang) -> String {
     let fixture = Fixture::parse(example).unwrap_or_else(|errors| panic!("{of}: {errors:?}"));
     let place = Place::of(example);
@@ -66,7 +66,7 @@ fn shown(of: Code, example: &str, lang: Lang) -> String {
     format!("{files}{}{said}", if files.contains('«') { means } else { String::new() })
 }
 
-/// What a command says under a code, the same once.
+/// The output of a command under a code, without duplicates.
 fn said(of: Code, command: &str, findings: &[Value], lang: Lang) -> String {
     let own = findings.iter().filter(|finding| finding["code"] == of.to_string());
     let items = own.map(|finding| {
@@ -82,7 +82,7 @@ fn said(of: Code, command: &str, findings: &[Value], lang: Lang) -> String {
     if said.is_empty() { String::new() } else { head + &said.concat() }
 }
 
-/// Where a finding is, in a drawing or in a text.
+/// The place of a finding, in a drawing or in a text.
 fn place_of(finding: &Value, lang: Lang) -> String {
     let is_drawing = finding["file"].as_str().is_some_and(|file| file.ends_with(".dxf"));
     match (finding["x"].as_f64(), finding["y"].as_f64(), finding["line"].as_u64()) {
@@ -94,7 +94,7 @@ fn place_of(finding: &Value, lang: Lang) -> String {
     }
 }
 
-/// A drawing: what is unusual about it, and for each layer a table.
+/// A drawing: its unusual properties, and a table for each layer.
 fn drawing(name: &str, sheet: &Sheet, findings: &[&Value], lang: Lang) -> String {
     let own: Vec<&Value> = findings.iter().copied().filter(|finding| finding["file"] == name).collect();
     let mut text = String::new();
@@ -123,7 +123,7 @@ fn states(layer: &Layer, lang: Lang) -> String {
     states.flat_map(|state| [" (", state, ")"]).collect()
 }
 
-/// What differs from a usual file.
+/// The properties that differ from a usual file.
 fn unusual(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let options = sheet.options();
     let units =
@@ -134,7 +134,7 @@ fn unusual(sheet: &Sheet, lang: Lang) -> Vec<String> {
     units.into_iter().chain(header).chain(ends).collect()
 }
 
-/// The elements of a layer, a row each; a parameter text stands in its element's row.
+/// The elements of a layer, one per row; a parameter text is in the row of its element.
 fn table<'e>(entities: impl Iterator<Item = &'e Entity>, findings: &[&Value], lang: Lang) -> String {
     let head = [
         ("", ""),
@@ -156,7 +156,7 @@ fn table<'e>(entities: impl Iterator<Item = &'e Entity>, findings: &[&Value], la
     aligned(&rows)
 }
 
-/// An element with its parameter text, and what was found about both.
+/// An element with its parameter text and the findings about both.
 struct Row<'e, 'f> {
     entity: &'e Entity,
     text: Option<String>,
@@ -164,7 +164,7 @@ struct Row<'e, 'f> {
 }
 
 impl<'e, 'f> Row<'e, 'f> {
-    /// Parameter texts stand behind their elements, and come from the same line of the text form.
+    /// Parameter texts follow their elements and come from the same line of the text form.
     fn all(entities: impl Iterator<Item = &'e Entity>, findings: &[&'f Value]) -> Vec<Self> {
         let mut rows: Vec<Self> = Vec::new();
         for entity in entities {
@@ -186,7 +186,7 @@ fn is_about(finding: &Value, handle: Handle) -> bool {
     finding["handle"].as_str() == Some(&handle.to_string())
 }
 
-/// A text in which what the finding is about stands in « ».
+/// A text with the faulty part in « ».
 fn marked(text: &str, finding: &Value) -> String {
     let span = finding["span"].as_array().filter(|_| finding["text"].as_str() == Some(text));
     let Some(span) = span else { return text.to_owned() };
@@ -195,7 +195,7 @@ fn marked(text: &str, finding: &Value) -> String {
     format!("{}«{}»{}", part(0, start), part(start, end - start), part(end, usize::MAX))
 }
 
-/// What it is, from or at where, to where, and what is written.
+/// What it is, its start or position, its end, and its text.
 fn described(entity: &Entity, lang: Lang) -> (String, String, String, String) {
     let at = point;
     let name = |en: &str, de: &str| say(lang, en, de).to_owned();
@@ -231,7 +231,7 @@ fn circle_name(entity: &Entity, diameter: f64, lang: Lang) -> String {
     meaning.map_or(circle.clone(), |(_, en, de)| format!("{}: {circle}", say(lang, en, de)))
 }
 
-/// As messages write points, in both languages alike.
+/// A point as in messages, in the same form in both languages.
 fn point(point: Point) -> String {
     let parts = [point.x, point.y, point.z].map(number);
     format!("({})", if point.z == 0.0 { &parts[..2] } else { &parts }.join(", "))
@@ -245,7 +245,7 @@ fn decimal(value: f64, lang: Lang) -> String {
     if lang == Lang::De { number(value).replace('.', ",") } else { number(value) }
 }
 
-/// Rows as a Markdown table that can be read as it is.
+/// Rows as an aligned Markdown table, which is readable as plain text.
 fn aligned(rows: &[[String; 6]]) -> String {
     let used: Vec<usize> =
         (0..6).filter(|column| rows[1..].iter().any(|row| !row[*column].is_empty())).collect();
@@ -259,7 +259,7 @@ fn aligned(rows: &[[String; 6]]) -> String {
     format!("{}|{rule}|\n{}", line(&rows[0]), rows[1..].iter().map(line).collect::<String>())
 }
 
-/// An item of a list, in lines that fit.
+/// A list item, wrapped.
 fn wrapped(text: &str) -> String {
     let mut lines = vec!["-".to_owned()];
     for word in text.split_whitespace() {

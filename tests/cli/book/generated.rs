@@ -1,4 +1,4 @@
-//! Tables that come from the code, between `<!-- generated: NAME -->` and `<!-- end -->`.
+//! Tables generated from the code, between `<!-- generated: NAME -->` and `<!-- end -->`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -13,7 +13,7 @@ use super::{Page, code, pages};
 const BEGIN: &str = "<!-- generated: ";
 const END: &str = "<!-- end -->";
 
-/// A page with its tables made anew.
+/// A page with regenerated tables.
 pub(super) fn filled(page: &Page, text: &str) -> String {
     let mut now = String::new();
     let mut rest = text;
@@ -37,7 +37,7 @@ fn table(name: &str, lang: Lang) -> String {
     }
 }
 
-/// A table of the languages of post-processor definitions. The page has its head.
+/// A table about the languages of post-processor definitions. The page has its header.
 fn posts(name: &str, lang: Lang) -> String {
     let rows = pathbuild_post::reference_table(name, lang);
     let rows = rows.unwrap_or_else(|| panic!("no table is called {name}"));
@@ -67,7 +67,7 @@ const POST_HEADS: [(&str, &str, &str); 10] = [
     ("cambam-calls", "macro | takes", "Makro | nimmt"),
 ];
 
-/// The columns of the table of letters, as machinists look for them.
+/// The columns of the table of letters, in the order familiar to machinists.
 const COLUMNS: &str = "OTSIFBDPUWCNQAHMZL>:ER@";
 
 const ROWS: [ElementClass; 12] = [
@@ -113,7 +113,7 @@ fn mark(usage: Use) -> &'static str {
     }
 }
 
-/// Other names of the line types, by what they stand for.
+/// Alternative names of the line types, by line type.
 fn line_type_names() -> String {
     let mut table = String::from("| | |\n| --- | --- |\n");
     for (name, line_type) in LineType::NAMES {
@@ -198,7 +198,7 @@ fn first_sentence(page: &str) -> String {
     paragraph[..end].to_owned()
 }
 
-/// The keys as `init` writes them.
+/// The configuration keys as written by `init`.
 fn configuration() -> String {
     format!("```toml\n{}```", pathbuild_workspace::config::template())
 }
@@ -221,7 +221,7 @@ fn the_letters_of_the_book_are_those_of_the_code() {
     }
 }
 
-/// What the keys mean stands in the code in English; the German page has its own table.
+/// The descriptions of the keys in the code are in English; the German page has its own table.
 #[test]
 fn the_german_page_explains_every_key_of_the_configuration() {
     let template = pathbuild_workspace::config::template();

@@ -1,4 +1,4 @@
-//! The books as HTML, by mdBook, where it can be had: `PATHBUILD_MDBOOK` names the program.
+//! Builds the books as HTML with mdBook, if available: `PATHBUILD_MDBOOK` names the program.
 
 use std::process::Command;
 

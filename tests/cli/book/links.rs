@@ -1,4 +1,4 @@
-//! Pages, links and anchors: both books have the same pages, and every link leads somewhere.
+//! Pages, links and anchors: both books have the same pages, and every link is valid.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -35,7 +35,7 @@ pub(super) fn images(text: &str) -> Vec<&str> {
     images.filter_map(|rest| rest.split_once("](")?.1.split(')').next()).collect()
 }
 
-/// The file that a link of a page leads to, below the project's directory.
+/// The file that a link of a page refers to, relative to the project's directory.
 pub(super) fn target(page: &Page, link: &str) -> String {
     let folder = page.file.parent().unwrap().to_string_lossy().replace('\\', "/");
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
@@ -49,7 +49,7 @@ pub(super) fn target(page: &Page, link: &str) -> String {
     parts.join("/")
 }
 
-/// A heading as links name it: lower case, blanks as hyphens, other signs dropped.
+/// A heading as an anchor: lower case, spaces as hyphens, other characters dropped.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = kept.chars().filter(|sign| sign.is_alphanumeric() || matches!(sign, ' ' | '-' | '_'));
@@ -110,7 +110,7 @@ fn both_languages_name_the_same_codes_and_all_exist() {
     }
 }
 
-/// Both languages show the same pictures and drawings: links to files that are no pages.
+/// Both languages show the same pictures and drawings: links to files other than pages.
 #[test]
 fn both_languages_show_the_same() {
     for (english, german) in pages(Lang::En).iter().zip(pages(Lang::De)) {

@@ -1,6 +1,6 @@
-//! The books in docs/en and docs/de, and the README: what they show is made here again and compared. Commands are typed into a
-//! scratch copy of the book's drawings, pictures are drawn by `view`, tables come from the code, links are followed.
-//! `PATHBUILD_UPDATE=1` writes anew what differs. (CONTRIBUTING.md, "The books")
+//! The books in docs/en and docs/de, and the README: their output is reproduced and compared. Commands run in a copy of the book's
+//! drawings, pictures are drawn by `view`, tables are generated from the code, and links are checked. `PATHBUILD_UPDATE=1` rewrites
+//! everything that differs. (CONTRIBUTING.md, "The books")
 #![allow(clippy::case_sensitive_file_extension_comparisons, reason = "the files are ours")]
 
 mod citations;
@@ -24,9 +24,9 @@ use crate::support::project;
 
 /// A page of a book, or the README.
 struct Page {
-    /// Below the project's directory.
+    /// Path relative to the project's directory.
     file: PathBuf,
-    /// Below the book's `src`, without `.md`.
+    /// Path relative to the book's `src`, without `.md`.
     name: String,
     lang: Lang,
 }
@@ -41,7 +41,7 @@ impl Page {
     }
 }
 
-/// How a language is called in configurations and file names.
+/// The code of a language in configurations and file names.
 fn code(lang: Lang) -> &'static str {
     match lang {
         Lang::En => "en",
@@ -53,7 +53,7 @@ fn source(lang: Lang) -> PathBuf {
     PathBuf::from("docs").join(code(lang)).join("src")
 }
 
-/// The pages of a book, its summary included.
+/// The pages of a book, including its summary.
 fn pages(lang: Lang) -> Vec<Page> {
     let mut pages: Vec<Page> = files_below(&project().join(source(lang)))
         .into_iter()
@@ -71,7 +71,7 @@ fn all_pages() -> Vec<Page> {
     pages(Lang::En).into_iter().chain(pages(Lang::De)).chain([readme]).collect()
 }
 
-/// The names of the files below a directory, with `/`.
+/// The names of the files below a directory, with `/` as the separator.
 fn files_below(directory: &Path) -> BTreeSet<String> {
     let mut files = BTreeSet::new();
     for entry in fs::read_dir(directory).into_iter().flatten() {
@@ -86,7 +86,7 @@ fn files_below(directory: &Path) -> BTreeSet<String> {
     files
 }
 
-/// Compares a file with what it should hold, or writes it. Gives what is wrong.
+/// Compares a file with the expected content, or writes it. Returns the difference.
 fn kept(file: &Path, now: &[u8]) -> Option<String> {
     if fs::read(file).is_ok_and(|content| content == now) {
         return None;
@@ -104,7 +104,7 @@ fn assert_none(wrong: &[String]) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Tables first, then commands, so that both are of one writing.
+/// Tables first, then commands, so that both end up in a single write.
 #[test]
 fn pages_show_what_is_printed_and_what_the_code_says() {
     let wrong: Vec<String> = all_pages()

@@ -1,6 +1,6 @@
-//! Pictures: `pictures/FOLDER-PATH.svg` is what `view PATH` draws in the copy of the drawings of that folder; where a drawing has
-//! the name, `view NAME.dxf`. `pictures/sheet-FOLDER-PATH.svg` is what `sheet PATH` makes. `pictures/drawn-NAME.svg` is drawn by hand, for
-//! what `view` does not show.
+//! Pictures: `pictures/FOLDER-PATH.svg` is the output of `view PATH` in a copy of the folder's drawings, or of `view NAME.dxf` if a drawing
+//! has that name. `pictures/sheet-FOLDER-PATH.svg` is the output of `sheet PATH`. `pictures/drawn-NAME.svg` is drawn by hand and shows what
+//! `view` cannot.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Where a page's commands run: a directory with a copy of the page's drawings.
+//! Directories for the commands of a page, with a copy of its drawings.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ use pathbuild_testkit::sheet;
 use super::{code, files_below};
 use crate::support::{Place, project};
 
-/// The book's drawings: a folder a page that shows some.
+/// The book's drawings: a folder for each page that shows some.
 pub(super) fn drawings() -> PathBuf {
     project().join("docs/drawings")
 }
 
-/// A copy of what a folder's name stands for; messages speak the language of the page.
+/// A copy of the named folder; messages are in the language of the page.
 pub(super) fn place(name: &str, lang: Lang) -> Place {
     let place = Place::new().users(&format!("lang = \"{}\"\n", code(lang)));
     match name {

@@ -1,4 +1,4 @@
-//! One run of the program over a recorded case, and how its outcome differs from what is expected.
+//! Runs the program on a recorded case and compares the outcome with the expected one.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,7 +13,7 @@ use super::reduced::{is_same_line, of_default, reduced};
 use super::travelled::statistics_difference;
 use crate::support::program;
 
-/// What differs; nothing where the run is equal.
+/// The differences; empty if the run is equal.
 pub(crate) fn differences(run: &Run) -> Vec<String> {
     match &run.what {
         What::Compile(arguments) => compile_differences(run, arguments),
@@ -53,7 +53,7 @@ fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
     differences
 }
 
-/// The corrected program is compared byte for byte, line ends aside.
+/// The corrected program is compared byte for byte, except for line ends.
 fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
     let expected = run.case.join("expected");
     let place = copy_of(&run.case);
@@ -81,7 +81,7 @@ fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
     differences
 }
 
-/// The drawings of a case in a directory of their own.
+/// A copy of a case's drawings in a directory of their own.
 fn copy_of(case: &Path) -> TempDir {
     let place = TempDir::new().unwrap();
     for name in files_below(case) {
@@ -106,7 +106,7 @@ fn odd_end(output: &Output) -> Option<String> {
     (is_panic || is_odd).then(|| format!("a panic, or an odd end: {}", output.status))
 }
 
-/// The reference mixes what pathbuild tells apart as 1 and 2.
+/// The reference does not distinguish what pathbuild separates as 1 and 2.
 fn exit_difference(output: &Output, fails: bool) -> Option<String> {
     let expected = if fails { "failure" } else { "success" };
     (output.status.success() == fails).then(|| format!("{}, expected {expected}", output.status))
@@ -124,7 +124,7 @@ fn code_difference(output: &Output, expected: &str) -> Option<String> {
     (!is_same).then(|| format!("codes {found:?}, expected {expected:?}"))
 }
 
-/// The code of an error, of a line of JSON.
+/// The code of an error in a line of JSON.
 fn error_code(line: &str) -> Option<String> {
     let diagnostic: serde_json::Value = serde_json::from_str(line).unwrap();
     (diagnostic["severity"] == "error").then(|| diagnostic["code"].as_str().unwrap().to_owned())

@@ -1,5 +1,5 @@
-//! Recorded runs of `PathDxf2GCode` and `PathGCodeAdjustZ`, compared move for move: what pathbuild must do with the same drawings.
-//! fixtures/conformance/README.md says what is recorded and what counts as equal.
+//! Recorded runs of `PathDxf2GCode` and `PathGCodeAdjustZ`, compared move by move: pathbuild must do the same with the same drawings.
+//! fixtures/conformance/README.md describes the recordings and what counts as equal.
 
 mod compare;
 pub(crate) mod recorded;
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use self::recorded::{Form, Run};
 use crate::support;
 
-/// Runs that are known to differ, with the reason. A run that is equal must not stand here.
+/// Runs with known differences, and the reasons. A run without differences must not be listed.
 const DIFFERENT: [(&str, &str); 2] = [
     ("reference-drawings/3", "PB202 beside PB101, PB102 and PB105: a milling segment has a T"),
     ("reference-drawings/35", "PB201 beside PB202: B is missing as well, on other segments"),
@@ -36,7 +36,7 @@ fn recorded_runs_are_equal() {
     say("recorded, of a single path", &chosen.map(|(_, differences)| differences).collect::<Vec<_>>());
 }
 
-/// The reference's own test drawings are not ours to keep: they are read where they lie.
+/// The reference's own test drawings are not ours to publish; they are read where they are.
 #[test]
 fn foreign_runs_are_equal() {
     let Some(foreign) = support::shared("conformance/foreign") else { return };
@@ -45,7 +45,7 @@ fn foreign_runs_are_equal() {
     compare_all("foreign", &runs);
 }
 
-/// The differences of each run. Fails where there is one that is not known.
+/// The differences of each run. Fails if any is unknown.
 fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
     let mut differences: Vec<Vec<String>> = runs.par_iter().map(compare::differences).collect();
     if cfg!(windows) {
@@ -58,8 +58,8 @@ fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
     differences
 }
 
-/// Of some hundred processes Wine loses one, more where the machine is busy: it is not started, or its end is not its own
-/// (tests/tools/windows.sh). So a few runs that differ are compared again, one by one, and named.
+/// Wine loses one of several hundred processes, and more on a busy machine: it does not start, or its exit status is lost
+/// (tests/tools/windows.sh). Therefore, if only a few runs differ, they are compared again one by one and listed.
 #[allow(clippy::explicit_write, reason = "likewise eprintln!")]
 fn compare_again(runs: &[Run], differences: &mut [Vec<String>]) {
     let different: Vec<usize> = (0..runs.len()).filter(|&index| !differences[index].is_empty()).collect();
@@ -73,14 +73,14 @@ fn compare_again(runs: &[Run], differences: &mut [Vec<String>]) {
     }
 }
 
-/// Says how many runs are equal. Not with println!, which the test harness keeps to itself where all is well.
+/// Reports how many runs are equal. Bypasses println!, which the test harness hides for passing tests.
 #[allow(clippy::explicit_write, reason = "likewise eprintln!")]
 fn say(what: &str, differences: &[&Vec<String>]) {
     let equal = differences.iter().filter(|differences| differences.is_empty()).count();
     writeln!(std::io::stderr(), "{what}: {equal} of {} runs equal", differences.len()).unwrap();
 }
 
-/// What is wrong with the outcome of a run: it differs, or is equal though it is listed as different.
+/// The problem with the outcome of a run: it differs unexpectedly, or is equal although listed as different.
 fn fault(run: &Run, differences: &[String]) -> Option<String> {
     let known = DIFFERENT.iter().find(|(name, _)| *name == run.name());
     match (known, differences) {

@@ -1,4 +1,4 @@
-//! The recorded cases, and their command lines as pathbuild's.
+//! The recorded cases, and their command lines translated for pathbuild.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,29 +9,29 @@ use serde::Deserialize;
 
 /// A recorded run.
 pub(crate) struct Run {
-    /// The folder of the case: the drawings, `case.json` and what is expected.
+    /// The folder of the case, with its drawings, `case.json` and the expected files.
     pub(crate) case: PathBuf,
-    /// Its number in the case.
+    /// Its number within the case.
     pub(crate) number: usize,
-    /// What is to be done.
+    /// The action.
     pub(crate) what: What,
-    /// Whose results are expected.
+    /// Which results are expected.
     pub(crate) form: Form,
-    /// Why what is expected is not what was recorded.
+    /// Why the expected result differs from the recorded one.
     by_specification: Option<String>,
 }
 
-/// Whose results a run is held against.
+/// The kinds of expected results.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// Those of the original tool: `--compatible`.
+    /// The results of the original tool: `--compatible`.
     Recorded,
-    /// Those of the specification, without that option.
+    /// The results by the specification, without that option.
     Default,
 }
 
 impl Form {
-    /// Where a case's results of this form are.
+    /// The folder of a case's expected results.
     pub(crate) fn folder(self) -> &'static str {
         match self {
             Self::Recorded => "expected",
@@ -40,7 +40,7 @@ impl Form {
     }
 }
 
-/// What a run does.
+/// The action of a run.
 pub(crate) enum What {
     /// Arguments of `check` or `emit`.
     Compile(Vec<String>),
@@ -56,7 +56,7 @@ struct CaseFile {
 }
 
 impl Run {
-    /// The case and the run's number in it.
+    /// The name of the case and the number of the run.
     pub(crate) fn name(&self) -> String {
         format!("{}/{}", self.case.file_name().unwrap().to_str().unwrap(), self.number)
     }
@@ -79,7 +79,7 @@ impl fmt::Display for Run {
     }
 }
 
-/// The runs of some folders of cases that have a counterpart, by case and number.
+/// The translatable runs in some folders of cases, by case and number.
 pub(crate) fn runs(folders: &[PathBuf]) -> Vec<Run> {
     folders.iter().flat_map(|folder| runs_in(folder)).collect()
 }
@@ -111,7 +111,7 @@ fn runs_of(case: &Path) -> Vec<Run> {
     adjusts.into_iter().chain(compiles).collect()
 }
 
-/// A recorded command line as pathbuild's; `None` where it has no counterpart: help, `/x`, `/k`.
+/// Translates a recorded command line; `None` if it has no counterpart: help, `/x`, `/k`.
 fn translate(recorded: &[String]) -> Option<Vec<String>> {
     let (mut command, mut options, mut files) = ("emit", Vec::new(), Vec::new());
     let mut rest = recorded.iter().map(String::as_str);
@@ -125,7 +125,7 @@ fn translate(recorded: &[String]) -> Option<Vec<String>> {
             ("c", _) => command = "check",
             ("h" | "?", _) | (_, Some('x' | 'k')) => return None,
             _ => match letter.and_then(option_name) {
-                // A value is glued to its option or stands behind it.
+                // A value follows its option, with or without a space.
                 Some(name) => {
                     let value = if option.len() > 1 { &option[1..] } else { rest.next().unwrap_or_default() };
                     options.push(format!("{name}={value}"));

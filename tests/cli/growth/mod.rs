@@ -1,4 +1,4 @@
-//! Work grows with the input: four times as much takes at most six times as long, and a little more. (docs/reliability.md)
+//! The work grows linearly with the input: four times as much takes at most six times as long, plus a little. (docs/reliability.md)
 
 pub mod drawings;
 
@@ -34,7 +34,7 @@ fn work_grows_with_what_is_drawn() {
     }
 }
 
-/// The same where something is wrong with each thing; what is said grows with it as well.
+/// With a problem in each thing, so that the output grows as well.
 #[test]
 fn work_grows_with_what_is_wrong() {
     for (name, drawing, count) in [
@@ -54,7 +54,7 @@ fn work_grows_with_what_is_wrong() {
     }
 }
 
-/// The same with programs: tools and feeds are noted once each.
+/// For programs: tools and feeds are recorded once each.
 #[test]
 fn work_grows_with_what_a_program_uses() {
     let tool = |number: usize| format!("T{0} M6\nG0 X{0}\nG1 Z9 F100\nG0 Z10\n", number + 1);
@@ -71,7 +71,7 @@ fn work_grows_with_what_a_program_uses() {
     }
 }
 
-/// The same with probes: each move asks for those that are near.
+/// For probes: each move searches its neighbourhood.
 #[test]
 fn work_grows_with_the_probes() {
     for model in ["idw4", "tin"] {
@@ -82,7 +82,7 @@ fn work_grows_with_the_probes() {
     }
 }
 
-/// The same through a post: what was written is read back and held against the program.
+/// Through a post: the output is read back and compared with the program.
 #[test]
 fn work_grows_with_what_a_post_writes() {
     let way = |index: usize| format!("G0 X{} Y{}\nG0 Z1\n", index % 1000, index / 1000);
@@ -108,7 +108,7 @@ fn work_grows_with_what_a_post_writes() {
     }
 }
 
-/// The same with the definition: macros, elements and mistakes. At most 100 mistakes are told.
+/// For definitions: macros, elements and mistakes. At most 100 mistakes are reported.
 #[test]
 fn work_grows_with_what_a_definition_holds() {
     type Definition<'d> = &'d dyn Fn(usize) -> String;
@@ -149,7 +149,7 @@ fn work_grows_with_what_a_definition_holds() {
     }
 }
 
-/// The lines of a chain stand no further to the right than somebody sees.
+/// The indentation of a chain is limited.
 #[test]
 fn what_is_said_grows_with_how_deep_paths_are_embedded() {
     let size = |count: usize| {
@@ -174,10 +174,10 @@ fn drawn(settings: &str, drawing: &str) -> Place {
     Place::new().file("pathbuild.toml", format!("{CONFIGURATION}{settings}")).file("1202.1P.dxf", drawing)
 }
 
-/// A run with so much and one with four times as much; the latter must not take too long for that.
+/// A run with one amount and one with four times as much, which must not take too long in comparison.
 #[track_caller]
 fn of_one_and_four(name: &str, count: usize, place: impl Fn(usize) -> Place, arguments: &str) -> [Run; 2] {
-    // The better of two: what else goes on makes a processor slower.
+    // The better of two runs, since other processes slow the machine down.
     let better = |count: usize| {
         let [one, other] = [(); 2].map(|()| place(count).run_timed(arguments));
         if one.1 < other.1 { one } else { other }

@@ -1,7 +1,7 @@
-//! Random chains: lines, arcs of any pair of angles, polylines with arcs, some in blocks that are inserted turned, mirrored and scaled. Each is
-//! milled as long as it was drawn, and comes out of every post with the moves of the native program. (book: language/chains-and-passes)
+//! Random chains: lines, arcs with any pair of angles, and polylines with arcs, some in blocks that are inserted rotated, mirrored and
+//! scaled. Each is milled at its drawn length, and every post gives the moves of the native program. (book: language/chains-and-passes)
 //!
-//! `PATHBUILD_CHAINS=1000` makes so many.
+//! `PATHBUILD_CHAINS=1000` sets the number of chains.
 
 use std::fmt::Write;
 
@@ -24,10 +24,10 @@ use crate::support::Place;
 const PARAMETERS: &str = "T5 O2 S9 I1 B2 MPlate";
 const PASSES: f64 = 3.0;
 
-/// So many chains are made where nobody says another number.
+/// Default number of chains.
 const CHAINS: usize = 60;
 
-/// A drawing holds so many.
+/// Number of chains in a drawing.
 const IN_DRAWING: usize = 20;
 
 #[test]
@@ -40,7 +40,7 @@ fn random_chains_are_milled_as_drawn_by_every_post() {
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), shown(&faults));
 }
 
-/// What is wrong with the chains of one drawing.
+/// The faults of the chains in a drawing.
 fn of_drawing(number: usize) -> Vec<String> {
     let chains: Vec<Chain> =
         (0..IN_DRAWING).map(|index| Chain::random((number * IN_DRAWING + index) as u64)).collect();
@@ -102,17 +102,17 @@ fn milled(program: &Program) -> f64 {
     program.steps.iter().map(length).sum()
 }
 
-/// A chain from 0,0, as statements of the test kit.
+/// A chain from (0, 0), as statements of the test kit.
 struct Chain {
     lines: Vec<String>,
     end: [f64; 2],
-    /// mm.
+    /// Length in mm.
     length: f64,
-    /// Its elements stand in a block.
+    /// The insertion, if its elements are in a block.
     insertion: Option<Insertion>,
 }
 
-/// Where a block is inserted so that its 0,0 is that of the drawing.
+/// The insertion of a block such that its origin coincides with that of the drawing.
 struct Insertion {
     scale: [f64; 2],
     degrees: f64,
@@ -143,7 +143,7 @@ impl Chain {
         self.end = to;
     }
 
-    /// Any angles, up to a whole turn.
+    /// An arc with random angles, up to a full turn.
     fn arc(&mut self, dice: &mut Dice) {
         let radius = dice.between(1.0, 25.0);
         let from = dice.between(0.0, 360.0);
@@ -164,7 +164,7 @@ impl Chain {
         }
     }
 
-    /// Two pieces, one of them an arc.
+    /// Two segments, one of which is an arc.
     fn polyline(&mut self, dice: &mut Dice) {
         let [x, y] = self.end;
         let chord = [dice.between(2.0, 20.0), dice.between(-20.0, 20.0)];

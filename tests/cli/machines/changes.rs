@@ -1,8 +1,8 @@
-//! `verify --against` finds every dangerous change of a program, and nothing in one that nobody changed. (book: program/reading)
+//! `verify --against` finds every dangerous change of a program, and nothing in an unchanged one. (book: program/reading)
 //!
-//! Programs of all cases are written by every post, then changed: words are put in before the first move and between moves, numbers are
-//! changed by 0.1 and more, lines are removed and swapped. A change is dangerous if the tool cuts elsewhere, deeper, faster, at another
-//! spindle speed, or goes anywhere else below S.
+//! The programs of all cases are written by every post and then changed: words are inserted before the first move and between moves,
+//! numbers are changed by 0.1 and more, lines are removed and swapped. A change is dangerous if the tool cuts elsewhere, deeper, faster or
+//! at another spindle speed, or makes a different move below S.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use super::programs::{Named, programs};
 use super::{say, shown, texts};
 
-/// A program as it was written.
+/// A program as written.
 struct Written {
     name: String,
     dialect: Dialect,
@@ -34,7 +34,7 @@ struct Written {
 
 const SPEED: f64 = 12_000.0;
 
-/// So many changes are tried of each program of each post; `PATHBUILD_CHANGES` tries more.
+/// Number of changes per program and post; `PATHBUILD_CHANGES` sets a higher one.
 const CHANGES: usize = 4;
 
 fn changes() -> usize {
@@ -42,7 +42,7 @@ fn changes() -> usize {
     count.unwrap_or(CHANGES)
 }
 
-/// Numbers are changed by these.
+/// Offsets by which numbers are changed.
 const STEPS: [f64; 8] = [0.1, 0.25, 1.0, 7.5, -0.1, -0.3, -2.0, -12.0];
 
 #[test]
@@ -64,7 +64,7 @@ fn no_dangerous_change_passes_and_no_program_has_a_finding() {
     assert!(tried.values().all(|count| *count >= 300), "{tried:?}");
 }
 
-/// How many dangerous changes were tried, and what is wrong.
+/// The number of dangerous changes, and the failures.
 fn of_program(post: &str, language: Language, it: &Named, seed: usize) -> (usize, Vec<String>) {
     let written = match written(post, language, it) {
         Ok(written) => written,
@@ -123,10 +123,10 @@ fn entry(diameter: f64) -> ToolEntry {
     }
 }
 
-/// Everything that `verify --against` says.
+/// All findings of `verify --against`.
 fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
-    // As the command does: a doubt about what the drawing's program does not say is an error.
+    // As in the command, a doubt about something that the drawing's program does not contain is an error.
     let mut found = Vec::new();
     let stock = Stock::uniform(program.thickness, program.tool);
     let mut rules = Rules::new(&Checks { stock: Some(&stock), machine: None });
@@ -171,7 +171,7 @@ fn words_of(dialect: Dialect) -> PostWords {
 /// A cut with the spindle's state, or a rapid move below S.
 type Effect = (Move, Option<Spindle>);
 
-/// What matters of a program: each cut with the spindle's state, and rapid moves that go below S.
+/// The relevant parts of a program: each cut with the spindle's state, and rapid moves below S.
 fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut spindle = Spindle { turning: Turning::Unstated, speed: 0.0 };
@@ -179,7 +179,7 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let mut effects = Vec::new();
     let mut has_length = false;
     for Step { action, .. } in interpret(text.as_bytes(), dialect, &options).steps {
-        // A length counts from the next move on: of several before it the last.
+        // A tool length takes effect with the next move; of several before it, the last one counts.
         if matches!(&action, Action::Move(it) if !it.is_nothing()) && std::mem::take(&mut has_length) {
             effects.push((nothing(), None));
         }
@@ -191,7 +191,7 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
             Action::Move(it) if it.to.z() < low || it.from.z() < low => effects.push((it, None)),
             Action::Change(Change::Corners(Corners::Exact) | Change::RapidFeed(_)) => {}
             Action::Change(Change::Corners(Corners::Rounded(Some(most)))) if most <= 0.01 => {}
-            // The tool's length, offsets and the like change the machine's coordinates, not the program's.
+            // Tool length, offsets and the like change the machine's coordinates, not the program's.
             Action::Change(Change::Corners(Corners::Rounded(None))) => effects.push((nothing(), None)),
             Action::Change(_) | Action::System(_) => effects.push((nothing(), Some(spindle))),
             _ => {}
@@ -200,7 +200,7 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     effects
 }
 
-/// Whether the tool does the same but for what rounding does: moves shorter than that, and ends that differ by less.
+/// Whether the effects are equal up to rounding: very short moves are ignored, and ends may differ slightly.
 fn is_alike(one: &[Effect], other: &[Effect]) -> bool {
     let counting = |all: &[Effect]| -> Vec<Effect> {
         all.iter().filter(|(it, _)| it.length() == 0.0 || it.length() > ROUNDING).copied().collect()
@@ -216,7 +216,7 @@ fn is_alike(one: &[Effect], other: &[Effect]) -> bool {
     one.len() == other.len() && one.iter().zip(&other).all(is_same)
 }
 
-/// mm: several units of the last digit.
+/// Tolerance in mm: several units of the last digit.
 const ROUNDING: f64 = 0.006;
 
 fn nothing() -> Move {
@@ -230,7 +230,7 @@ fn nothing() -> Move {
     }
 }
 
-/// Words that are dangerous wherever they stand before the last cut.
+/// Words that are dangerous anywhere before the last cut.
 pub(super) const ANYWHERE: &[&str] = &[
     "G10 L2 P1 Z-5",
     "G92 Z3",
@@ -305,8 +305,8 @@ fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
             format!("`{was}` became `{}`", lines[at])
         }
         4 => {
-            // Behind the last cut the tool is only lifted further. Of a helix that a control takes as chords, one chord less is within
-            // what chords may leave their arc.
+            // After the last cut the tool is only retracted further. For a helix written as chords, removing one chord is within the
+            // tolerance.
             let at = dice.below(last + 1);
             if is_cut(&lines[at]) && !written.dialect.rules().arcs.helix {
                 return None;
@@ -322,7 +322,7 @@ fn change(written: &Written, dice: &mut Dice) -> Option<(String, String)> {
     Some((what, lines.join("\n") + "\n"))
 }
 
-/// Where words begin and end, outside of comments.
+/// The byte ranges of words outside of comments.
 pub(super) fn words(line: &str) -> Vec<(usize, usize)> {
     let bytes = line.as_bytes();
     let (mut found, mut at) = (Vec::new(), 0);
@@ -346,7 +346,7 @@ pub(super) fn words(line: &str) -> Vec<(usize, usize)> {
     found
 }
 
-/// A generator of numbers that are the same in every run. (Knuth's MMIX)
+/// A deterministic pseudo-random number generator. (Knuth's MMIX)
 pub(super) struct Dice(u64);
 
 impl Dice {
@@ -374,7 +374,7 @@ fn programs_that_name_their_dialect_are_read_in_it() {
     }
 }
 
-/// Changes of one text of a program, by post: those that must be found, and their neighbours that must not.
+/// Changes to one text of a program, by post: dangerous ones, which must be found, and harmless neighbours, which must not.
 const TEXTS: &[(&str, &str, &str, bool)] = &[
     ("linuxcnc", " G54", "", true),
     ("mach3", " G54", "", true),
@@ -452,7 +452,7 @@ fn words_are_known_just_inside_and_not_just_outside() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A lone carriage return hides what follows from us, and not from every control.
+/// A lone carriage return hides the rest of a line from us, but not from every controller.
 #[test]
 fn a_carriage_return_within_a_line_is_found_in_every_dialect() {
     let is_found = |text: &str, dialect| {

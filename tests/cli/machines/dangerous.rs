@@ -1,13 +1,12 @@
-//! Random dangerous changes to programs of the example library: `verify --against`, run as users run it, reports each. (book:
-//! program/reading)
+//! Random dangerous changes to programs of the example library: `verify --against`, run as by users, reports each. (book: program/reading)
 //!
-//! Programs come out of `emit` natively and through every built-in post. Bytes, words, lines and comments of them are changed at random.
-//! Whether a change is dangerous is judged by readers that are not ours where there are some: LinuxCNC's interpreter for linuxcnc, mach3,
-//! fanuc and haas, the same behind GRBL's way to read lines for grbl and the native program. The other dialects are read by our
-//! interpreter. A change is dangerous if a cut goes elsewhere or deeper, under another offset, tool, length or spindle state, or if a
-//! rapid move below S0 goes elsewhere. Where the reader refuses the program, nothing is cut, so that it is not counted.
+//! Programs are emitted natively and through every built-in post. Bytes, words, lines and comments are changed at random. Whether a change
+//! is dangerous is decided by independent readers if available: LinuxCNC's interpreter for linuxcnc, mach3, fanuc and haas, and the same
+//! with GRBL's line parsing for grbl and the native program. Other dialects are read by our own interpreter. A change is dangerous if a cut
+//! goes elsewhere or deeper, or is made under another offset, tool, length or spindle state, or if a rapid move below S0 goes elsewhere. If
+//! the reader rejects the program, nothing is cut, so the change does not count.
 //!
-//! `PATHBUILD_DANGEROUS=10000` tries so many changes, and `PATHBUILD_DANGEROUS_SEED` begins elsewhere; what passes is listed by dialect.
+//! `PATHBUILD_DANGEROUS=10000` sets the number of changes, `PATHBUILD_DANGEROUS_SEED` the seed; undetected changes are listed by dialect.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -25,34 +24,34 @@ use super::independent::oracle;
 use super::say;
 use crate::support::{self, Place};
 
-/// So many changes are tried where nobody says another number.
+/// Default number of changes.
 const CHANGES: usize = 600;
 
-/// So many programs are verified by one process.
+/// Number of programs verified by one process.
 const AT_ONCE: usize = 100;
 
-/// Of the changes that are reported, one of so many is judged.
+/// One reported change in this many is judged.
 const SAMPLED: usize = 10;
 
-/// mm: more than the tolerance of any dialect that is written with arcs.
+/// Distance in mm: more than the tolerance of any dialect that is written with arcs.
 const ELSEWHERE: f64 = 0.01;
 
-/// Where chords stand for helices they may leave them by so many mm.
+/// Tolerance in mm of chords that replace a helix.
 const CHORDS: f64 = 0.1;
 
-/// Paths of the library that show lines, arcs, bars, helices, holes, sweeps and subpaths between them, and are short.
+/// Short paths of the library with lines, arcs, bars, helices, holes, sweeps and subpaths.
 const PATHS: [&str; 6] = ["2050.1P", "2052.1P", "2056.1P", "2058.1P", "2062.1P", "2066.1P"];
 
-/// The one with probes, whose native program is adjusted.
+/// A path with probes, whose native program is adjusted.
 const PROBED: &str = "8003.1P";
 
 const TOOLS: &str = "\n[tool.2mm]\ndiameter = 2\nnumber = 1\nspindle = 12000\n\
                      [tool.3mm]\ndiameter = 3\nnumber = 2\nspindle = 9400\n";
 
-/// A program as it was written.
+/// A program as written.
 struct Good {
     post: &'static str,
-    /// What it is verified against.
+    /// The path that it is verified against.
     path: String,
     file: String,
     text: Vec<u8>,
@@ -65,7 +64,7 @@ struct Changed {
     text: Vec<u8>,
 }
 
-/// LinuxCNC's interpreter with tools that have lengths, so that it tells G43 from G49.
+/// LinuxCNC's interpreter with tools of different lengths, so that it distinguishes G43 and G49.
 struct Rs274 {
     program: PathBuf,
     tools: NamedTempFile,
@@ -115,7 +114,7 @@ fn no_dangerous_change_passes_and_no_good_program_has_a_finding() {
     let programs: Vec<(usize, Vec<u8>)> = changes.iter().map(|it| (it.good, it.text.clone())).collect();
     let reported = verify(&place, &goods, &programs, false);
 
-    // Readers take longer than `verify`: they are asked for what it does not report, and for a part of the rest.
+    // Readers take longer than `verify`, so they only judge unreported changes and a sample of the others.
     let before: Vec<Vec<Effect>> = goods.par_iter().map(|good| reader.effects_of(good)).collect();
     let is_judged = |index: &usize| !reported.contains(index) || index.is_multiple_of(SAMPLED);
     let judged: Vec<(usize, bool)> = (0..changes.len())
@@ -145,7 +144,7 @@ fn no_dangerous_change_passes_and_no_good_program_has_a_finding() {
     assert!(10 * dangerous >= sampled.len(), "nearly nothing that was tried is dangerous");
 }
 
-/// The example library with tools that have numbers and speeds.
+/// The example library with numbered tools and spindle speeds.
 fn library() -> Place {
     let place = Place::new();
     copy(&support::project().join("fixtures/library"), place.path());
@@ -219,7 +218,7 @@ fn good(place: &Place, post: &'static str, path: &str, file: &str) -> Good {
     Good { post, path: path.to_owned(), file: file.to_owned(), text }
 }
 
-/// The programs, by their index, in which `verify --against` finds an error, or anything at all.
+/// The indices of the programs in which `verify --against` finds an error, or anything at all.
 fn verify(place: &Place, goods: &[Good], programs: &[(usize, Vec<u8>)], is_strict: bool) -> BTreeSet<usize> {
     let mut jobs: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
     for (index, (good, text)) in programs.iter().enumerate() {
@@ -250,7 +249,7 @@ fn verify(place: &Place, goods: &[Good], programs: &[(usize, Vec<u8>)], is_stric
     reported.collect()
 }
 
-/// Changes of a program, each once.
+/// Changes of a program, without duplicates.
 fn changes_of(good: &Good, index: usize, seed: usize, count: usize) -> Vec<Changed> {
     let mut dice = Dice::new((seed * 1_000_003 + index) as u64);
     let (mut found, mut tries, mut known) = (Vec::new(), 0, BTreeSet::from([good.text.clone()]));
@@ -264,7 +263,7 @@ fn changes_of(good: &Good, index: usize, seed: usize, count: usize) -> Vec<Chang
     found
 }
 
-/// A cut with what is set while it is made, or a rapid move below S0.
+/// A cut with the state of the machine, or a rapid move below S0.
 #[derive(Clone, Debug)]
 struct Effect {
     kind: u8,
@@ -284,8 +283,7 @@ fn is_alike(before: &[Effect], after: &[Effect], dialect: Dialect) -> bool {
         })
 }
 
-/// Without the ends of chords that lie on the way between their neighbours, as near as chords stay to their arc: one chord less makes no
-/// difference there.
+/// Removes the ends of chords that lie between their neighbours, within the tolerance of chords: one chord less makes no difference there.
 fn without_chord_ends(effects: &[Effect]) -> Vec<Effect> {
     let mut kept: Vec<Effect> = Vec::new();
     for (index, effect) in effects.iter().enumerate() {
@@ -304,7 +302,7 @@ fn without_chord_ends(effects: &[Effect]) -> Vec<Effect> {
     kept
 }
 
-/// How far the end of an effect is from the line between the ends of two others.
+/// The distance of an effect's end from the line between two others.
 fn distance(effect: &Effect, from: &Effect, to: &Effect) -> f64 {
     let part = |a: &Effect, axis: usize| a.numbers[axis] - from.numbers[axis];
     let dot = |a: &Effect, b: &Effect| (0..3).map(|axis| part(a, axis) * part(b, axis)).sum::<f64>();
@@ -313,7 +311,7 @@ fn distance(effect: &Effect, from: &Effect, to: &Effect) -> f64 {
     (0..3).map(|axis| (part(effect, axis) - share * part(to, axis)).powi(2)).sum::<f64>().sqrt()
 }
 
-/// What a program does to the material, read by whom its dialect has; `None` where that reader refuses it.
+/// The effects of a program, read by the reader for its dialect; `None` if the reader rejects it.
 fn read(reader: &Rs274, dialect: Dialect, text: &[u8]) -> Option<Vec<Effect>> {
     let text = match dialect {
         Dialect::Native | Dialect::Grbl => lines_of_grbl(text),
@@ -326,8 +324,8 @@ fn read(reader: &Rs274, dialect: Dialect, text: &[u8]) -> Option<Vec<Effect>> {
     effects_of(&oracle::output(&reader.program, reader.tools.path(), &text)?)
 }
 
-/// What GRBL makes of the bytes it receives before it looks at words: a line ends at CR as at LF, a comment in brackets at the first `)`, one
-/// behind `;` at the line's end; blanks, `/` and real-time characters are dropped, and small letters are capitals.
+/// GRBL's preprocessing of received bytes: lines end at CR or LF, a comment in brackets at the first `)`, one after `;` at the end of the
+/// line; spaces, `/` and real-time characters are dropped, and letters are converted to upper case.
 fn lines_of_grbl(text: &[u8]) -> Vec<u8> {
     let (mut lines, mut comment) = (Vec::with_capacity(text.len()), 0_u8);
     for &byte in text {
@@ -346,7 +344,7 @@ fn lines_of_grbl(text: &[u8]) -> Vec<u8> {
     lines
 }
 
-/// Calls that set something which holds for cuts. Overrides and coolant do not count.
+/// Calls for settings that affect cuts. Overrides and coolant do not count.
 const SETTINGS: [&str; 12] = [
     "SET_G5X_OFFSET",
     "SET_G92_OFFSET",
@@ -386,7 +384,7 @@ fn effects_of(output: &str) -> Option<Vec<Effect>> {
             {
                 settings.remove(name);
             }
-            // A program that states nothing has exact corners.
+            // A program without a setting has exact corners.
             "SET_MOTION_CONTROL_MODE" if is_exact(arguments) => {
                 settings.remove(name);
             }
@@ -425,21 +423,21 @@ fn effects_of(output: &str) -> Option<Vec<Effect>> {
     Some(effects)
 }
 
-/// Whether corners are exact, or rounded by no more mm than our posts allow.
+/// Whether corners are exact, or rounded by no more mm than our posts permit.
 fn is_exact(arguments: &str) -> bool {
     let last = arguments.trim_end_matches(')').rsplit(' ').next().unwrap_or_default();
     let is_near = last.parse::<f64>().is_ok_and(|tolerance| tolerance > 0.0 && tolerance <= 0.01);
     arguments.starts_with("CANON_EXACT") || is_near
 }
 
-/// mm: below every S0 of the library, where rapid moves meet material or come near it.
+/// Height in mm: below every S0 of the library, where rapid moves may hit material.
 const LOW: f64 = 10.0;
 
 fn is_still(from: &[f64; 3], to: &[f64; 3]) -> bool {
     from.iter().zip(to).all(|(a, b)| (a - b).abs() < ELSEWHERE / 2.0)
 }
 
-/// The effects by our own interpreter.
+/// The effects according to our own interpreter.
 fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     let mut settings: BTreeMap<&str, String> = BTreeMap::new();
     let mut effects = Vec::new();
@@ -467,7 +465,7 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
             Action::System(system) => {
                 settings.insert("system", format!("{system:?}"));
             }
-            // How fast rapid moves are changes nothing in the material.
+            // The speed of rapid moves does not affect the material.
             Action::Change(interpret::Change::RapidFeed(_)) => {}
             Action::Change(change) => {
                 settings.insert("change", format!("{change:?}"));
@@ -478,16 +476,16 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     effects
 }
 
-/// What a byte may become.
+/// Replacements for a byte.
 const BYTES: &[u8] = b"0123456789.-+GMXYZIJKFSTRHPLNO()[];/%#=*!:,\"' \t\r\n<>\x00\xff";
 
-/// Code that a comment may hide, or let out.
+/// Code that a comment may hide or expose.
 const HIDDEN: [&str; 4] = ["G0 Z-5", "G1 X-7 F100", "M5", "G91"];
 
-/// Numbers are changed by these.
+/// Offsets by which numbers are changed.
 const STEPS: [f64; 8] = [0.1, 0.25, 1.0, 7.5, -0.1, -0.3, -2.0, -12.0];
 
-/// One random change, and what it is.
+/// A random change, with its description.
 fn change(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
     match dice.below(8) {
         0 | 1 => Some(changed_byte(text, dice)),
@@ -495,7 +493,7 @@ fn change(text: &[u8], dice: &mut Dice) -> Option<(String, Vec<u8>)> {
         4 | 5 => Some(changed_line(text, dice)),
         6 => Some(changed_comment(text, dice)),
         _ => {
-            // Two at a time, which may hide each other.
+            // Two changes at once, which may hide each other.
             let (first, text) = changed_word(text, dice)?;
             let (second, text) = changed_line(&text, dice);
             Some((format!("{first}; {second}"), text))
@@ -527,7 +525,7 @@ fn changed_byte(text: &[u8], dice: &mut Dice) -> (String, Vec<u8>) {
     (format!("byte {at} {what}: {}", around(&changed, at)), changed)
 }
 
-/// The line round a byte.
+/// The line around a byte.
 fn around(text: &[u8], at: usize) -> String {
     let at = at.min(text.len().saturating_sub(1));
     let begin = text[..at].iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);

@@ -1,4 +1,4 @@
-//! Readers that are not ours: LinuxCNC's interpreter and gcode-toolpath. No reader of XpertMILL's words is known.
+//! Independent readers: LinuxCNC's interpreter and gcode-toolpath. There is no known reader for XpertMILL.
 
 #[path = "../../../crates/pathbuild-gcode/tests/common/oracle.rs"]
 pub(super) mod oracle;
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::programs::{Named, programs};
 use super::{say, shown, texts, written};
 
-/// What rs274 can read. The program's number and the way home are words of their own: they are left out.
+/// Posts that rs274 can read. The program number and the return to home are removed, since it does not know them.
 const OF_RS274: [(&str, Dialect); 5] = [
     ("linuxcnc", Dialect::LinuxCnc),
     ("grbl", Dialect::Grbl),
@@ -74,7 +74,7 @@ pub(super) fn common_words(text: &str) -> String {
     text.lines().filter(|line| !is_own(line)).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Where gcode-toolpath is installed.
+/// The installation of gcode-toolpath.
 #[expect(clippy::disallowed_methods, reason = "tests ask the environment where their oracles are")]
 fn toolpath() -> Option<PathBuf> {
     let Ok(directory) = std::env::var("PATHBUILD_TOOLPATH") else {
@@ -86,7 +86,7 @@ fn toolpath() -> Option<PathBuf> {
     Some(modules)
 }
 
-/// The moves of each program: 0, 1 or 2, where to, and of arcs the centre.
+/// The moves of each program: 0, 1 or 2, the end point, and for arcs the centre.
 fn ask(modules: &Path, files: &[PathBuf]) -> Vec<Vec<Vec<f64>>> {
     let script = crate::support::project().join("tests/tools/toolpath.js");
     let output =
@@ -116,7 +116,7 @@ fn arc_of(it: &Move, arc: interpret::Arc) -> Vec<f64> {
     [vec![code], it.to.at.to_vec(), arc.centre.to_vec()].concat()
 }
 
-/// The first move in which two programs differ by more than what their numbers are added up from.
+/// The first move in which two programs differ by more than accumulated rounding.
 fn differ(theirs: &[Vec<f64>], ours: &[Vec<f64>]) -> Option<String> {
     let is_same =
         |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);

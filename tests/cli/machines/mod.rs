@@ -1,5 +1,5 @@
-//! Every program of the conformance cases through every built-in post: its dialect's reader sees the native program's moves, readers that
-//! are not ours (`independent`) see the same, and no rule of `verify` finds an error. (book: program/posts)
+//! Every program of the conformance cases through every built-in post: the reader for its dialect sees the native program's moves,
+//! independent readers see the same, and no rule of `verify` finds an error. (book: program/posts)
 
 mod chains;
 mod changes;
@@ -51,7 +51,7 @@ fn no_rule_finds_an_error() {
     assert!(faults.is_empty(), "{} of {}\n{}", faults.len(), programs.len(), shown(&faults));
 }
 
-/// What a post writes wrongly.
+/// The fault in a post's output.
 fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
     let at = |reason: String| Some(format!("{}: {reason}", it.name));
     let text = match written(definition, &it.program) {
@@ -71,12 +71,12 @@ fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
 fn written(definition: &Post, program: &Program) -> Result<Vec<u8>, Vec<Diagnostic>> {
     let programs = std::slice::from_ref(program);
     let (job, _) = Job::from_programs(&program.path, programs, &ToolTable::default(), false);
-    // Nobody says how fast cutters turn.
+    // No spindle speeds are given.
     let options = PostOptions { manual_spindle: true, ..PostOptions::default() };
     definition.write(&job, &options).map(|output| output.text)
 }
 
-/// Half a unit of the last digit; `XpertMILL` knows no helices, so they become lines. The head and foot are the post's.
+/// Half a unit of the last digit. `XpertMILL` has no helices, so they become lines. Header and footer are up to the post.
 fn tolerance(post: &str) -> Tolerance {
     let (decimals, chord) = match post {
         "xpertmill" => (3, 0.01),
@@ -98,7 +98,7 @@ fn shown(faults: &[String]) -> String {
     faults.iter().take(10).map(String::as_str).collect::<Vec<_>>().join("\n")
 }
 
-/// Not with println!, which the test harness keeps to itself where all is well.
+/// Bypasses println!, which the test harness hides for passing tests.
 #[allow(clippy::explicit_write, reason = "likewise eprintln!")]
 fn say(text: &str) {
     writeln!(std::io::stderr(), "{text}").unwrap();

@@ -1,4 +1,4 @@
-//! The programs of the recorded cases, each once.
+//! The programs of the recorded cases, without duplicates.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -19,14 +19,14 @@ use rayon::prelude::*;
 use crate::conformance::recorded::{self, Run, What};
 use crate::support;
 
-/// A program, and the case that it is from.
+/// A program with the name of its case.
 #[derive(Clone)]
 pub(crate) struct Named {
     pub(crate) name: String,
     pub(crate) program: Arc<Program>,
 }
 
-/// Every program that the cases come to, of equal ones the first.
+/// All programs of the cases; the first one of each group of equal ones.
 pub(crate) fn programs() -> &'static [Named] {
     static PROGRAMS: OnceLock<Vec<Named>> = OnceLock::new();
     PROGRAMS.get_or_init(|| {
@@ -45,7 +45,7 @@ pub(crate) fn programs() -> &'static [Named] {
     })
 }
 
-/// The programs of a run, without those of paths that are wrong.
+/// The programs of a run, without those of erroneous paths.
 fn of_run(run: &Run) -> Vec<Named> {
     let What::Compile(arguments) = &run.what else { return Vec::new() };
     let case = Utf8PathBuf::from_path_buf(run.case.clone()).unwrap();
@@ -64,7 +64,7 @@ fn of_run(run: &Run) -> Vec<Named> {
     of_inputs(settings, inputs, &run.name())
 }
 
-/// The programs of drawings and paths, without those that are wrong.
+/// The programs of drawings and paths, without erroneous ones.
 pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> Vec<Named> {
     let workspace = Workspace {
         settings,
@@ -91,13 +91,13 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
     named.collect()
 }
 
-/// Cases are read where they lie.
+/// Cases are read where they are.
 fn absolute(case: &Utf8Path, input: String) -> String {
     let file = case.join(&input);
     if file.as_std_path().exists() { file.into_string() } else { input }
 }
 
-/// The moves of a program as steps: what its native text does, with the numbers of steps for lines.
+/// The moves of a program as steps: what its native text does, with step numbers in place of lines.
 pub(crate) fn steps_of(program: &Program) -> Vec<Step> {
     moves_of(program).into_iter().map(|(line, it)| Step::of_move(line, it)).collect()
 }

@@ -1,4 +1,4 @@
-//! Programs that are of the drawing as it was: found by their provenance. (book: program/gcode, book: language/probes)
+//! Programs that are older than their drawing, detected by their provenance. (book: program/gcode, book: language/probes)
 
 use super::{OPTIONS, drawing, emit, measure, plate, succeed, write};
 use crate::support::Place;
@@ -63,7 +63,7 @@ fn an_adjusted_program_is_stale_once_its_drawing_gives_other_moves() {
     }
 }
 
-/// From records of earlier runs too.
+/// Also through cached results.
 #[test]
 fn what_is_known_of_a_program_tells_stale_ones_as_well() {
     let place = adjusted().file("pathbuild.toml", "rapid = 1000\nfeed = 150\nsweep-height = 20\n");
@@ -91,7 +91,7 @@ fn programs_with_probes_are_stale_when_the_probes_are_gone() {
     assert!(run.status == Some(0) && run.stderr.contains(" 0 not current"), "{run}");
 }
 
-/// What belongs to another path is left alone, whatever its name.
+/// Files of other paths are left alone, whatever their names.
 #[test]
 fn a_program_of_another_path_is_not_stale() {
     let place = adjusted();
@@ -110,7 +110,7 @@ fn adjust_refuses_a_program_whose_drawing_gives_other_moves() {
         assert!(run.status == Some(1) && run.stderr.contains("a_Clean.gcode: error[PB608]"), "{run}");
     }
     assert_eq!(place.read("a_Milling.gcode"), before);
-    // Saved again with the same moves it is as good as before.
+    // Saving the drawing again with the same moves makes no difference.
     save(&place, &format!("{}layer REMARKS\nmill 90,90 95,90\n", with_probes(WITHOUT)));
     succeed(&place.run("adjust a.dxf --max-correction 0.9"));
     save(&place, "layer 8001.1P\nmill 0,0 40,0\n");
@@ -134,7 +134,7 @@ fn adjust_says_where_it_cannot_compare() {
     assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
 }
 
-/// The drawing is looked for by the path's name where its programs lie elsewhere.
+/// The drawing is found by the path's name if its programs are elsewhere.
 #[test]
 fn adjust_finds_the_drawing_in_the_library() {
     let settings = "library = [\"drawings\"]\nout-dir = \"out\"\n";
@@ -153,7 +153,7 @@ fn adjust_finds_the_drawing_in_the_library() {
     assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
 }
 
-/// The options are those that the program was written with, all but one. (PB608)
+/// All options but one are those that the program was written with. (PB608)
 #[test]
 fn a_program_of_the_other_mode_says_so() {
     let options = "--feed 150 --rapid 1000 --sweep-height 20";
@@ -173,7 +173,7 @@ fn a_program_of_the_other_mode_says_so() {
             Some(said) => {
                 assert!(run.status == Some(1) && run.stderr.contains("PB608"), "{run}");
                 assert!(run.stderr.contains(said) && !run.stderr.contains("sweep-height"), "{run}");
-                // Where the mode is not the only reason, it is none.
+                // If the mode is not the only reason, it is not reported.
                 let run = place
                     .run(&format!("{adjust} {adjusted} --sweep-height 25").replace(" --sweep-height 20", ""));
                 assert!(run.stderr.contains("PB608") && !run.stderr.contains(said), "{run}");

@@ -1,4 +1,4 @@
-//! The executed number decides, and a formula is an assertion about it. (book: language/probes, program/reading)
+//! The executed number counts, and its formula must agree with it. (book: language/probes, program/reading)
 
 use super::{PLATE, PROBES, drawing, measure, succeed, write};
 use crate::support::{Place, Run};
@@ -20,7 +20,7 @@ fn verify(place: &Place, program: &str) -> [Run; 2] {
     [place.run(&format!("verify {program}")), place.run(&format!("verify {program} --against a.dxf"))]
 }
 
-/// The first line of a text in which something is, from 0.
+/// The index of the first line with a text.
 fn line_of(text: &str, part: &str) -> usize {
     text.lines().position(|line| line.contains(part)).unwrap_or_else(|| panic!("no {part}"))
 }
@@ -30,7 +30,7 @@ fn with_line(text: &str, number: usize, change: impl Fn(&str) -> String) -> Stri
     text.lines().enumerate().map(line).collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// The number before a formula, changed.
+/// Changes the number before a formula.
 fn number_changed(line: &str, by: f64) -> String {
     let (before, formula) = line.split_once("(=").unwrap();
     let (words, number) = before.rsplit_once('Z').unwrap();
@@ -114,7 +114,7 @@ fn every_changed_height_or_formula_of_an_adjusted_program_is_an_error() {
 fn consistent_changes_are_found_with_the_drawing() {
     let place = adjusted("");
     let good = place.read("a_Milling.gcode");
-    // Another formula with the number that belongs to it.
+    // Another formula with the matching number.
     let constant = with_line(&good, line_of(&good, "G01 F"), |line| {
         let (before, _) = line.split_once("(==").unwrap();
         let number = before.rsplit_once('Z').unwrap().1;
@@ -123,7 +123,7 @@ fn consistent_changes_are_found_with_the_drawing() {
     write(&place, "a_Milling.gcode", &constant);
     let run = place.run("verify a_Milling.gcode --against a.dxf");
     assert!(run.status == Some(1) && run.stderr.contains("error[PB775]"), "{run}");
-    // Comments are no moves: a warning.
+    // Comments are not moves: a warning.
     for (from, to) in [
         ("native O3 T5)", "native O3 T5x)"),
         ("(Milling chain", "(Chain"),
@@ -163,7 +163,7 @@ fn a_changed_clean_program_is_found_and_not_adjusted() {
         assert!(run.status == Some(1) && run.stderr.contains("error[PB608]"), "{what}: {run}");
         assert_eq!(place.read("a_Milling.gcode"), before);
     }
-    // Comments, blanks and line ends are nobody's orders.
+    // Comments, spaces and line ends have no effect.
     let other = good.replace("(Milling chain", "(Chain").replace('\n', "\r\n");
     write(&place, "a_Clean.gcode", &other);
     succeed(&place.run("adjust a.dxf --max-correction 1"));
@@ -178,7 +178,7 @@ fn probes_without_formulas_are_an_error_without_the_drawing_too() {
     assert!(run.status == Some(1) && run.stderr.contains("error[PB609]"), "{run}");
 }
 
-/// The four nearest probes correct a height; a fifth one that is nowhere among them is measured for nothing.
+/// The four nearest probes correct a height; a fifth one that is never among them is measured for nothing.
 #[test]
 fn a_probe_that_corrects_nothing_is_told_when_the_program_is_written() {
     let text = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B1\"\nmill 0,0 40,0\nend 40,0\nprobe 0,10\nprobe 40,10\nprobe 0,20\nprobe 40,20\n";
@@ -228,7 +228,7 @@ fn formulas_in_a_program_without_probes_are_an_error() {
     }
 }
 
-/// Every command that reads a program says it.
+/// Every command that reads a program reports it.
 #[test]
 fn other_commands_tell_of_a_formula_that_lies() {
     let place = adjusted("");
@@ -246,7 +246,7 @@ fn other_commands_tell_of_a_formula_that_lies() {
     }
 }
 
-/// A native program always says T1, whatever number its cutter has in the tool table.
+/// A native program always contains T1, regardless of the cutter's number in the tool table.
 #[test]
 fn the_headers_cutter_decides() {
     let text = "layer 1234.1P\nstart 0,0 \"T2 O2 I5 B0\"\nmill 0,0 40,0\nmill 40,0 40,10\nend 40,10\n";

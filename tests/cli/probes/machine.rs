@@ -1,12 +1,12 @@
-//! What a machine does with a program: where its tool goes, from the numbers that are written. It shares nothing with what wrote them.
+//! A simulated machine: moves the tool by the numbers in a program. It shares no code with the writer.
 
-/// A move from one point in space to another.
+/// A move between two points in space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     pub from: [f64; 3],
     pub to: [f64; 3],
     pub way: Way,
-    /// Whether its height was corrected.
+    /// Whether the height was corrected.
     pub is_corrected: bool,
 }
 
@@ -14,7 +14,7 @@ pub(crate) struct Motion {
 pub(crate) enum Way {
     Rapid,
     Straight,
-    /// Round a centre; the angle in radians is negative clockwise.
+    /// Around a centre; the angle in radians is negative if clockwise.
     Round {
         centre: [f64; 2],
         angle: f64,
@@ -56,7 +56,7 @@ fn motion(block: &str, from: [f64; 3]) -> Motion {
     Motion { from, to, way, is_corrected }
 }
 
-/// The angle counterclockwise from one point to another, above 0 up to a full turn.
+/// The counterclockwise angle between two points, greater than 0 and at most a full turn.
 fn turned(centre: [f64; 2], from: [f64; 3], to: [f64; 3]) -> f64 {
     let angle = |point: [f64; 3]| libm::atan2(point[1] - centre[1], point[0] - centre[0]);
     let turned = (angle(to) - angle(from)).rem_euclid(std::f64::consts::TAU);
@@ -64,7 +64,7 @@ fn turned(centre: [f64; 2], from: [f64; 3], to: [f64; 3]) -> f64 {
 }
 
 impl Motion {
-    /// In the plane, in mm.
+    /// The length in the plane in mm.
     pub(crate) fn length(&self) -> f64 {
         match self.way {
             Way::Round { centre, angle } => {
@@ -74,7 +74,7 @@ impl Motion {
         }
     }
 
-    /// Where the tool is after a part of the way.
+    /// The position of the tool at a fraction of the way.
     pub(crate) fn at(&self, part: f64) -> [f64; 3] {
         let between = |axis: usize| self.from[axis] + (self.to[axis] - self.from[axis]) * part;
         let [x, y] = match self.way {

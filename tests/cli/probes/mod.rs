@@ -10,7 +10,7 @@ use pathbuild_testkit::sheet;
 
 const OPTIONS: &str = "--feed 150 --rapid 1000 --sweep-height 20 --no-cache";
 
-/// Where the plate's path begins, which is (0, 0) in the program.
+/// The start of the plate's path, which is (0, 0) in the program.
 const START: [f64; 2] = [0.0, 20.0];
 
 /// A plate of 300 mm x 200 mm with 3 x 3 probes: a line of 300 mm, bars, an arc of R50, a helical circle and a hole.
@@ -45,7 +45,7 @@ fn drawing(text: &str) -> Vec<u8> {
     sheet(text).unwrap_or_else(|errors| panic!("{errors:?}")).to_dxf()
 }
 
-/// The plate in a.dxf, with probes and without in b.dxf.
+/// The plate with probes in a.dxf, and without in b.dxf.
 fn plate(configuration: &str) -> Place {
     Place::new()
         .file("a.dxf", drawing(&format!("{PLATE}{PROBES}")))
@@ -62,7 +62,7 @@ fn emit(place: &Place, drawing: &str) -> Run {
     place.run(&format!("emit {drawing} {OPTIONS}"))
 }
 
-/// Enters what is measured, a function of the place in the drawing, with three decimals.
+/// Enters measured values, computed from the position in the drawing, with three decimals.
 fn measure(place: &Place, off: impl Fn(f64, f64) -> f64) {
     let measured = |line: &str| {
         let numbers = line.trim_start_matches("([").split(']').next().unwrap();
@@ -78,10 +78,10 @@ fn write(place: &Place, name: &str, text: &str) {
     std::fs::write(place.path().join(name), text).unwrap();
 }
 
-/// The moves of an adjusted program and of the same program without probes, which says what the heights should be on a flat plate:
-/// each of its moves with those that became of it.
+/// The moves of an adjusted program matched with those of the same program without probes, which has the correct heights for a flat plate:
+/// each flat move with the adjusted moves that correspond to it.
 fn pairs(flat: &[Motion], adjusted: &[Motion]) -> Vec<(Motion, Vec<Motion>)> {
-    // After a sweep the height may be corrected anew, which the flat program does not need.
+    // After a sweep the height may be corrected again, which the flat program does not need.
     let is_correction = |motion: &Motion| {
         motion.is_corrected && motion.length() == 0.0 && (motion.to[2] - motion.from[2]).abs() < 0.1
     };
@@ -103,7 +103,7 @@ fn pairs(flat: &[Motion], adjusted: &[Motion]) -> Vec<(Motion, Vec<Motion>)> {
     pairs
 }
 
-/// The largest distance of the adjusted program from the true heights, sampled every 0.5 mm, and from the way it should go.
+/// The maximum errors of the adjusted program, in height and in the plane, sampled every 0.5 mm.
 fn largest_error(place: &Place, off: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     let (flat, adjusted) = (motions(&place.read("b_Milling.gcode")), motions(&place.read("a_Milling.gcode")));
     let (mut height, mut way) = (0.0_f64, 0.0_f64);
@@ -113,7 +113,7 @@ fn largest_error(place: &Place, off: impl Fn(f64, f64) -> f64) -> (f64, f64) {
         for piece in pieces {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
             let samples = (piece.length() / 0.5).ceil().max(1.0) as u32;
-            // Up and down moves, and those that follow them, are corrected at their end only.
+            // Vertical moves, and those after them, are only corrected at their ends.
             let first = if whole.is_milling() { 0 } else { samples };
             for sample in first..=samples {
                 let part = f64::from(sample) / f64::from(samples);
@@ -138,7 +138,7 @@ fn ideal_height(whole: &Motion, along: f64) -> f64 {
 
 const TILTS: [(f64, f64); 5] = [(0.5, 0.0), (0.0, 0.5), (0.25, 0.25), (-0.333, 0.167), (0.25, -0.25)];
 
-/// Emits, measures and adjusts the plate under all tilts; gives the largest errors.
+/// Emits, measures and adjusts the plate for all tilts. Returns the maximum errors.
 fn errors(configuration: &str) -> (f64, f64) {
     let place = plate(configuration);
     succeed(&emit(&place, "a.dxf"));
@@ -208,7 +208,7 @@ fn too_many_pieces_are_refused() {
     let run = limited(1000);
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stderr.contains("PB005") && run.stderr.contains("embedding-moves"), "{run}");
-    // Comments are no moves.
+    // Comments are not moves.
     let (_, count) = run.stderr.split_once("cut by z-split (").unwrap();
     let pieces: u32 = count.split(')').next().unwrap().parse().unwrap();
     assert_eq!([limited(pieces).status, limited(pieces - 1).status], [Some(0), Some(1)]);
@@ -265,7 +265,7 @@ fn values_that_were_entered_are_kept() {
     assert_ne!(place.read("a_Clean.gcode"), before);
 }
 
-/// Files of the original tool and of older versions do not say where probes are in the emitted drawing.
+/// Files of the original tool and of older versions lack the positions of probes in the emitted drawing.
 #[test]
 fn values_without_places_are_kept_and_used() {
     let place = plate("");
@@ -280,13 +280,13 @@ fn values_without_places_are_kept_and_used() {
     succeed(&emit(&place, "a.dxf"));
     assert_eq!(place.read("a_Z.txt"), without, "the same probes");
     succeed(&place.run("adjust a.dxf --max-correction 1"));
-    // A place that is another, though the probe is drawn where it was.
+    // Another position, although the probe was not moved in the drawing.
     write(&place, "a_Z.txt", &with_places.replace("@ [150.000|80.000]", "@ [150.000|81.000]"));
     let run = place.run("adjust a.dxf --max-correction 1");
     assert!(run.status == Some(1) && run.stderr.contains("PB603"), "{run}");
 }
 
-/// A path that is embedded twice has each of its probes twice, under one name.
+/// A path that is embedded twice has each of its probes twice, under the same name.
 #[test]
 fn a_probe_that_is_embedded_twice_is_told_apart_by_its_place() {
     let drawings = r#"

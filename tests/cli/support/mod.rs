@@ -1,4 +1,4 @@
-//! Runs the program as a shell would: in a directory of its own, with an environment that holds nothing.
+//! Runs the program like a shell: in a directory of its own, with an empty environment.
 #![allow(unreachable_pub, reason = "one binary's own module")]
 
 pub mod fixture;
@@ -18,12 +18,12 @@ pub use said::Said;
 use tempfile::TempDir;
 use wait4::Wait4 as _;
 
-/// A directory with files in it, in which the program is run.
+/// A directory with files, in which the program runs.
 pub struct Place {
     directory: TempDir,
     /// The user's cache directory.
     caches: TempDir,
-    /// The user's directory of configurations.
+    /// The user's configuration directory.
     configurations: TempDir,
 }
 
@@ -42,7 +42,7 @@ impl Place {
         fixture.files.iter().fold(Self::new(), |place, file| place.file(&file.name, file.bytes()))
     }
 
-    /// Adds a file; directories on the way to it are made.
+    /// Adds a file and its parent directories.
     pub fn file(self, name: &str, content: impl AsRef<[u8]>) -> Self {
         let path = self.path().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -50,7 +50,7 @@ impl Place {
         self
     }
 
-    /// The user's own configuration.
+    /// Writes the user's own configuration.
     pub fn users(self, configuration: &str) -> Self {
         let directory = self.configurations.path().join("pathbuild");
         fs::create_dir_all(&directory).unwrap();
@@ -67,12 +67,12 @@ impl Place {
         self.caches.path()
     }
 
-    /// The user's directory of configurations.
+    /// The user's configuration directory.
     pub fn configurations(&self) -> &Path {
         self.configurations.path()
     }
 
-    /// Where results of this tree are kept.
+    /// The cache directory of this tree.
     pub fn cache(&self) -> PathBuf {
         let below = if cfg!(windows) { "pathbuild/cache" } else { "pathbuild" };
         let mut trees = fs::read_dir(self.caches.path().join(below)).into_iter().flatten();
@@ -83,7 +83,7 @@ impl Place {
         fs::read_to_string(self.path().join(name)).unwrap()
     }
 
-    /// Runs `pathbuild` with arguments that are separated by blanks.
+    /// Runs `pathbuild` with arguments separated by spaces.
     pub fn run(&self, arguments: &str) -> Run {
         self.run_with(&arguments.split_whitespace().collect::<Vec<_>>())
     }
@@ -93,15 +93,15 @@ impl Place {
         self.run_in(".", arguments)
     }
 
-    /// Runs `pathbuild` in a directory below.
+    /// Runs `pathbuild` in a subdirectory.
     pub fn run_in(&self, directory: &str, arguments: &[&str]) -> Run {
         self.said(arguments, self.command(directory, arguments).output().unwrap())
     }
 
-    /// Runs `pathbuild` with arguments that are separated by blanks; with the time that this run, and nothing else, took of the processors.
+    /// Runs `pathbuild` with arguments separated by spaces. Also returns the processor time of that run alone.
     pub fn run_timed(&self, arguments: &str) -> (Run, Duration) {
         let arguments: Vec<&str> = arguments.split_whitespace().collect();
-        // Files: who waits for the end reads no pipe meanwhile.
+        // Files instead of pipes, which would have to be read while waiting for the end.
         let [mut stdout, mut stderr] = [(); 2].map(|()| tempfile::tempfile().unwrap());
         let mut command = self.command(".", &arguments);
         command.stdout(stdout.try_clone().unwrap()).stderr(stderr.try_clone().unwrap());
@@ -129,7 +129,7 @@ impl Place {
         let text = |bytes: Vec<u8>| {
             let text = String::from_utf8(bytes).unwrap().replace(&shown(self.path()), "<PLACE>");
             let text = text.replace(&shown(&self.cache()), "<CACHE>");
-            // How long it took is another number on another day.
+            // The duration varies.
             Regex::new(r"(?m)\(\d+([.,])\d s\)$").unwrap().replace_all(&text, "(0${1}0 s)").into_owned()
         };
         Run {
@@ -141,20 +141,20 @@ impl Place {
     }
 }
 
-/// A path as the program shows it.
+/// A path as displayed by the program.
 pub fn shown(path: &Path) -> String {
     let path = path.to_string_lossy();
     if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
 }
 
-/// The program, in an environment that says nothing but that no language is chosen: Windows would name its user's.
+/// The program with an environment that chooses no language, since Windows would use that of its user.
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pathbuild"));
     command.env_clear().env("LC_ALL", "C").stdin(Stdio::null());
     command
 }
 
-/// What a run printed and how it ended. Shown as one text, for snapshots.
+/// The output and exit status of a run. Displayed as a single text, for snapshots.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Run {
     pub arguments: String,
@@ -176,7 +176,7 @@ impl fmt::Display for Run {
     }
 }
 
-/// Several runs, one after the other.
+/// Several consecutive runs.
 pub fn runs<'a>(place: &Place, lines: impl IntoIterator<Item = &'a str>) -> String {
     lines.into_iter().map(|line| place.run(line).to_string()).collect::<Vec<_>>().join("\n")
 }

@@ -1,18 +1,18 @@
-//! What a run that goes on says.
+//! The output of a running process.
 
 use std::io::{BufRead, BufReader};
 use std::process::Child;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// The lines of a run's stderr, as they come.
+/// The lines of a process's stderr as they arrive.
 pub struct Said(Receiver<String>);
 
-/// A machine on which everything is built at once takes its time.
+/// Maximum waiting time; a machine that builds everything in parallel is slow.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 impl Said {
-    /// By this run.
+    /// Reads the stderr of a process.
     pub fn by(child: &mut Child) -> Self {
         let stderr = BufReader::new(child.stderr.take().unwrap());
         let (sender, lines) = channel();
@@ -22,7 +22,7 @@ impl Said {
         Self(lines)
     }
 
-    /// The lines up to one that holds a text.
+    /// The lines up to one that contains a text.
     #[track_caller]
     pub fn until(&self, text: &str) -> Vec<String> {
         let mut seen = Vec::new();
