@@ -1,5 +1,5 @@
-//! One edit in a library that is in memory: from the change of a component to the programs of the project that embeds it, asked for as
-//! `watch` does, by the reverse index. The cost must not grow with the library. (benches/README.md)
+//! A single edit in a library that is in memory: from the change of a component to the programs of the project that embeds it, queried as
+//! `watch` does, through the reverse index. The cost must not grow with the library. (benches/README.md)
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -15,7 +15,7 @@ use pathbuild_testkit::sheet;
 criterion_group!(benches, one_edit);
 criterion_main!(benches);
 
-/// How many components a project embeds.
+/// Number of components that a project embeds.
 const EMBEDDED: usize = 10;
 
 fn one_edit(criterion: &mut Criterion) {
@@ -33,7 +33,7 @@ fn one_edit(criterion: &mut Criterion) {
     }
 }
 
-/// A library of which everything was asked once.
+/// A library in which everything was queried once.
 struct Library {
     db: Database,
     system: Arc<MemorySystem>,
@@ -70,7 +70,7 @@ impl Library {
         Self { component: all[0], project: projects[0], db, system }
     }
 
-    /// Mills the first component to another depth.
+    /// Changes the depth of the first component.
     fn edit(&mut self, depth: usize) -> usize {
         let path = format!("parts/{}.dxf", name(0));
         self.system.put(path.clone(), renamed(&component(depth), &name(0)));
@@ -88,7 +88,7 @@ fn settings(db: &mut Database) {
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,
-        doubts: pathbuild_path::Doubts::default(),
+        doubts: pathbuild_path::DoubtThresholds::default(),
     };
     let (files, search) = (FilePattern::default(), vec!["parts".into()]);
     let fold = PathOptions { feed: Some(150.0), sweep_height: Some(20.0), ..PathOptions::default() };

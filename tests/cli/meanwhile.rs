@@ -15,7 +15,7 @@ use pathbuild::printer::{ColorChoice, Printer, Verbosity};
 use pathbuild::{Context, ExitStatus, commands};
 use pathbuild_cache::Stamp;
 use pathbuild_db::System;
-use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
+use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, WriteOutcome};
 use pathbuild_diagnostic::Value;
 use pathbuild_workspace::{Workspace, config};
 
@@ -93,7 +93,7 @@ impl System for Changing {
         OsSystem.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         OsSystem.write(path, bytes)
     }
 

@@ -11,7 +11,7 @@ use salsa::Cancelled;
 use crate::guard::too_slow;
 
 /// Panic payload of work that exceeded this time limit.
-pub(crate) struct TooLong(pub(crate) Duration);
+pub(crate) struct TimeoutPanic(pub(crate) Duration);
 
 /// Runs work, usually without queries of its own. If a drawing changes meanwhile, the unwinding query counts as a bug here. Cancellation is
 /// passed on.
@@ -23,7 +23,7 @@ pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
         if payload.is::<Cancelled>() {
             resume_unwind(payload);
         }
-        let too_long = payload.downcast_ref().map(|TooLong(limit)| too_slow(*limit));
+        let too_long = payload.downcast_ref().map(|TimeoutPanic(limit)| too_slow(*limit));
         Box::new(too_long.unwrap_or_else(|| internal_error(&*payload)))
     })
 }

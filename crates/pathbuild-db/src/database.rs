@@ -108,7 +108,7 @@ impl Database {
 
     /// Starts a new revision for drawings whose bytes no longer match their indexes. Returns whether there were any; if so, the results
     /// since must be queried again.
-    pub fn take_over_changes(&mut self) -> bool {
+    pub fn apply_noted_changes(&mut self) -> bool {
         let changed = std::mem::take(&mut *lock(&self.shared.changed));
         let has_changes = !changed.is_empty();
         lock(&self.shared.drifted).extend(&changed);
@@ -131,7 +131,7 @@ impl Database {
     }
 
     /// Provides the names in a directory that was just listed, so that the query need not list it again.
-    pub fn know_names(&self, path: &Utf8Path, names: Names) {
+    pub fn provide_names(&self, path: &Utf8Path, names: Names) {
         self.shared.listings.put(self.directory(path), names);
     }
 

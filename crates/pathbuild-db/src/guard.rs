@@ -7,20 +7,20 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use salsa::{CancellationToken, Cancelled, Database as _};
 
-use crate::bugs::{TooLong, internal_error};
+use crate::bugs::{TimeoutPanic, internal_error};
 use crate::database::Database;
 use crate::db::Db as _;
-use crate::drift::Drifted;
+use crate::drift::DriftPanic;
 
 /// Work in progress on one handle of the database.
 #[derive(Debug)]
-pub struct Underway {
+pub struct WorkInProgress {
     /// Start time; `None` without a clock.
     begun: Option<Instant>,
     token: CancellationToken,
 }
 
-impl Underway {
+impl WorkInProgress {
     /// Cancels the work if it exceeds this time limit.
     pub fn stop_after(&self, limit: Duration) {
         if self.begun.is_some_and(|begun| begun.elapsed() > limit) {
@@ -31,19 +31,19 @@ impl Underway {
 
 impl Database {
     /// Clears a cancellation whose work has ended, so that it does not cancel the next query.
-    pub fn forget_given_up(&self) {
+    pub fn clear_cancellation(&self) {
         // Salsa clears it at the end of every query that was not called by another.
         self.attach(|_| ());
     }
 
     /// Cancels the current work, between two queries, if it exceeds its time limit.
-    pub fn give_up_if_late(&self) {
+    pub fn check_time_limit(&self) {
         self.unwind_if_revision_cancelled();
     }
 
     /// Starts the clock for work on this handle.
-    pub fn underway(&self) -> Underway {
-        Underway { begun: self.system().now(), token: self.cancellation_token() }
+    pub fn underway(&self) -> WorkInProgress {
+        WorkInProgress { begun: self.system().now(), token: self.cancellation_token() }
     }
 
     /// Runs work on this handle.
@@ -60,10 +60,10 @@ impl Database {
                 // The query panicked on another thread. Running it here gives the reason, if it panics again.
                 Some(Cancelled::PropagatedPanic) => continue,
                 Some(_) => too_slow(limit),
-                None if payload.is::<Drifted>() => {
+                None if payload.is::<DriftPanic>() => {
                     Diagnostic::new(&messages::UNREADABLE).with("reason", "it changes while it is being read")
                 }
-                None if payload.is::<TooLong>() => too_slow(limit),
+                None if payload.is::<TimeoutPanic>() => too_slow(limit),
                 None => internal_error(&*payload),
             };
             return Err(Box::new(problem));

@@ -24,17 +24,17 @@ pub mod system;
 pub use bugs::{bug, catch_bugs};
 pub use database::Database;
 pub use db::Db;
-pub use guard::{Underway, too_slow};
+pub use guard::{WorkInProgress, too_slow};
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use listing::PendingListing;
 pub use queries::{
     Closure, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
-    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, Reached, Resolved, Trace,
-    Traced, assigned_texts, chains, check_file, check_target, closure, combinations, content, content_hash,
-    drawing_names, drawn_path, embeds, embeds_others, file_index, holders, in_force, keep_outs, likely_file,
-    locate, may_hold, name_table, other_layers, path, path_index, path_names, path_place, placed_keep_outs,
-    prefetch, program, q_project, q_project_findings, raw_file, resolve_path, search_path, summary, trace,
-    traced_program, unlistable, unlisted,
+    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, ReachedPath, ResolvedPath,
+    Trace, TracedProgram, assigned_texts, chains, check_file, check_target, closure, combinations, content,
+    content_hash, drawing_names, drawn_path, embeds, embeds_others, file_index, holders, in_force, keep_outs,
+    likely_file, locate, may_hold, name_table, other_layers, path, path_index, path_names, path_place,
+    placed_keep_outs, prefetch, program, q_project, q_project_findings, raw_file, resolve_path, search_path,
+    summary, trace, traced_program, unlistable, unlisted,
 };
 pub use scratch::ScratchPool;
 pub use settings::{Limits, Reading, Settings};

@@ -4,15 +4,15 @@
 use std::sync::Arc;
 
 use camino::Utf8Path;
-use pathbuild_db::system::{MemorySystem, Overlay, ReadError, System};
+use pathbuild_db::system::{MemorySystem, OverlaySystem, ReadError, System};
 
 const NEW: &str = "parts/1002.dxf";
 
 /// A drawing that is not written yet, over a directory with `1001.dxf`.
-fn overlay(new: &str) -> Overlay {
+fn overlay(new: &str) -> OverlaySystem {
     let below = MemorySystem::default();
     below.put("parts/1001.dxf", "old");
-    Overlay::new(Arc::new(below), new.into(), b"0123456789".to_vec())
+    OverlaySystem::new(Arc::new(below), new.into(), b"0123456789".to_vec())
 }
 
 fn names(system: &dyn System, directory: &str) -> Vec<String> {

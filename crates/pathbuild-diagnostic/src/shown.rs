@@ -78,7 +78,7 @@ pub fn json(text: &str) -> Cow<'_, str> {
             }
         },
     );
-    broken_up(escaped, "\\u0023")
+    without_runner_commands(escaped, "\\u0023")
 }
 
 fn escape(escaped: &mut String, character: char) {
@@ -101,7 +101,7 @@ fn escaped(text: &str, acts: impl Fn(char) -> bool, escape: impl Fn(&mut String,
 
 /// Defuses commands of CI runners: GitHub's runner obeys lines that begin with `::` or contain `##[`, Azure's those with `##vso[`.
 fn harmless_lines(text: Cow<'_, str>) -> Cow<'_, str> {
-    let text = broken_up(text, "\\u{23}");
+    let text = without_runner_commands(text, "\\u{23}");
     if !text.contains("::") {
         return text;
     }
@@ -129,7 +129,7 @@ fn start(line: &str) -> usize {
 }
 
 /// Breaks up what CI runners search for anywhere in a line: `##`, optional letters, and `[`.
-fn broken_up<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
+fn without_runner_commands<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
     let is_command =
         |rest: &str| rest[2..].trim_start_matches(|c: char| c.is_ascii_alphabetic()).starts_with('[');
     let commands: Vec<usize> = hashes(&text).filter(|at| is_command(&text[*at..])).collect();

@@ -16,7 +16,7 @@ use crate::layers::LayerId;
 use crate::names::Name;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::steps::Steps;
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 
 /// The blocks of a file.
 #[derive(Default)]
@@ -35,7 +35,7 @@ type BlockOnLayer = (BlockId, LayerId);
 pub(crate) struct BlockId(usize);
 
 struct Block<'a> {
-    base: Result<Point3, Trouble<'a>>,
+    base: Result<Point3, EntityError<'a>>,
     /// The pairs after the block's own groups, starting with its first record.
     pairs: Pairs<'a>,
     head: Pair<'a>,
@@ -90,7 +90,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// The base point of a block.
-    pub(crate) fn base(&self, block: BlockId) -> Result<Point3, Trouble<'a>> {
+    pub(crate) fn base(&self, block: BlockId) -> Result<Point3, EntityError<'a>> {
         self.all[block.0].base.clone()
     }
 
@@ -208,7 +208,7 @@ impl<'a> Blocks<'a> {
         }
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
         self.all.push(Block {
-            base: base.map_err(Trouble::from),
+            base: base.map_err(EntityError::from),
             pairs,
             head,
             items: None,

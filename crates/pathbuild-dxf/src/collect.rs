@@ -17,8 +17,8 @@ use crate::faults::Fatal;
 use crate::item::Shape;
 use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
-use crate::trouble::Trouble;
-use crate::{Drawing, Entity, Fault, Geometry, Layer, LeftOut, Origin, Point3};
+use crate::trouble::EntityError;
+use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
 /// Builds a drawing.
 pub(crate) struct Collector<'d> {
@@ -102,7 +102,7 @@ impl<'d> Collector<'d> {
     pub(crate) fn add(
         &mut self,
         placed: &Placed<'_>,
-        shape: Result<Shape<'_>, Trouble<'_>>,
+        shape: Result<Shape<'_>, EntityError<'_>>,
     ) -> Result<(), Fatal> {
         let layer = self.layer(placed);
         if placed.is_invisible {
@@ -114,7 +114,7 @@ impl<'d> Collector<'d> {
                     placement.apply(&mut geometry);
                 }
                 if !geometry.is_sound() {
-                    return self.refuse(placed, layer, &Trouble::TooLarge);
+                    return self.refuse(placed, layer, &EntityError::TooLarge);
                 }
                 self.push(placed, layer, None, geometry)
             }
@@ -139,7 +139,7 @@ impl<'d> Collector<'d> {
         };
         let parts = match parts {
             Ok(parts) if parts.iter().all(Geometry::is_sound) => parts,
-            Ok(_) | Err(NoPieces::TooFar) => return self.refuse(placed, layer, &Trouble::TooLarge),
+            Ok(_) | Err(NoPieces::TooFar) => return self.refuse(placed, layer, &EntityError::TooLarge),
             Err(NoPieces::TooMany) => return Err(self.too_many()),
         };
         let group = Some(self.groups);
@@ -163,19 +163,19 @@ impl<'d> Collector<'d> {
     }
 
     /// Records a fault of an entity. Copies of a block repeat the same fault, which is reported once.
-    fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &Trouble<'_>) -> Result<(), Fatal> {
+    fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &EntityError<'_>) -> Result<(), Fatal> {
         let diagnostic = match trouble {
-            Trouble::Group(group) => group.diagnostic(placed.kind),
-            Trouble::Tilted => Diagnostic::new(&TILTED).with("entity", placed.kind.name()),
-            Trouble::TooLarge => Diagnostic::new(&TOO_LARGE).with("entity", placed.kind.name()),
-            Trouble::Nested(block) => Diagnostic::new(&BLOCK_NESTED).with("block", &**block),
-            Trouble::LeftOut { message, point, block } => {
+            EntityError::Group(group) => group.diagnostic(placed.kind),
+            EntityError::Tilted => Diagnostic::new(&TILTED).with("entity", placed.kind.name()),
+            EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).with("entity", placed.kind.name()),
+            EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).with("block", &**block),
+            EntityError::LeftOut { message, point, block } => {
                 self.count()?;
                 self.leave_out(placed, layer, message, *point, block.as_deref());
                 return Ok(());
             }
-            Trouble::TooManyParts => return Err(self.too_many()),
-            Trouble::TextTooLong => {
+            EntityError::TooManyParts => return Err(self.too_many()),
+            EntityError::TextTooLong => {
                 let diagnostic = limit(&TEXT_LENGTH, self.limits.text, "text-length");
                 return Err(Box::new(self.located(diagnostic, placed, layer)));
             }
@@ -202,7 +202,7 @@ impl<'d> Collector<'d> {
         diagnostic.arguments.extend(block.map(|block| ("block", block.into())));
         diagnostic.place.point = point;
         let diagnostic = self.located(diagnostic, placed, layer);
-        self.drawing.left_out.push(LeftOut { layer, kind, point, diagnostic });
+        self.drawing.left_out.push(OmittedCurve { layer, kind, point, diagnostic });
     }
 
     /// In compatible mode, skips an entity that PathDxf2GCode does not know. Reported once per drawing.

@@ -49,7 +49,7 @@ pub struct Drawing {
     /// Broken entities on wanted layers.
     pub faults: Vec<Fault>,
     /// Unsupported curves on wanted layers (PB111).
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<OmittedCurve>,
     /// Findings about the file as a whole. If one of them is an error, there are no entities.
     pub diagnostics: Vec<Diagnostic>,
     /// Whether a text on an unwanted layer, or any line of a block that may be inserted, satisfied [`Options::note_text`].
@@ -98,7 +98,7 @@ pub struct Fault {
 
 /// An unsupported curve on a wanted layer.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LeftOut {
+pub struct OmittedCurve {
     /// Index into [`Drawing::layers`].
     pub layer: u32,
     /// Its entity type.

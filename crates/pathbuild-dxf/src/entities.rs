@@ -19,7 +19,7 @@ use crate::line_types::LineTypes;
 use crate::names::is_same;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 use crate::{Options, Origin};
 
 /// Reads entities and caches what it learns about names.
@@ -268,10 +268,10 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     #[inline(always)]
-    fn shape(&mut self, kind: RecordKind) -> Result<Shape<'a>, Trouble<'a>> {
+    fn shape(&mut self, kind: RecordKind) -> Result<Shape<'a>, EntityError<'a>> {
         let Self { fields, decoder, options, .. } = self;
         if kind != RecordKind::MText && kind.repeated_codes() != 0 && fields.is_full() {
-            return Err(Trouble::TooManyParts);
+            return Err(EntityError::TooManyParts);
         }
         Ok(match kind {
             RecordKind::Line => Shape::Plain(shapes::line(fields)?),
@@ -282,7 +282,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Ellipse | RecordKind::Spline
                 if options.approximate_curves.is_nan() || options.approximate_curves <= 0.0 =>
             {
-                return Err(Trouble::left_out(&NOT_APPROXIMATED, fields));
+                return Err(EntityError::left_out(&NOT_APPROXIMATED, fields));
             }
             RecordKind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
             RecordKind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
@@ -292,7 +292,10 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     /// Reads the current POLYLINE with its VERTEX records, all of which are consumed even if one is broken.
-    fn polyline(&mut self, records: &mut Records<'a>) -> Result<Result<Shape<'a>, Trouble<'a>>, Stop<'a>> {
+    fn polyline(
+        &mut self,
+        records: &mut Records<'a>,
+    ) -> Result<Result<Shape<'a>, EntityError<'a>>, Stop<'a>> {
         let mut polyline = OpenPolyline::begin(&self.fields);
         while RecordKind::of(records.head.value) == Some(RecordKind::Vertex) {
             let always = |_| Want::Keep;

@@ -23,12 +23,12 @@ pub(crate) struct Groups<'a> {
     code_end: CodeEnd,
     /// The bytes from the current stretch to the end of the file.
     bytes: &'a [u8],
-    ahead: Ahead<'a>,
+    ahead: NextPair<'a>,
 }
 
 /// The position of the next pair.
 #[derive(Clone, Copy)]
-struct Ahead<'a> {
+struct NextPair<'a> {
     stretch: Stretch<'a>,
     /// Line of the next pair.
     line: u64,
@@ -56,7 +56,7 @@ impl<'a> Group<'a> {
 impl<'a> Groups<'a> {
     /// Starts at this position.
     pub(crate) fn new(begin: Pairs<'a>) -> Self {
-        let ahead = Ahead { stretch: Stretch::EMPTY, line: begin.line().into() };
+        let ahead = NextPair { stretch: Stretch::EMPTY, line: begin.line().into() };
         Self { begin, code_end: CodeEnd::of(&begin), bytes: &begin.bytes()[begin.consumed()..], ahead }
     }
 
@@ -125,12 +125,12 @@ impl<'a> Groups<'a> {
         let mut pairs = self.pairs();
         let Pair { code, line, value } = pairs.next()?;
         self.bytes = &pairs.bytes()[pairs.consumed()..];
-        self.ahead = Ahead { stretch: Stretch::EMPTY, line: pairs.line().into() };
+        self.ahead = NextPair { stretch: Stretch::EMPTY, line: pairs.line().into() };
         Ok(Group { role: Role::of(code), line: line.into(), raw: value })
     }
 }
 
-impl<'a> Ahead<'a> {
+impl<'a> NextPair<'a> {
     #[inline]
     fn next(&mut self, code_end: CodeEnd) -> Option<Group<'a>> {
         let (role, raw) = self.stretch.next(code_end)?;

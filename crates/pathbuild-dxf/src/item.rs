@@ -5,14 +5,14 @@ use pathbuild_diagnostic::EntityKind;
 use crate::layers::LayerId;
 use crate::line_types::LineType;
 use crate::shapes::{Ellipse, Insert, Spline};
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 use crate::{Geometry, Origin};
 
 /// An entity on a layer that may be wanted.
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
     pub(crate) traits: Traits,
-    pub(crate) shape: Result<Shape<'a>, Trouble<'a>>,
+    pub(crate) shape: Result<Shape<'a>, EntityError<'a>>,
 }
 
 /// The properties that all entities have.

@@ -21,7 +21,7 @@ pub(crate) struct LayerTable<'a> {
     /// The TABLES section.
     tables: Option<Pairs<'a>>,
     /// Number of lookups so far.
-    asked: usize,
+    lookups: usize,
     /// All layers, read after many lookups.
     all: Option<KnownLayers<'a>>,
 }
@@ -61,10 +61,10 @@ impl<'a> LayerTable<'a> {
         reading: &mut Reading<'_, 'a, '_>,
     ) -> Result<Option<LayerRecord<'a>>, Stop<'a>> {
         let Some(tables) = self.tables else { return Ok(None) };
-        self.asked += 1;
+        self.lookups += 1;
         let certain = part_certain(without_xref(full_name).as_bytes());
         let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
-        if self.all.is_none() && self.asked <= FEW && certain.len() >= SHORTEST && !has_escapes() {
+        if self.all.is_none() && self.lookups <= FEW && certain.len() >= SHORTEST && !has_escapes() {
             let some = reading.some(tables, certain, &Name::new(full_name.into()))?;
             return Ok(some.get(full_name).cloned());
         }

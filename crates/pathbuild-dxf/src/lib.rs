@@ -42,8 +42,8 @@ mod trouble;
 mod units;
 
 pub use drawing::{
-    Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LeftOut, Line, MText, Options,
-    Origin, Point3, Text, TextTest, Units, VerticalAlign,
+    Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, Line, MText, OmittedCurve,
+    Options, Origin, Point3, Text, TextTest, Units, VerticalAlign,
 };
 
 /// Reads a drawing.

@@ -21,7 +21,7 @@ use crate::pairs::Pairs;
 use crate::placement::Placement;
 use crate::shapes::Insert;
 use crate::steps::Steps;
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 
 /// Reads a drawing's model space.
 pub(crate) struct Model<'r, 'a, 'o> {
@@ -36,7 +36,7 @@ pub(crate) struct Model<'r, 'a, 'o> {
 }
 
 /// The context of an entity: model space or an insertion.
-struct Around {
+struct EntityContext {
     placement: Option<Placement>,
     insertion: Option<Insertion>,
     is_invisible: bool,
@@ -70,7 +70,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         records: &mut Records<'a>,
         placement: Option<Placement>,
     ) -> Result<(), Fatal> {
-        let around = Around { placement, insertion: None, is_invisible: false };
+        let around = EntityContext { placement, insertion: None, is_invisible: false };
         while let Some(item) =
             self.reader.next_item(records, Space::Model).map_err(|stop| stopped(stop, "ENTITIES"))?
         {
@@ -80,7 +80,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 
     #[inline(always)]
-    fn place(&mut self, item: Item<'a>, around: &Around) -> Result<(), Fatal> {
+    fn place(&mut self, item: Item<'a>, around: &EntityContext) -> Result<(), Fatal> {
         let layer = match &around.insertion {
             Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
             None => item.traits.layer,
@@ -106,7 +106,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         traits: &Traits,
         layer: LayerId,
         insert: Insert<'a>,
-        around: &Around,
+        around: &EntityContext,
     ) -> Result<(), Fatal> {
         if let Some(section) = self.section.take() {
             let blocks = Blocks::index(section, self.reader);
@@ -114,7 +114,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
         let Some(block) = self.blocks.find(&insert.block) else {
             let point = insert.array.ok().map(|array| array.begin());
-            let trouble = Trouble::LeftOut {
+            let trouble = EntityError::LeftOut {
                 message: &BLOCK_MISSING,
                 point,
                 block: Some(insert.block.as_str().into()),
@@ -126,7 +126,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return Ok(());
         }
         if self.open.contains(&block) || self.open.len() >= DEEPEST {
-            return self.refuse(traits, &wanted, &Trouble::Nested(insert.block.as_str().into()), around);
+            return self.refuse(traits, &wanted, &EntityError::Nested(insert.block.as_str().into()), around);
         }
         match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
             Ok(copies) => self.copy(traits, layer, block, copies, around),
@@ -141,12 +141,12 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         layer: LayerId,
         block: BlockId,
         copies: impl Iterator<Item = Placement>,
-        around: &Around,
+        around: &EntityContext,
     ) -> Result<(), Fatal> {
         let placed = placed(self.reader, traits, layer, around)?;
         let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
         let mut inside =
-            Around { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
+            EntityContext { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
         let items = self.blocks.items(block, self.reader)?;
         self.open.push(block);
         for copy in copies {
@@ -165,8 +165,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         &mut self,
         traits: &Traits,
         layers: &[LayerId],
-        trouble: &Trouble<'a>,
-        around: &Around,
+        trouble: &EntityError<'a>,
+        around: &EntityContext,
     ) -> Result<(), Fatal> {
         for layer in layers {
             if self.reader.layers.is_kept(*layer) {
@@ -184,7 +184,7 @@ fn placed<'p>(
     reader: &'p mut EntityReader<'_, '_>,
     traits: &Traits,
     layer_id: LayerId,
-    around: &'p Around,
+    around: &'p EntityContext,
 ) -> Result<Placed<'p>, Fatal> {
     let EntityReader { layers, line_types, fields, decoder, .. } = reader;
     let layer = layers.used(layer_id, &mut Reading { fields, decoder });

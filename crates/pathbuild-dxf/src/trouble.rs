@@ -8,7 +8,7 @@ use crate::fields::{BadGroup, Fields};
 
 /// A fault of an entity.
 #[derive(Clone, Debug)]
-pub(crate) enum Trouble<'a> {
+pub(crate) enum EntityError<'a> {
     /// A broken group: PB002.
     Group(BadGroup<'a>),
     /// An extrusion other than (0, 0, 1) or (0, 0, -1): PB110.
@@ -32,13 +32,13 @@ pub(crate) enum Trouble<'a> {
     TextTooLong,
 }
 
-impl<'a> From<BadGroup<'a>> for Trouble<'a> {
+impl<'a> From<BadGroup<'a>> for EntityError<'a> {
     fn from(group: BadGroup<'a>) -> Self {
         Self::Group(group)
     }
 }
 
-impl<'a> Trouble<'a> {
+impl<'a> EntityError<'a> {
     /// Leaves an entity out for this reason; its point is 10/20, if present.
     pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
         let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));

@@ -81,7 +81,7 @@ fn settle(db: &Database) {
         keep_out: KeepOutPattern::new("clamps").ok(),
         line_types: LineTypeAliases::default(),
         text_limit: 4096,
-        doubts: pathbuild_path::Doubts::default(),
+        doubts: pathbuild_path::DoubtThresholds::default(),
         join_tolerance: 0.0,
     };
     let (files, search) = (FilePattern::default(), Vec::new());

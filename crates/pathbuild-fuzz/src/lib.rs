@@ -26,7 +26,7 @@ pub const TARGETS: [Target; 8] = [
 /// # Panics
 /// If pathbuild misbehaves, or there is no such target.
 pub fn run(name: &str, data: &[u8]) {
-    let target = TARGETS.iter().find(|(it, _)| *it == name);
+    let target = TARGETS.iter().find(|(known, _)| *known == name);
     assert!(target.is_some(), "there is no target {name}");
     if let Some((_, run)) = target {
         run(data);

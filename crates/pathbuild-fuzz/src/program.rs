@@ -27,7 +27,7 @@ pub(crate) fn gcode(data: &[u8]) {
     let dialect = Dialect::ALL[usize::from(*choice) % Dialect::ALL.len()];
     let result = interpret(text, dialect, &Options::default());
     assert!(
-        result.moves().iter().all(|(_, it)| it.to.at.iter().all(|at| at.is_finite())),
+        result.moves().iter().all(|(_, motion)| motion.to.at.iter().all(|at| at.is_finite())),
         "a move leads nowhere"
     );
     guess(text);

@@ -10,7 +10,7 @@ use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
 use crate::path::{CutParameters, Path, SegmentKind};
-use crate::walk::{Passage, Walked, curve};
+use crate::walk::{Passage, WalkedPath, curve};
 
 /// An operation. Its segment is an index into [`Path::segments`].
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub struct Chain {
     pub infeed: f64,
     /// W in mm: the depth from which on milling is sweepless.
     pub first_depth: Option<f64>,
-    /// Never empty; see [`Walked::members`](crate::Walked::members).
+    /// Never empty; see [`WalkedPath::members`](crate::WalkedPath::members).
     pub(crate) members: Range<usize>,
 }
 
@@ -78,18 +78,18 @@ pub struct PlacedSubpath {
 }
 
 /// Groups the traversed segments into items. Reports chains without I, and letters without effect inside chains.
-pub(crate) struct Grouped<'a> {
+pub(crate) struct ChainBuilder<'a> {
     path: &'a Path,
-    walked: Walked,
+    walked: WalkedPath,
     /// Number of members that belong to finished chains; the remaining ones form the current chain.
     chained: usize,
 }
 
-impl<'a> Grouped<'a> {
+impl<'a> ChainBuilder<'a> {
     /// Starts without segments.
     pub(crate) fn new(path: &'a Path) -> Self {
         let members = Vec::with_capacity(path.cuts.len());
-        Self { path, walked: Walked { members, ..Walked::default() }, chained: 0 }
+        Self { path, walked: WalkedPath { members, ..WalkedPath::default() }, chained: 0 }
     }
 
     /// Adds the next traversed segment.
@@ -105,7 +105,7 @@ impl<'a> Grouped<'a> {
     }
 
     /// The items of the whole walk, and the diagnostics.
-    pub(crate) fn finish(mut self) -> Walked {
+    pub(crate) fn finish(mut self) -> WalkedPath {
         self.finish_chain();
         self.walked
     }
@@ -125,7 +125,7 @@ impl<'a> Grouped<'a> {
 
     /// Finishes the current chain, if there is one.
     pub(crate) fn finish_chain(&mut self) {
-        let Self { path, walked: Walked { items, members, diagnostics, .. }, chained } = self;
+        let Self { path, walked: WalkedPath { items, members, diagnostics, .. }, chained } = self;
         let [first, ..] = &members[*chained..] else { return };
         let has_letters = |member: &ChainSegment| member.cut(path).chain_letters.is_some();
         for (before, member) in members[*chained..].iter().zip(&members[*chained + 1..]) {
@@ -205,7 +205,7 @@ impl ChainSegment {
         path.origin(&path.segments[self.segment as usize])
     }
 
-    /// Its element, as an index into [`Drawn::elements`](crate::Drawn::elements).
+    /// Its element, as an index into [`DrawnElements::elements`](crate::DrawnElements::elements).
     pub fn element(&self, path: &Path) -> u32 {
         path.segments[self.segment as usize].element
     }
@@ -229,7 +229,9 @@ impl ChainSegment {
     fn letters_without_effect(&self, path: &Path) -> impl Iterator<Item = Diagnostic> {
         let own = path.drawn.text(self.cut(path).chain_letters).into_iter();
         let faults = own.flat_map(|text| {
-            [Letter::I, Letter::C, Letter::W].into_iter().filter_map(move |it| Some((it, text.fault_of(it)?)))
+            [Letter::I, Letter::C, Letter::W]
+                .into_iter()
+                .filter_map(move |letter| Some((letter, text.fault_of(letter)?)))
         });
         faults.map(|(letter, fault)| {
             let problem =

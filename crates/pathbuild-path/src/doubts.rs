@@ -10,7 +10,7 @@ use crate::values::Values;
 
 /// Thresholds beyond which something is doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Doubts {
+pub struct DoubtThresholds {
     /// Depth in mm that B may extend below the plate.
     pub below_plate: f64,
     /// Maximum infeed as a multiple of T.
@@ -25,13 +25,13 @@ pub struct Doubts {
     pub hole_margin: f64,
 }
 
-impl Default for Doubts {
+impl Default for DoubtThresholds {
     fn default() -> Self {
         Self::DEFAULT
     }
 }
 
-impl Doubts {
+impl DoubtThresholds {
     /// The thresholds used if the configuration sets none.
     pub const DEFAULT: Self = Self {
         below_plate: 0.5,
@@ -55,7 +55,7 @@ pub(crate) fn check_mark(
     bottom: f64,
     own: &Values<'_>,
     path: &Values<'_>,
-    limits: &Doubts,
+    limits: &DoubtThresholds,
 ) -> Option<(Diagnostic, bool)> {
     let thickness = path.number(Letter::T).number()?;
     let depth = thickness - bottom;
@@ -81,7 +81,7 @@ pub(crate) fn check(
     own: &Values<'_>,
     path: &Values<'_>,
     class: ElementClass,
-    limits: &Doubts,
+    limits: &DoubtThresholds,
 ) -> Vec<Diagnostic> {
     let value = |letter| {
         let has_effect = !matches!(class.use_of(letter), Use::Unknown | Use::Ignored | Use::PathOnly);

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Word, words};
 use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
 use crate::name::PathName;
-use crate::values::{Given, Values};
+use crate::values::{GivenNumber, Values};
 
 /// Option values that apply if a drawing gives none. Feeds are in mm/min, lengths in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -129,14 +129,14 @@ impl<'v, 't> Texts<'v, 't> {
 
     /// The number that the texts give for a letter.
     #[inline]
-    pub(crate) fn number(&self, letter: Letter) -> Given {
-        self.source(letter).map_or(Given::Absent, |(values, _)| values.number(letter))
+    pub(crate) fn number(&self, letter: Letter) -> GivenNumber {
+        self.source(letter).map_or(GivenNumber::Absent, |(values, _)| values.number(letter))
     }
 
     /// The number of a letter, given or by the language's default, without regard to options.
     pub(crate) fn number_or_default(&self, letter: Letter) -> Option<f64> {
         match self.number(letter) {
-            Given::Absent => {
+            GivenNumber::Absent => {
                 let options = PathOptions::default();
                 let path = PathNumbers::of(self.path);
                 fallback(letter, self.class, path, &options, PathRole::Embedded).map(|(value, _)| value)

@@ -20,7 +20,7 @@ pub struct Element {
     pub shape: Shape,
     /// Its meaning.
     pub role: Role,
-    /// Its parameter text, see [`Drawn::texts`](crate::Drawn::texts).
+    /// Its parameter text, see [`DrawnElements::texts`](crate::DrawnElements::texts).
     pub text: Option<TextId>,
 }
 
@@ -31,7 +31,7 @@ pub struct Source {
     pub id: ElementId,
     /// Its type.
     pub entity: EntityKind,
-    /// Its layer, as an index into [`Drawn::layers`](crate::Drawn::layers).
+    /// Its layer, as an index into [`DrawnElements::layers`](crate::DrawnElements::layers).
     pub layer: u32,
 }
 

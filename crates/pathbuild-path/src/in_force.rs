@@ -13,13 +13,13 @@ use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::raw::{Language, RawPath};
 use crate::text::TextId;
-use crate::values::{Given, Values};
+use crate::values::{GivenNumber, Values};
 use crate::variables::{Bindings, Interpolation};
 use crate::walk::walk;
 
 /// An element with its effective parameters.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InForce {
+pub struct ElementParameters {
     /// The location of the element.
     pub origin: Origin,
     /// Its name in messages.
@@ -45,7 +45,7 @@ pub fn parameters_in_force(
     options: &PathOptions,
     role: PathRole,
     language: &Language,
-) -> Vec<InForce> {
+) -> Vec<ElementParameters> {
     let interpolation =
         Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
     let values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
@@ -72,7 +72,7 @@ struct Table<'a> {
 }
 
 impl Table<'_> {
-    fn element(&self, number: u32, element: &Element) -> InForce {
+    fn element(&self, number: u32, element: &Element) -> ElementParameters {
         let class = element.class(self.raw.tool());
         let first = self.chains.get(&number).map(|first| &self.raw.drawn.elements[*first as usize]);
         self.row(self.raw.drawn.origin(element), class, element.text, first)
@@ -84,7 +84,7 @@ impl Table<'_> {
         class: ElementClass,
         text: Option<TextId>,
         first: Option<&Element>,
-    ) -> InForce {
+    ) -> ElementParameters {
         let own = self.values_of(text, class);
         let chain = first.map(|first| self.values_of(first.text, first.class(self.raw.tool())));
         let texts = Texts { class, own: &own, chain: chain.as_ref(), path: &self.values };
@@ -95,7 +95,7 @@ impl Table<'_> {
         };
         // Elements that accept no parameter text are traversed as sweeps.
         let what = if class == ElementClass::Unread { &words::SWEEP } else { class.word() };
-        InForce { origin, what, parameters: letters.filter_map(parameter).collect() }
+        ElementParameters { origin, what, parameters: letters.filter_map(parameter).collect() }
     }
 
     fn values_of(&self, text: Option<TextId>, class: ElementClass) -> Values<'_> {
@@ -127,7 +127,7 @@ fn shown(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
             let all: Vec<&str> = values.variables().map(|(value, _)| value).collect();
             Some(all.join(" ").into())
         }
-        Given::Number(number) => Some(Number(number).to_smolstr()),
+        GivenNumber::Number(number) => Some(Number(number).to_smolstr()),
         _ => values.text(letter).map(SmolStr::from),
     }
 }

@@ -42,11 +42,11 @@ mod values;
 mod variables;
 mod walk;
 
-pub use bind::{Examined, bind, examine};
+pub use bind::{ExaminedPath, bind, examine};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
-pub use definition::{Allowed, Definition};
-pub use doubts::Doubts;
+pub use definition::{AllowedValues, Definition};
+pub use doubts::DoubtThresholds;
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
@@ -55,7 +55,7 @@ pub use embedding::{
 pub use file_name::{is_q_project, judge_file_name};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
-pub use in_force::{InForce, Parameter, parameters_in_force};
+pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
 pub use letter::Letter;
 pub use line_type::{LineType, LineTypeAliases};
@@ -68,7 +68,7 @@ pub use path::{
 };
 pub use pattern::PatternError;
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
-pub use raw::{Drawn, Language, Position, RawFile, RawPath, SourceMap};
+pub use raw::{DrawnElements, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{
     AssignedElement, AssignedText, NearNames, ProxyLine, assigned_texts, keep_outs, may_be_stray_text,
     proxy_lines, raw_file, stray_findings,
@@ -77,4 +77,4 @@ pub use table::RangeTable;
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;
-pub use walk::{Walked, walk, walk_watched};
+pub use walk::{WalkedPath, walk, walk_watched};

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Message};
 use crate::approx::above;
 use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
-use crate::values::{Given, Values};
+use crate::values::{GivenNumber, Values};
 
 /// Letters that must always be positive. (Z is not in the list of the specification, but a machine probing at feed 0 never arrives.)
 const POSITIVE: [Letter; 8] =
@@ -56,7 +56,7 @@ struct Limits<'a> {
 impl Limits<'_> {
     fn check_positive(&mut self, letters: &[Letter]) {
         for letter in letters {
-            let Given::Number(value) = self.own.number(*letter) else { continue };
+            let GivenNumber::Number(value) = self.own.number(*letter) else { continue };
             if !above(value, 0.0) {
                 let problem = Diagnostic::new(&messages::NOT_POSITIVE)
                     .with("letter", letter.as_char())
@@ -72,8 +72,10 @@ impl Limits<'_> {
         if !self.own.has(upper) && !self.own.has(lower) {
             return;
         }
-        let value = |letter| -> Given { self.own.number(letter).or(self.path.number(letter)) };
-        let (Given::Number(high), Given::Number(low)) = (value(upper), value(lower)) else { return };
+        let value = |letter| -> GivenNumber { self.own.number(letter).or(self.path.number(letter)) };
+        let (GivenNumber::Number(high), GivenNumber::Number(low)) = (value(upper), value(lower)) else {
+            return;
+        };
         if above(high, low) {
             return;
         }

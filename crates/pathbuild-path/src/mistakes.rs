@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::{parameters as messages, variables};
 use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
 use crate::number::parse_number;
-use crate::text::{LetterValue, ParameterText, Written};
+use crate::text::{LetterValue, ParameterText, ValueKind};
 
 /// A text that is malformed as a whole, so that none of its pieces is used.
 pub(crate) struct Misreading {
@@ -35,12 +35,14 @@ fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
         |value: &str, at: usize| value[at + 1..].chars().next().and_then(Letter::new).is_some();
     let has_separator = |piece: &&LetterValue| {
         let value = text.value(piece);
-        piece.written == Written::NoNumber && value.match_indices(',').any(|(at, _)| is_separator(value, at))
+        piece.written == ValueKind::NoNumber
+            && value.match_indices(',').any(|(at, _)| is_separator(value, at))
     };
     let piece = text.pieces().iter().find(has_separator)?;
     let string = text.as_str();
-    let separated =
-        string.char_indices().map(|(at, it)| if it == ',' && is_separator(string, at) { ' ' } else { it });
+    let separated = string
+        .char_indices()
+        .map(|(at, character)| if character == ',' && is_separator(string, at) { ' ' } else { character });
     let problem = Diagnostic::new(&messages::COMMAS).with("text", separated.collect::<String>());
     Some(problem.with_text(text.fault(piece)))
 }
@@ -49,7 +51,12 @@ fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
 fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let upper = |piece: &LetterValue| {
         let letter = text.letter(piece)?.to_ascii_uppercase();
-        piece.letter.is_none().then(|| Letter::new(letter)).flatten().filter(|it| class.use_of(*it).counts())
+        piece
+            .letter
+            .is_none()
+            .then(|| Letter::new(letter))
+            .flatten()
+            .filter(|upper| class.use_of(*upper).counts())
     };
     if text.pieces().iter().filter(|piece| upper(piece).is_some()).count() < 2 {
         return None;

@@ -12,7 +12,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
 use crate::name::{PathName, SpeltName};
-use crate::raw::Drawn;
+use crate::raw::DrawnElements;
 use crate::text::TextId;
 
 /// A path with all parameters present and within their limits.
@@ -41,7 +41,7 @@ pub struct Path {
     /// Turn markers.
     pub turns: Vec<Turn>,
     /// The drawn elements, shared with the raw path.
-    pub drawn: Arc<Drawn>,
+    pub drawn: Arc<DrawnElements>,
     /// Segments in order: circles, lines, arcs.
     pub segments: Vec<Segment>,
     /// Parameters of its milling, marking and support segments.
@@ -73,7 +73,7 @@ pub(crate) struct Surface {
     pub(crate) origin: Origin,
     /// T in mm.
     pub(crate) thickness: f64,
-    /// The text that may give T, see [`Drawn::texts`].
+    /// The text that may give T, see [`DrawnElements::texts`].
     pub(crate) text: Option<TextId>,
 }
 
@@ -98,14 +98,14 @@ pub struct Probe {
     pub feed: Option<f64>,
     /// L.
     pub label: Option<Box<str>>,
-    /// Its own text, see [`Drawn::texts`].
+    /// Its own text, see [`DrawnElements::texts`].
     pub(crate) text: Option<TextId>,
 }
 
 /// A segment of the walk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Its element, as an index into [`Drawn::elements`].
+    /// Its element, as an index into [`DrawnElements::elements`].
     pub element: u32,
     /// Order at a star: N, or the default for its kind.
     pub order: f64,
@@ -143,7 +143,7 @@ pub struct CutParameters {
     pub bars: Option<Bars>,
     /// I, C and W, which apply if it is the first segment of its chain.
     pub chain: ChainParameters,
-    /// Its own text, if that gives I, C or W; see [`Drawn::texts`].
+    /// Its own text, if that gives I, C or W; see [`DrawnElements::texts`].
     pub chain_letters: Option<TextId>,
     /// Q.
     pub comment: Option<SmolStr>,
@@ -221,7 +221,7 @@ pub struct Subpath {
     pub height: f64,
     /// Values for the variables of the embedded path, in the order written.
     pub values: Vec<SubpathValue>,
-    /// Its own text, see [`Drawn::texts`] and [`Path::fault`].
+    /// Its own text, see [`DrawnElements::texts`] and [`Path::fault`].
     pub text: Option<TextId>,
 }
 

@@ -6,14 +6,14 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 use smol_str::SmolStr;
 
 use crate::definition::Definition;
-use crate::doubts::Doubts;
+use crate::doubts::DoubtThresholds;
 use crate::element::{Element, Marker, Origin};
 use crate::faults::DrawingFaults;
 use crate::keep_out::KeepOutPattern;
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
 use crate::name::{PathName, PathPattern, SpeltName};
-use crate::text::{ParameterText, ParameterTexts, TextId, Written};
+use crate::text::{ParameterText, ParameterTexts, TextId, ValueKind};
 
 /// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct RawPath {
     /// Z-probes, in file order.
     pub probes: Vec<Marker>,
     /// Its elements with their texts.
-    pub drawn: Arc<Drawn>,
+    pub drawn: Arc<DrawnElements>,
     /// The path's own parameters among the texts: the text of its start, or a copy of that of the path named by @.
     pub(crate) parameters: Option<TextId>,
     /// The path named by @, and its start marker, which has the parameters.
@@ -46,7 +46,7 @@ pub struct RawPath {
 
 /// The elements on a path's layers. Shared between stages, which refer to elements and texts by number.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Drawn {
+pub struct DrawnElements {
     /// All circles, then all lines, then all arcs, each in file order. (book: language/chains-and-passes)
     pub elements: Vec<Element>,
     /// The texts of elements.
@@ -81,7 +81,7 @@ pub struct Language {
     /// Maximum length in bytes of a value with variables substituted.
     pub text_limit: usize,
     /// Thresholds beyond which something is doubtful.
-    pub doubts: Doubts,
+    pub doubts: DoubtThresholds,
 }
 
 /// All paths of a drawing, in order of first appearance.
@@ -135,13 +135,13 @@ impl RawPath {
     pub fn tool(&self) -> Option<f64> {
         let parameters = self.parameters();
         match parameters.piece(Letter::O)?.written {
-            Written::Number(number) if number > 0.0 && !parameters.repeats(Letter::O) => Some(number),
+            ValueKind::Number(number) if number > 0.0 && !parameters.repeats(Letter::O) => Some(number),
             _ => None,
         }
     }
 }
 
-impl Drawn {
+impl DrawnElements {
     /// A text, if there is one.
     pub fn text(&self, text: Option<TextId>) -> Option<ParameterText<'_>> {
         self.texts.get(text?)

@@ -15,23 +15,23 @@ pub struct RangeTable {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Entry {
     /// The first groups of the first and of the last name.
-    from: First,
-    to: First,
+    from: FirstGroup,
+    to: FirstGroup,
     /// The maximum of `to` over the entries up to this one.
-    latest: First,
+    latest: FirstGroup,
     range: NameRange,
     file: u32,
 }
 
 /// The first group of a name. Integers precede texts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum First {
+enum FirstGroup {
     Integer(u64),
     /// A text in upper case.
     Text(String),
 }
 
-impl First {
+impl FirstGroup {
     /// `None` for a group that did not participate, and for an integer that is too long.
     fn new(group: &Group) -> Option<Self> {
         match group {
@@ -53,7 +53,7 @@ impl First {
 impl Entry {
     fn new(range: NameRange, file: u32) -> Result<Self, (NameRange, u32)> {
         let (from, to) = range.first_groups();
-        match (First::new(&from), First::new(&to)) {
+        match (FirstGroup::new(&from), FirstGroup::new(&to)) {
             (Some(from), Some(to)) if from.is_integer() == to.is_integer() => {
                 Ok(Self { latest: to.clone(), from, to, range, file })
             }
@@ -93,14 +93,14 @@ impl RangeTable {
             }
         };
         let group = path.first_group();
-        match group.and_then(First::new).zip(group) {
+        match group.and_then(FirstGroup::new).zip(group) {
             Some((first, group)) => {
                 // A text is compared with integers as text, for which they are not ordered.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }
                 if self.has_texts() {
-                    self.around(&First::text(group)).for_each(|entry| take(&entry.range, entry.file));
+                    self.around(&FirstGroup::text(group)).for_each(|entry| take(&entry.range, entry.file));
                 }
                 if first.is_integer() {
                     self.around(&first).for_each(|entry| take(&entry.range, entry.file));
@@ -115,7 +115,7 @@ impl RangeTable {
     }
 
     /// The entries whose ranges contain a first group.
-    fn around(&self, first: &First) -> impl Iterator<Item = &Entry> {
+    fn around(&self, first: &FirstGroup) -> impl Iterator<Item = &Entry> {
         let begun = self.sorted.partition_point(|entry| entry.from <= *first);
         let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);
         reaching.filter(move |entry| entry.to >= *first)

@@ -52,14 +52,14 @@ pub struct LetterValue {
     /// The letter; `None` if the piece begins with another character (PB202).
     pub letter: Option<Letter>,
     /// The value before variables are substituted.
-    pub(crate) written: Written,
+    pub(crate) written: ValueKind,
     /// The byte range in the text.
     span: Range<u32>,
 }
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Written {
+pub(crate) enum ValueKind {
     /// A number, for a letter with a numeric value.
     Number(f64),
     /// A text, for a letter with a text value.
@@ -91,7 +91,7 @@ impl ParameterTexts {
         let (mut letters, mut is_plain, mut end) = (Letters::default(), true, 0);
         while let Some(piece) = next_piece(text, end) {
             let is_new = piece.letter.is_some_and(|letter| letters.insert(letter));
-            is_plain &= is_new && matches!(piece.written, Written::Number(_) | Written::Text);
+            is_plain &= is_new && matches!(piece.written, ValueKind::Number(_) | ValueKind::Text);
             end = piece.span.end as usize;
             self.pieces.push(piece);
         }
@@ -292,7 +292,7 @@ impl LetterValue {
     }
 }
 
-impl Written {
+impl ValueKind {
     /// Classifies a value of a letter.
     pub(crate) fn of(letter: Letter, value: &str) -> Self {
         let number = match letter {
@@ -334,11 +334,12 @@ fn joined(text: &str) -> Cow<'_, str> {
     let mut rest = text;
     while let Some(tilde) = rest.find('~') {
         let after = &rest[tilde + 1..];
-        let line_end = after.trim_start_matches(|it: char| it.is_whitespace() && !is_line_end(it));
+        let line_end =
+            after.trim_start_matches(|character: char| character.is_whitespace() && !is_line_end(character));
         let is_continued = line_end.starts_with(is_line_end);
         joined.push_str(&rest[..tilde + usize::from(!is_continued)]);
         rest = if is_continued {
-            line_end.trim_start_matches(|it| u8::try_from(it).is_ok_and(is_blank))
+            line_end.trim_start_matches(|character| u8::try_from(character).is_ok_and(is_blank))
         } else {
             after
         };
@@ -364,7 +365,7 @@ fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
     let end = length.map_or(bytes.len(), |length| start + length);
     // All letters are ASCII.
     let letter = Letter::new(char::from(bytes[start]));
-    let written = letter.map_or(Written::Text, |letter| Written::of(letter, &text[start + 1..end]));
+    let written = letter.map_or(ValueKind::Text, |letter| ValueKind::of(letter, &text[start + 1..end]));
     Some(LetterValue { letter, written, span: number(start)..number(end) })
 }
 

@@ -8,12 +8,12 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 use crate::letter::{Letter, Letters};
 use crate::matrix::{ElementClass, Use};
 use crate::mistakes;
-use crate::text::{LetterValue, ParameterText, Written};
+use crate::text::{LetterValue, ParameterText, ValueKind};
 use crate::variables::Interpolation;
 
 /// The value that a text gives a letter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) enum Given {
+pub(crate) enum GivenNumber {
     /// None.
     #[default]
     Absent,
@@ -28,7 +28,7 @@ pub(crate) enum Given {
 pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
     /// The values of its pieces with variables substituted; empty if all values are literal.
-    filled: Vec<Filled<'t>>,
+    filled: Vec<FilledValue<'t>>,
     /// Letters missing from the text that a faulty piece of it may stand for.
     pub(crate) unread: Letters,
     /// PB205, PB303, PB305 and PB005, without places.
@@ -37,13 +37,13 @@ pub(crate) struct Values<'t> {
 
 /// The value of a piece with variables substituted.
 #[derive(Clone, Debug)]
-enum Filled<'t> {
-    Value(Written, Cow<'t, str>),
+enum FilledValue<'t> {
+    Value(ValueKind, Cow<'t, str>),
     /// No value, because of a reported problem or because the piece is ignored.
     Nothing,
 }
 
-impl Given {
+impl GivenNumber {
     /// The number, if it is valid.
     pub(crate) fn number(self) -> Option<f64> {
         match self {
@@ -70,7 +70,7 @@ impl<'t> Values<'t> {
             return values;
         }
         if let Some(misreading) = mistakes::in_text(text, class) {
-            values.filled.resize_with(text.pieces().len(), || Filled::Nothing);
+            values.filled.resize_with(text.pieces().len(), || FilledValue::Nothing);
             values.unread = misreading.unread;
             return values;
         }
@@ -87,22 +87,29 @@ impl<'t> Values<'t> {
         let mut filled = Vec::with_capacity(text.pieces().len());
         for piece in text.pieces() {
             filled.push(match piece.letter.filter(is_value) {
-                Some(letter) if letter.is_literal() && text.value(piece).contains('=') => Filled::Nothing,
+                Some(letter) if letter.is_literal() && text.value(piece).contains('=') => {
+                    FilledValue::Nothing
+                }
                 // The number is separated from its letter, which is reported there.
-                Some(_) if is_apart(piece) => Filled::Nothing,
+                Some(_) if is_apart(piece) => FilledValue::Nothing,
                 Some(letter) => values.fill(letter, piece, interpolation),
-                None => Filled::Nothing,
+                None => FilledValue::Nothing,
             });
         }
         values.filled = filled;
         values
     }
 
-    fn fill(&mut self, letter: Letter, piece: &LetterValue, interpolation: &Interpolation<'_>) -> Filled<'t> {
+    fn fill(
+        &mut self,
+        letter: Letter,
+        piece: &LetterValue,
+        interpolation: &Interpolation<'_>,
+    ) -> FilledValue<'t> {
         match interpolation.fill(self.text.value(piece)) {
-            Ok(value) => match Written::of(letter, &value) {
-                Written::NoNumber => self.report(piece, no_number(letter, &value)),
-                written => return Filled::Value(written, value),
+            Ok(value) => match ValueKind::of(letter, &value) {
+                ValueKind::NoNumber => self.report(piece, no_number(letter, &value)),
+                written => return FilledValue::Value(written, value),
             },
             Err(Some(problem)) => {
                 let problem =
@@ -111,7 +118,7 @@ impl<'t> Values<'t> {
             }
             Err(None) => {}
         }
-        Filled::Nothing
+        FilledValue::Nothing
     }
 
     fn report(&mut self, piece: &LetterValue, problem: Diagnostic) {
@@ -119,19 +126,19 @@ impl<'t> Values<'t> {
     }
 
     /// The number of a letter. If the letter is repeated, which is reported, there is none.
-    pub(crate) fn number(&self, letter: Letter) -> Given {
+    pub(crate) fn number(&self, letter: Letter) -> GivenNumber {
         let Some(index) = self.text.index(letter) else {
-            return if self.unread.contains(letter) { Given::Faulty } else { Given::Absent };
+            return if self.unread.contains(letter) { GivenNumber::Faulty } else { GivenNumber::Absent };
         };
         let written = match self.filled.get(index) {
             None => self.text.pieces()[index].written,
-            Some(Filled::Value(written, _)) => *written,
-            Some(Filled::Nothing) => return Given::Faulty,
+            Some(FilledValue::Value(written, _)) => *written,
+            Some(FilledValue::Nothing) => return GivenNumber::Faulty,
         };
         match written {
-            Written::Number(number) => Given::Number(number),
-            Written::NoNumber => Given::Faulty,
-            Written::Text | Written::Reference => Given::Absent,
+            ValueKind::Number(number) => GivenNumber::Number(number),
+            ValueKind::NoNumber => GivenNumber::Faulty,
+            ValueKind::Text | ValueKind::Reference => GivenNumber::Absent,
         }
     }
 
@@ -158,8 +165,8 @@ impl<'t> Values<'t> {
     fn value(&self, index: usize) -> Option<&str> {
         match self.filled.get(index) {
             None => Some(self.text.value(&self.text.pieces()[index])),
-            Some(Filled::Value(_, value)) => Some(value),
-            Some(Filled::Nothing) => None,
+            Some(FilledValue::Value(_, value)) => Some(value),
+            Some(FilledValue::Nothing) => None,
         }
     }
 

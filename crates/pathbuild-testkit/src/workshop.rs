@@ -256,14 +256,14 @@ fn clamp(text: &mut String, random: &mut Random) {
     let x = random.pick(&[15, 15, 52, 82]);
     let y = random.pick(&["1", "0.75"]);
     let height = random.pick(&["0.5", "3", "9", "40"]);
-    let (said, closed) = match random.below(8) {
+    let (content, closed) = match random.below(8) {
         0 => (height.to_owned(), " closed"),
         1 => (format!("Z{height}"), ""),
         _ => (format!("Z{height}"), " closed"),
     };
     _ = writeln!(text, "layer {}", random.pick(&["clamps", "CLAMPS"]));
     _ = writeln!(text, "polyline {x},{y} {},{y} {},20 {x},20{closed}", x + 6, x + 6);
-    _ = writeln!(text, "text {},10 \"{said}\"", x + 3);
+    _ = writeln!(text, "text {},10 \"{content}\"", x + 3);
 }
 
 /// Draws proxy lines for most paths.
@@ -273,14 +273,14 @@ fn proxies(text: &mut String, paths: usize, random: &mut Random) {
         let y = 200 + 30 * path;
         let Signature { thickness, material, values, .. } = signature(1001);
         let name = format!("1001.{}P", path + 1);
-        let (said, length) = match random.below(10) {
+        let (content, length) = match random.below(10) {
             0 => (format!(">{name} T{} M{material}{values}", thickness + 1), 40),
             1 => (format!(">{name} T{thickness} M{material}{values}"), 42),
             2 => (format!(">1001.9P T{thickness} M{material}{values}"), 40),
             3 => continue,
             _ => (format!(">{name} T{thickness} O2 M{material}{values}"), 40),
         };
-        _ = writeln!(text, "line DASHDOT 0,{y} {length},{y}{}", quoted(&said));
+        _ = writeln!(text, "line DASHDOT 0,{y} {length},{y}{}", quoted(&content));
     }
 }
 
@@ -291,8 +291,8 @@ fn q_project(number: u32, random: &mut Random) -> Vec<u8> {
     let paths = if fault == 0 { 1 } else { 2 };
     for path in 0..paths {
         let values = if fault == 1 { " :B0,75" } else { " :B0.5" };
-        let said = format!(">{number}.{}P{values}", path + 1);
-        _ = writeln!(text, "subpath {},0 {},0 \"{said}\"", 40 * path, 40 * path + 40);
+        let content = format!(">{number}.{}P{values}", path + 1);
+        _ = writeln!(text, "subpath {},0 {},0 \"{content}\"", 40 * path, 40 * path + 40);
     }
     _ = writeln!(text, "end {},0", 40 * paths);
     dxf(&text)
@@ -329,7 +329,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
             _ => format!("{embedded}.1P"),
         };
         let height = if random.once_in(4) { " H0,75" } else { "" };
-        let said = match fault {
+        let content = match fault {
             3 => format!(">{name} T{thickness}{values}"),
             6 => format!("T{thickness} M{material}"),
             7 => format!(">12 T{thickness} M{material}"),
@@ -345,7 +345,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
             _ => format!(">{name} T{thickness} M{material}{values}{height}"),
         };
         let length = length + u32::from(fault == 14);
-        _ = writeln!(text, "subpath {x},0 {},0 \"{said}\"", x + length);
+        _ = writeln!(text, "subpath {x},0 {},0 \"{content}\"", x + length);
         x += length;
         if segment == 0 {
             _ = writeln!(text, "sweep {x},0 {},0", x + SWEEP);

@@ -2,12 +2,12 @@
 
 use std::ptr;
 
-use pathbuild_path::{Chain, ChainSegment, CutParameters, Helix, Item, Path, Walked};
+use pathbuild_path::{Chain, ChainSegment, CutParameters, Helix, Item, Path, WalkedPath};
 
 use crate::program::Step;
 
 /// About how many moves a path has without what it embeds: never fewer than half of them, saturating.
-pub fn own_moves(path: &Path, walked: &Walked) -> u64 {
+pub fn own_moves(path: &Path, walked: &WalkedPath) -> u64 {
     walked.items.iter().map(|item| moves(path, walked, item)).fold(0, u64::saturating_add)
 }
 
@@ -16,7 +16,7 @@ pub fn memory(moves: u64) -> u64 {
     moves.saturating_mul(2 * size_of::<Step>() as u64)
 }
 
-fn moves(path: &Path, walked: &Walked, item: &Item) -> u64 {
+fn moves(path: &Path, walked: &WalkedPath, item: &Item) -> u64 {
     match item {
         Item::Chain(chain) => chain_moves(path, chain, walked.members(chain)),
         Item::Helix { helix, .. } => helix_moves(path, &path.helices[*helix as usize]),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_path::approx::{at_least, coincide, is_nothing, near};
 use pathbuild_path::{
     ElementClass, Hole, Item, Letter, Origin, Path, PathOptions, PathRole, PlacedSubpath, Placement,
-    SegmentKind, Sweep, Walked, Xy, fallback,
+    SegmentKind, Sweep, WalkedPath, Xy, fallback,
 };
 
 use crate::probes;
@@ -23,7 +23,7 @@ pub trait Parts {
     fn path(&self, id: Self::Id) -> &Path;
 
     /// What is done along it.
-    fn walked(&self, id: Self::Id) -> &Walked;
+    fn walked(&self, id: Self::Id) -> &WalkedPath;
 
     /// What a subpath segment of it (an index into [`Path::segments`]) embeds.
     fn embedded(&self, id: Self::Id, segment: usize) -> Option<Self::Id>;

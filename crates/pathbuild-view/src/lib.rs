@@ -24,12 +24,13 @@ pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 #[cfg(feature = "pictures")]
 pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
-    Arc, Bar, Element, ElementKind, Embedded, Example, Finding, KeepOut, Label, Move, MoveKind, NativeText,
-    OtherShape, Parameter, Point, ProbeMark, SCHEMA, Said, Scene, ScenePath, Shape, Totals, VERSION,
+    Arc, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, KeepOut, Label, Move,
+    MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA, Scene, ScenePath, Shape, Totals,
+    VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;
 pub use svg::{
-    Picture, Sheet, SheetProbe, SheetTool, Shown, Spot, changes_svg, cutout_svg, escaped, sheet_html,
+    Picture, Sheet, SheetProbe, SheetTool, Spot, VisibleParts, changes_svg, cutout_svg, escaped, sheet_html,
     sheet_pages, sheet_svg, svg,
 };

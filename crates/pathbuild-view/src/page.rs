@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::Lang;
 
 use crate::scene::Scene;
-use crate::svg::{Shown, escaped, svg};
+use crate::svg::{VisibleParts, escaped, svg};
 
 const TEMPLATE: &str = include_str!("../page/page.html");
 const LIVE_TEMPLATE: &str = include_str!("../page/live.html");
@@ -21,7 +21,7 @@ pub const LIVE_STYLE: &str = concat!(include_str!("../page/style.css"), include_
 pub fn page(scene: &Scene, lang: Lang) -> String {
     let title = escaped(&scene.title);
     // Other elements of the page have the same names.
-    let still = svg(scene, Shown::all(lang))
+    let still = svg(scene, VisibleParts::all(lang))
         .replace(" id=\"", " id=\"still-")
         .replace("=\"url(#frame)", "=\"url(#still-frame)");
     // Inside a script element, only `<` could end the script.

@@ -9,7 +9,7 @@ use usvg::{Options, Tree};
 
 use crate::pages;
 use crate::scene::Scene;
-use crate::svg::{Sheet, Shown, sheet_pages, svg, xmp};
+use crate::svg::{Sheet, VisibleParts, sheet_pages, svg, xmp};
 
 /// A subset of `DejaVu Sans` with the characters that pictures need.
 const FONT: &[u8] = include_bytes!("../fonts/DejaVuSans-subset.ttf");
@@ -34,7 +34,7 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
 ///
 /// # Errors
 /// The picture is too large for memory, or there is a bug.
-pub fn png(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
+pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let size = tree.size().to_int_size().scale_by(PIXELS).ok_or("the picture has no size")?;
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the picture is too large")?;
@@ -46,7 +46,7 @@ pub fn png(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
 ///
 /// # Errors
 /// Only if there is a bug.
-pub fn pdf(scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
+pub fn pdf(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, String> {
     let tree = tree(&svg(scene, shown))?;
     let pdf = svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), svg2pdf::PageOptions::default());
     pdf.map(|pdf| pages::in_order(&pdf)).map_err(|error| error.to_string())

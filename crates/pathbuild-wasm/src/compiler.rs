@@ -6,13 +6,13 @@ use serde_json::json;
 
 use crate::files::Files;
 use crate::message::{Answer, Question};
-use crate::opened::Opened;
+use crate::opened::OpenedFiles;
 
 /// Answers the messages of a page.
 #[derive(Debug, Default)]
 pub struct Compiler {
     files: Arc<Files>,
-    opened: Option<Opened>,
+    opened: Option<OpenedFiles>,
 }
 
 impl Compiler {
@@ -34,7 +34,7 @@ impl Compiler {
                 return Answer::default();
             }
             Question::Open { options, lost } => {
-                let (opened, answer) = Opened::new(&self.files, options, lost);
+                let (opened, answer) = OpenedFiles::new(&self.files, options, lost);
                 self.opened = opened;
                 return answer.into();
             }

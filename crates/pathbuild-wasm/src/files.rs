@@ -5,7 +5,7 @@ use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{FileKind, Listing, MemorySystem, ReadError, Written};
+use pathbuild_db::system::{FileKind, Listing, MemorySystem, ReadError, WriteOutcome};
 use pathbuild_diagnostic::Value;
 
 #[derive(Debug)]
@@ -63,9 +63,9 @@ impl System for Files {
         path.to_owned()
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         if self.read(path, u64::MAX).is_ok_and(|present| present == bytes) {
-            return Ok(Written::Unchanged);
+            return Ok(WriteOutcome::Unchanged);
         }
         self.written.write(path, bytes)
     }

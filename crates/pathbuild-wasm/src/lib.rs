@@ -14,4 +14,4 @@ mod message;
 mod opened;
 
 pub use compiler::Compiler;
-pub use message::{Lost, Options, Question, Why};
+pub use message::{LossReason, LostPath, Options, Question};

@@ -20,7 +20,7 @@ pub enum Question {
         options: Options,
         /// Paths and drawings that ended earlier instances.
         #[serde(default)]
-        lost: Vec<Lost>,
+        lost: Vec<LostPath>,
     },
     /// The paths of a drawing, without their states: `{ rows }`. A drawing with an error of its own has a row without a path.
     Index {
@@ -81,19 +81,19 @@ pub enum Language {
 
 /// A path or drawing that ended the compiler.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Lost {
+pub struct LostPath {
     /// Which one.
     #[serde(flatten)]
     pub place: Place,
     /// Why.
     #[serde(flatten)]
-    pub why: Why,
+    pub why: LossReason,
 }
 
 /// The reason why the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "why", rename_all = "kebab-case")]
-pub enum Why {
+pub enum LossReason {
     /// It took too long: PB005.
     Time,
     /// It showed a bug: PB006.

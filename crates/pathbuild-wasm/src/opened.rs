@@ -12,7 +12,7 @@ use pathbuild_db::{
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use pathbuild_post::BUILT_IN;
-use pathbuild_view::{Scene, Shown};
+use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Configured, Owners};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
@@ -22,11 +22,11 @@ use pathbuild_workspace::{Inputs, Silent, Workspace};
 use serde_json::{Value, json};
 
 use crate::files::Files;
-use crate::message::{Answer, Lost, Options, Place, Question, Why};
+use crate::message::{Answer, LossReason, LostPath, Options, Place, Question};
 
 /// The files opened with one configuration.
 #[derive(Debug)]
-pub(crate) struct Opened {
+pub(crate) struct OpenedFiles {
     files: Arc<Files>,
     session: Session<'static>,
     poster: Option<PostProcessor>,
@@ -34,9 +34,9 @@ pub(crate) struct Opened {
     rows: BTreeMap<Place, Row>,
 }
 
-impl Opened {
+impl OpenedFiles {
     /// Opens the files if the configuration and its post are valid. Also returns the answer with any problems.
-    pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<Lost>) -> (Option<Self>, Value) {
+    pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<LostPath>) -> (Option<Self>, Value) {
         let system: Arc<dyn System> = Arc::<Files>::clone(files);
         let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;
         let texts =
@@ -82,10 +82,10 @@ impl Opened {
             "seconds": limit.as_secs_f64(),
         });
         let problem = |why| match why {
-            Why::Time => too_slow(limit),
-            Why::Bug { reason } => bug(&reason),
+            LossReason::Time => too_slow(limit),
+            LossReason::Bug { reason } => bug(&reason),
         };
-        let lost = lost.into_iter().map(|Lost { place, why }| (place, problem(why))).collect();
+        let lost = lost.into_iter().map(|LostPath { place, why }| (place, problem(why))).collect();
         (Some(Self { files: Arc::clone(files), session, poster, lost, rows: BTreeMap::new() }), answer)
     }
 
@@ -101,7 +101,8 @@ impl Opened {
             }
             Question::Picture(place) => {
                 let lang = self.session.workspace().lang();
-                let svg = self.scene(&place).map(|scene| pathbuild_view::svg(&scene, Shown::all(lang)));
+                let svg =
+                    self.scene(&place).map(|scene| pathbuild_view::svg(&scene, VisibleParts::all(lang)));
                 seen(svg.map(String::into_bytes))
             }
             Question::Emit { places } => self.emit(&places),

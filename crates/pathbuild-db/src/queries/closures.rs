@@ -27,7 +27,7 @@ pub struct Closure<'db> {
     /// The target's path with its values; `None` if the file has no such path.
     pub root: Option<Instance<'db>>,
     /// Every path, in the order in which it is first reached.
-    pub reached: Vec<Reached<'db>>,
+    pub reached: Vec<ReachedPath<'db>>,
     /// Diagnostics of all these paths, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
     /// Estimated number of moves in the program.
@@ -57,7 +57,7 @@ impl MissingOption {
 
 /// A path that a target reaches.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
-pub struct Reached<'db> {
+pub struct ReachedPath<'db> {
     /// The path with its values.
     pub instance: Instance<'db>,
     /// The smallest depth below the target at which it is reached.
@@ -71,7 +71,7 @@ const DEEPEST: u32 = 10;
 #[salsa::tracked]
 pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     let Some((root, missing)) = root(db, target) else { return Closure::default() };
-    if let Some(closure) = lone(db, target, root) {
+    if let Some(closure) = closure_without_embeddings(db, target, root) {
         return closure;
     }
     let mut walk = Walk::new(db, target.role(db));
@@ -79,7 +79,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
         walk.visit(root, 0);
         walk.count(root);
     } else {
-        walk.reached.push(Reached { instance: root, depth: 0 });
+        walk.reached.push(ReachedPath { instance: root, depth: 0 });
         walk.report_all(root, &missing);
     }
     Closure {
@@ -92,13 +92,17 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
 }
 
 /// The closure of a checked path without embeddings and findings, which is by far the most common case.
-fn lone<'db>(db: &'db dyn Db, target: Target, root: Instance<'db>) -> Option<Closure<'db>> {
+fn closure_without_embeddings<'db>(
+    db: &'db dyn Db,
+    target: Target,
+    root: Instance<'db>,
+) -> Option<Closure<'db>> {
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
-    let has_raised = own.signature.as_ref().is_some_and(|it| !it.raised_probes.is_empty());
+    let has_raised = own.signature.as_ref().is_some_and(|signature| !signature.raised_probes.is_empty());
     let is_plain = own.is_clean() && keep_out_problems(db, target.file(db)).is_empty();
     let is_lone = *target.role(db) == Role::Checked && is_plain && !own.has_subpaths() && !has_raised;
-    let is_within = too_much(own.moves, limits).is_none() && limits.paths > 0;
-    let reached = vec![Reached { instance: root, depth: 0 }];
+    let is_within = size_limit_problem(own.moves, limits).is_none() && limits.paths > 0;
+    let reached = vec![ReachedPath { instance: root, depth: 0 }];
     let closure = || Closure { root: Some(root), reached, moves: own.moves, ..Closure::default() };
     (is_lone && is_within).then(closure)
 }
@@ -141,7 +145,7 @@ struct Walk<'db> {
     options: PathOptions,
     missing_options: Vec<MissingOption>,
     limits: Limits,
-    reached: Vec<Reached<'db>>,
+    reached: Vec<ReachedPath<'db>>,
     diagnostics: Vec<Diagnostic>,
     /// Indices of the diagnostics reported so far, by hash of their identity.
     known: FxHashMap<u64, Vec<usize>>,
@@ -190,7 +194,7 @@ impl<'db> Walk<'db> {
         }
         self.db.unwind_if_revision_cancelled();
         if self.seen.insert(instance) {
-            self.reached.push(Reached { instance, depth });
+            self.reached.push(ReachedPath { instance, depth });
         }
         if self.is_crowded(instance) {
             return true;
@@ -403,7 +407,7 @@ impl<'db> Walk<'db> {
             return;
         }
         self.moves = self.moves_of(root, &mut FxHashMap::default());
-        if let Some(problem) = too_much(self.moves, self.limits) {
+        if let Some(problem) = size_limit_problem(self.moves, self.limits) {
             self.report_limit(root, problem);
         }
     }
@@ -431,7 +435,7 @@ impl<'db> Walk<'db> {
 }
 
 /// PB005 if a program of this many moves would be too long or take too much memory.
-fn too_much(count: u64, limits: Limits) -> Option<Diagnostic> {
+fn size_limit_problem(count: u64, limits: Limits) -> Option<Diagnostic> {
     let size = memory(count);
     let problem = if count > limits.moves {
         Diagnostic::new(&files::TOO_MANY_MOVES).with("key", "embedding-moves").with("limit", limits.moves)

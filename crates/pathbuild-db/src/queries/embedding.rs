@@ -6,7 +6,7 @@ use pathbuild_path::{Judge, Origin, PathName, PathSignature, SpeltName, SubpathC
 
 use super::index::{NameKey, file_index, path_index};
 use super::instance::{Instance, summary};
-use super::lookup::{Resolved, find_path, own_directory, search_path};
+use super::lookup::{ResolvedPath, find_path, own_directory, search_path};
 use crate::db::Db;
 use crate::inputs::SourceFile;
 use crate::settings::Settings;
@@ -103,9 +103,10 @@ impl<'db> Embedder<'db> {
         }
     }
 
-    fn not_found(&self, call: &SubpathCall, name: &PathName, resolved: &Resolved) -> Diagnostic {
+    fn not_found(&self, call: &SubpathCall, name: &PathName, resolved: &ResolvedPath) -> Diagnostic {
         let directories = search_path(self.db, own_directory(self.db, self.file)).iter();
-        let directories: Value = directories.map(|it| shown(it.path(self.db).as_str())).collect();
+        let directories: Value =
+            directories.map(|directory| shown(directory.path(self.db).as_str())).collect();
         let files: Value = resolved.searched.iter().map(|file| file.path(self.db).as_str()).collect();
         let known = resolved.searched.iter().flat_map(|file| file_index(self.db, *file).names());
         self.judge.not_found(call, name, directories, files, known.cloned().collect())

@@ -1,8 +1,8 @@
 //! Paths with bound variables.
 
-use pathbuild_path::{Bindings, Walked};
+use pathbuild_path::{Bindings, WalkedPath};
 
-use super::binding::{BoundPath, bind, walk_in_time};
+use super::binding::{BoundPath, bind, walk_within_limit};
 use super::index::{NameKey, path_index};
 use super::nearby_ends::LayerEnds;
 use super::raw::raw_path;
@@ -52,7 +52,7 @@ pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
 
 /// The walk along a path, for its program. Empty for an unsound path. Few are kept.
 #[salsa::tracked(lru = 256)]
-pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Walked {
+pub fn chains<'db>(db: &'db dyn Db, instance: Instance<'db>) -> WalkedPath {
     let language = Settings::get(db).language(db);
-    path(db, instance).path.as_ref().map(|path| walk_in_time(db, path, language)).unwrap_or_default()
+    path(db, instance).path.as_ref().map(|path| walk_within_limit(db, path, language)).unwrap_or_default()
 }

@@ -11,7 +11,7 @@ use rustc_hash::FxHashSet;
 
 use super::closures::closure;
 use super::index::file_index;
-use super::views::{Traced, traced_program};
+use super::views::{TracedProgram, traced_program};
 use crate::db::Db;
 use crate::inputs::{SourceFile, Target};
 use crate::settings::Settings;
@@ -55,7 +55,7 @@ pub fn placed_keep_outs(db: &dyn Db, target: Target) -> Vec<PlacedKeepOut> {
 }
 
 /// The program of a target, if its drawings have clamps.
-fn with_keep_outs(db: &dyn Db, target: Target) -> Option<&Traced> {
+fn with_keep_outs(db: &dyn Db, target: Target) -> Option<&TracedProgram> {
     if has_keep_outs(db, target) { traced_program(db, target).as_deref() } else { None }
 }
 
@@ -65,7 +65,7 @@ fn has_keep_outs(db: &dyn Db, target: Target) -> bool {
         && closure(db, target).files(db).into_iter().any(has_some)
 }
 
-fn placed(db: &dyn Db, traced: &Traced) -> Vec<PlacedKeepOut> {
+fn placed(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKeepOut> {
     let mut known = FxHashSet::default();
     let mut all = Vec::new();
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
@@ -95,7 +95,7 @@ fn moves_into_keep_outs(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
 /// Searches a program for moves that hit clamps.
 struct Search<'t> {
     db: &'t dyn Db,
-    traced: &'t Traced,
+    traced: &'t TracedProgram,
     clamps: Vec<PlacedKeepOut>,
 }
 
@@ -118,12 +118,12 @@ struct Extent {
 }
 
 impl<'t> Search<'t> {
-    fn new(db: &'t dyn Db, traced: &'t Traced) -> Self {
+    fn new(db: &'t dyn Db, traced: &'t TracedProgram) -> Self {
         Self { db, traced, clamps: placed(db, traced) }
     }
 
     fn findings(&self) -> Vec<Diagnostic> {
-        let Traced { program, trace, .. } = self.traced;
+        let TracedProgram { program, trace, .. } = self.traced;
         let map =
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
@@ -161,7 +161,7 @@ impl<'t> Search<'t> {
     }
 
     fn finding(&self, entry: &Entry, extent: &Extent) -> Diagnostic {
-        let Traced { program, trace, parts } = self.traced;
+        let TracedProgram { program, trace, parts } = self.traced;
         let around = &trace.occurrences[entry.occurrence as usize];
         let (part, clamp) = (&parts[around.id], &self.clamps[entry.clamp]);
         let found = Diagnostic::new(&messages::MOVES_INTO_CLAMP)
@@ -177,11 +177,11 @@ impl<'t> Search<'t> {
         let element = entry.element.and_then(|element| part.path.drawn.elements.get(element as usize));
         let origin =
             element.map_or(part.path.start_origin.clone(), |element| part.path.drawn.origin(element));
-        Diagnostic { trace: self.way_to(entry.occurrence), ..origin.at(found) }
+        Diagnostic { trace: self.embeddings_leading_to(entry.occurrence), ..origin.at(found) }
     }
 
     /// The embeddings that lead to a path, outermost first.
-    fn way_to(&self, occurrence: u32) -> Vec<TraceStep> {
+    fn embeddings_leading_to(&self, occurrence: u32) -> Vec<TraceStep> {
         let step = |inner: u32| {
             let Drawn { occurrence, element } = self.parent(inner)?;
             let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];

@@ -13,7 +13,7 @@ use crate::settings::Settings;
 
 /// The result of looking for a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Resolved {
+pub struct ResolvedPath {
     /// The files that define it. Exactly one is right; none and several are errors.
     pub files: Vec<SourceFile>,
     /// The files whose names admit the path.
@@ -23,7 +23,11 @@ pub struct Resolved {
 }
 
 /// Looks for a path that a drawing refers to, in its own directory and the search directories. `None` if the drawing itself defines it.
-pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'db>) -> Option<&'db Resolved> {
+pub(super) fn find_path<'db>(
+    db: &'db dyn Db,
+    from: SourceFile,
+    name: NameKey<'db>,
+) -> Option<&'db ResolvedPath> {
     if path_index(db, from, name).is_some() {
         return None;
     }
@@ -32,9 +36,10 @@ pub(super) fn find_path<'db>(db: &'db dyn Db, from: SourceFile, name: NameKey<'d
 
 /// Looks for a path that drawings in a directory refer to. Unaffected by files whose names do not admit it.
 #[salsa::tracked]
-pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> Resolved {
+pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> ResolvedPath {
     let directories = search_path(db, directory);
-    let searched = distinct(directories.iter().flat_map(|it| files_for(db, *it, name.folded(db))));
+    let searched =
+        distinct(directories.iter().flat_map(|directory| files_for(db, *directory, name.folded(db))));
     let defines = |file: &&SourceFile| path_index(db, **file, name).is_some();
     let mut files: Vec<SourceFile> = searched.iter().filter(defines).copied().collect();
     if files.len() > 1 {
@@ -43,7 +48,7 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
         files.retain(|file| seen.insert(db.system().canonical(file.path(db))));
     }
     let unlisted = directories.iter().filter_map(|directory| unlisted(db, *directory)).collect();
-    Resolved { files, searched, unlisted }
+    ResolvedPath { files, searched, unlisted }
 }
 
 /// The directories to search for paths that drawings in a directory refer to, starting with that directory.

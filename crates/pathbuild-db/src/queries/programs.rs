@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_path::{Path, Walked};
+use pathbuild_path::{Path, WalkedPath};
 use pathbuild_toolpath::{Parts, Program, fold};
 
 use super::closures::closure;
@@ -23,23 +23,24 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
-    let program = fold(&Embedded { db }, closure.root?, drawing, Settings::get(db).fold(db), closure.moves);
+    let program =
+        fold(&ClosurePaths { db }, closure.root?, drawing, Settings::get(db).fold(db), closure.moves);
     Some(Arc::new(program))
 }
 
 /// Gives the fold access to the paths of a closure without errors.
-pub(super) struct Embedded<'db> {
+pub(super) struct ClosurePaths<'db> {
     pub(super) db: &'db dyn Db,
 }
 
-impl<'db> Parts for Embedded<'db> {
+impl<'db> Parts for ClosurePaths<'db> {
     type Id = Instance<'db>;
 
     fn path(&self, id: Instance<'db>) -> &Path {
         path(self.db, id).path.as_ref().expect("a path of a closure without errors is bound")
     }
 
-    fn walked(&self, id: Instance<'db>) -> &Walked {
+    fn walked(&self, id: Instance<'db>) -> &WalkedPath {
         chains(self.db, id)
     }
 

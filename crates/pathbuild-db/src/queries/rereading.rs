@@ -23,7 +23,7 @@ pub(super) fn read_again<R>(
     match result {
         Ok(Some(result)) => Some(result),
         Err(_) if indexed.is_none() => None,
-        Ok(None) | Err(_) => drift::give_up(db, file),
+        Ok(None) | Err(_) => drift::abandon_query(db, file),
     }
 }
 

@@ -37,7 +37,7 @@ impl PathSummary {
         let Some(path) = path else { return Self { problems, ..Self::default() } };
         let walked = walk(db, &path, language);
         if let Some(end) = walked.open_end {
-            say_where_it_ends(&mut problems, end);
+            add_path_end(&mut problems, end);
         }
         let signature = PathSignature::of(&path);
         let moves = if path.has_faults() { 0 } else { own_moves(&path, &walked) };
@@ -77,7 +77,7 @@ impl PathSummary {
 }
 
 /// Adds to PB102 where the path ends.
-fn say_where_it_ends(problems: &mut [Diagnostic], end: Xy) {
+fn add_path_end(problems: &mut [Diagnostic], end: Xy) {
     for problem in problems.iter_mut().filter(|problem| problem.code() == Code::MissingEnd) {
         let note = Note {
             message: &messages::ENDS_HERE,

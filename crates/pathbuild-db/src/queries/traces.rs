@@ -32,7 +32,7 @@ pub struct NameLookup {
 /// The trace of a target. An edit outside of it cannot change the target's results.
 #[salsa::tracked]
 pub fn trace(db: &dyn Db, target: Target) -> Trace {
-    let (mut files, mut lookups) = (Distinct::default(), Distinct::default());
+    let (mut files, mut lookups) = (UniqueList::default(), UniqueList::default());
     files.push(target.file(db));
     for reached in &closure(db, target).reached {
         let from = reached.instance.file(db);
@@ -40,7 +40,8 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
         for name in embeds(db, reached.instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
             let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
             resolved.searched.iter().for_each(|file| files.push(*file));
-            let directories = search_path(db, own_directory(db, from)).iter().map(|it| it.path(db).clone());
+            let directories =
+                search_path(db, own_directory(db, from)).iter().map(|directory| directory.path(db).clone());
             lookups.push(NameLookup { name: (**name).clone(), directories: directories.collect() });
         }
     }
@@ -48,12 +49,12 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
 }
 
 /// A list without duplicates.
-struct Distinct<T> {
+struct UniqueList<T> {
     all: Vec<T>,
     seen: FxHashSet<T>,
 }
 
-impl<T: Clone + Eq + std::hash::Hash> Distinct<T> {
+impl<T: Clone + Eq + std::hash::Hash> UniqueList<T> {
     fn push(&mut self, one: T) {
         if self.seen.insert(one.clone()) {
             self.all.push(one);
@@ -61,7 +62,7 @@ impl<T: Clone + Eq + std::hash::Hash> Distinct<T> {
     }
 }
 
-impl<T> Default for Distinct<T> {
+impl<T> Default for UniqueList<T> {
     fn default() -> Self {
         Self { all: Vec::new(), seen: FxHashSet::default() }
     }

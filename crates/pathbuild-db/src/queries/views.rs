@@ -3,13 +3,15 @@
 use std::sync::Arc;
 
 use pathbuild_dxf::Drawing;
-use pathbuild_path::{Bindings, InForce, Path, PathName, PathRole, RawPath, SourceMap, parameters_in_force};
+use pathbuild_path::{
+    Bindings, ElementParameters, Path, PathName, PathRole, RawPath, SourceMap, parameters_in_force,
+};
 use pathbuild_toolpath::{Occurrence, Program, Trace, fold_traced};
 use rustc_hash::FxHashMap;
 
 use super::closures::closure;
 use super::instance::{Instance, path};
-use super::programs::Embedded;
+use super::programs::ClosurePaths;
 use super::raw::raw_file;
 use super::rereading::read_layers;
 use crate::db::Db;
@@ -18,10 +20,10 @@ use crate::settings::Settings;
 
 /// A program with the origin of each step.
 #[derive(Debug)]
-pub struct Traced {
+pub struct TracedProgram {
     /// The same program as that of [`program`](super::program) for emitted targets. Checked targets use the sweep height of a check.
     pub program: Program,
-    /// Its paths are indices into [`Traced::parts`].
+    /// Its paths are indices into [`TracedProgram::parts`].
     pub trace: Trace<usize>,
     /// The paths in the program with their values, each once.
     pub parts: Vec<Part>,
@@ -49,7 +51,7 @@ pub struct DrawnPath<'db> {
 
 /// The program of a target with the origins of its steps; `None` if there is no program. Only the last one is kept.
 #[salsa::tracked(no_eq, lru = 1)]
-pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
+pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>> {
     let closure = closure(db, target);
     if closure.has_errors() || !closure.missing_options.is_empty() {
         return None;
@@ -62,7 +64,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
         // The sweep height of a check.
         options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
     }
-    let (program, trace) = fold_traced(&Embedded { db }, root, drawing, options);
+    let (program, trace) = fold_traced(&ClosurePaths { db }, root, drawing, options);
     let mut instances: Vec<Instance<'_>> = Vec::new();
     let mut numbers: FxHashMap<Instance<'_>, usize> = FxHashMap::default();
     let occurrences = trace.occurrences.into_iter().map(|occurrence| {
@@ -79,7 +81,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<Traced>> {
         Some(Part { file: instance.file(db), path, bindings: instance.bindings(db).clone() })
     };
     let parts = instances.into_iter().map(part).collect::<Option<Vec<_>>>()?;
-    Some(Arc::new(Traced { program, trace, parts }))
+    Some(Arc::new(TracedProgram { program, trace, parts }))
 }
 
 /// A path as it is drawn; `None` if the drawing has no path of that name.
@@ -96,7 +98,7 @@ pub fn in_force(
     name: &PathName,
     bindings: &Bindings,
     is_emitted: bool,
-) -> Vec<InForce> {
+) -> Vec<ElementParameters> {
     let settings = Settings::get(db);
     let options = settings.fold(db);
     let is_emitted = is_emitted && bindings.is_empty() && options.sweep_height.is_some();

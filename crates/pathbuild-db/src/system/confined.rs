@@ -11,13 +11,13 @@ use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::LEADS_OUT;
 
-use super::{Entry, FileKind, Listing, ReadError, System, Written, clean};
+use super::{Entry, FileKind, Listing, ReadError, System, WriteOutcome, clean};
 
 /// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A
-/// path that is spelt outside of them is allowed: names from the repository itself are checked with [`Confined::holds`] first, so such a
+/// path that is spelt outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so such a
 /// path was given by the user.
 #[derive(Clone, Debug)]
-pub struct Confined {
+pub struct ConfinedSystem {
     below: Arc<dyn System>,
     /// Base of relative paths.
     working_directory: Utf8PathBuf,
@@ -32,7 +32,7 @@ struct Root {
     real: Utf8PathBuf,
 }
 
-impl Confined {
+impl ConfinedSystem {
     /// A system confined to a directory.
     pub fn new(below: Arc<dyn System>, root: &Utf8Path, working_directory: &Utf8Path) -> Self {
         let confined = Self { below, working_directory: working_directory.to_owned(), roots: Vec::new() };
@@ -87,15 +87,15 @@ impl Confined {
 
     fn leads_into(&self, path: &Utf8Path, root: &Root) -> bool {
         // A link that cannot be resolved may lead anywhere.
-        self.real(path).is_none_or(|real| real.is_ok_and(|it| it.starts_with(&root.real)))
+        self.real(path).is_none_or(|real| real.is_ok_and(|target| target.starts_with(&root.real)))
     }
 
     /// The path with links resolved; if it does not exist yet, that of the nearest existing parent directory.
     fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
-        let there = ancestors.find(|path| self.below.kind(path) != FileKind::Missing)?;
-        Some(there.canonicalize_utf8())
+        let existing = ancestors.find(|path| self.below.kind(path) != FileKind::Missing)?;
+        Some(existing.canonicalize_utf8())
     }
 
     /// Whether a path may be read or written because it does not lead from inside to outside.
@@ -114,7 +114,7 @@ impl Confined {
     }
 }
 
-impl System for Confined {
+impl System for ConfinedSystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
         self.allowed(path)?.read(path, limit)
     }
@@ -169,7 +169,7 @@ impl System for Confined {
         self.below.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         self.changeable(path)?.write(path, bytes)
     }
 

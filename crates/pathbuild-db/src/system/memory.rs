@@ -8,7 +8,7 @@ use std::time::{Instant, SystemTime};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
 
-use super::{FileKind, Listing, ReadError, System, Written};
+use super::{FileKind, Listing, ReadError, System, WriteOutcome};
 
 /// Files by path. A directory exists as long as it contains a file.
 #[derive(Debug, Default)]
@@ -78,9 +78,9 @@ impl System for MemorySystem {
         path.to_owned()
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         let before = self.files().insert(path.to_owned(), bytes.to_vec());
-        Ok(if before.as_deref() == Some(bytes) { Written::Unchanged } else { Written::Changed })
+        Ok(if before.as_deref() == Some(bytes) { WriteOutcome::Unchanged } else { WriteOutcome::Changed })
     }
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Value> {

@@ -17,12 +17,12 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 
-pub use confined::Confined;
+pub use confined::ConfinedSystem;
 pub use listing::{Entry, EntryKind, Listing, Names};
 pub use memory::MemorySystem;
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
-pub use overlay::Overlay;
+pub use overlay::OverlaySystem;
 pub use spelling::{clean, join, spelt};
 
 /// Reading, listing and writing files.
@@ -121,7 +121,7 @@ pub trait System: Debug + Send + Sync {
     ///
     /// # Errors
     /// The reason why it cannot be written. In that case the path is left as it was.
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value>;
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value>;
 
     /// Removes a file, if it exists.
     ///
@@ -147,7 +147,7 @@ pub enum FileKind {
 /// The result of writing a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub enum Written {
+pub enum WriteOutcome {
     Changed,
     Unchanged,
 }

@@ -7,17 +7,17 @@ use std::time::{Instant, SystemTime};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
 
-use super::{Entry, FileKind, Listing, ReadError, System, Written};
+use super::{Entry, FileKind, Listing, ReadError, System, WriteOutcome};
 
 /// Another system with one file replaced. Only reads see the replacement.
 #[derive(Debug)]
-pub struct Overlay {
+pub struct OverlaySystem {
     below: Arc<dyn System>,
     path: Utf8PathBuf,
     bytes: Vec<u8>,
 }
 
-impl Overlay {
+impl OverlaySystem {
     /// Overlays a file with these bytes. The path must be normalised.
     pub fn new(below: Arc<dyn System>, path: Utf8PathBuf, bytes: Vec<u8>) -> Self {
         Self { below, path, bytes }
@@ -28,7 +28,7 @@ impl Overlay {
     }
 }
 
-impl System for Overlay {
+impl System for OverlaySystem {
     fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
         let size = self.bytes.len() as u64;
         match path == self.path {
@@ -91,7 +91,7 @@ impl System for Overlay {
         self.below.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         self.below.write(path, bytes)
     }
 

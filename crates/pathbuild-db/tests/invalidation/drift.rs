@@ -19,7 +19,7 @@ fn settled(world: &mut World, role: &Role) -> (Vec<String>, bool, u32) {
             let codes = located.map(|found| found.code().to_string()).collect::<Vec<_>>();
             (codes, program(db, target).is_some())
         });
-        let has_changes = world.db.take_over_changes();
+        let has_changes = world.db.apply_noted_changes();
         assert_eq!(found.is_err(), has_changes, "{found:?}");
         if let Ok((codes, is_made)) = found {
             return (codes, is_made, rounds);
@@ -50,7 +50,7 @@ fn a_drawing_that_went_or_came_has_changed_too() {
     assert_eq!(world.judge("path", FILE, "1111.1P", Role::Checked), ["PB203"]);
     world.remove_unnoticed(FILE);
     assert_eq!(settled(&mut world, &Role::Checked), (Vec::new(), false, 2));
-    assert!(!world.db.take_over_changes());
+    assert!(!world.db.apply_noted_changes());
     world.put_unnoticed(FILE, &component("1111.1P", "9"));
     // The drawing is read only once, so nothing can differ.
     assert_eq!(settled(&mut world, &Role::Checked), (Vec::new(), false, 1));

@@ -56,7 +56,7 @@ fn a_listing_that_never_runs_keeps_nobody_waiting() {
 fn names_that_change_before_they_are_wanted_are_listed_again() {
     let mut world = world();
     world.db.list_ahead("lib".into()).run();
-    world.db.know_names("parts".into(), ["1111.1P.dxf"].into_iter().collect());
+    world.db.provide_names("parts".into(), ["1111.1P.dxf"].into_iter().collect());
     world.remove("lib/2000-2999.dxf");
     world.ask("project", PROJECT, "8001.1P");
     assert_eq!(world.codes("project"), ["PB503"]);
@@ -66,7 +66,7 @@ fn names_that_change_before_they_are_wanted_are_listed_again() {
 #[test]
 fn names_that_are_known_are_not_listed_until_they_change() {
     let mut world = world();
-    world.db.know_names("lib".into(), ["1111.1P.dxf", "8001.1P.dxf"].into_iter().collect());
+    world.db.provide_names("lib".into(), ["1111.1P.dxf", "8001.1P.dxf"].into_iter().collect());
     world.ask("project", PROJECT, "8001.1P");
     assert_eq!(world.codes("project"), ["PB503"]);
     world.db.touch_directory("lib".into());

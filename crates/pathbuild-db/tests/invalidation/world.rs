@@ -46,7 +46,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
         keep_out: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
-        doubts: pathbuild_path::Doubts::default(),
+        doubts: pathbuild_path::DoubtThresholds::default(),
         join_tolerance: 0.0,
     };
     let search = search.iter().map(Utf8PathBuf::from).collect();

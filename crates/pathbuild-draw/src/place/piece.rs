@@ -69,8 +69,9 @@ impl ElementPart {
                 let length = line.from.distance(line.to);
                 let unit =
                     if length > 0.0 { (line.to - line.from) * (1.0 / length) } else { Point::new(1.0, 0.0) };
-                let left = Point::new(-unit.y, unit.x);
-                let at = |t: f64, aside: f64| line.from + (line.to - line.from) * t + left * (aside * radius);
+                let normal = Point::new(-unit.y, unit.x);
+                let at =
+                    |t: f64, aside: f64| line.from + (line.to - line.from) * t + normal * (aside * radius);
                 ALONG.iter().flat_map(|t| ASIDE.map(|aside| at(*t, aside))).collect()
             }
         }

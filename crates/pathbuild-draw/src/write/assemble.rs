@@ -1,17 +1,17 @@
 use super::objects::Objects;
 use super::record::{Pair, Record, identify, kind, value};
 use super::tables::{Owners, Tables};
-use super::written::{Written, entity_of};
+use super::written::{CrateOutput, entity_of};
 use super::{header, tidy};
 use crate::model::{Entity, Part, Shape, Version};
 use crate::sheet::Sheet;
 
 /// Joins the sections: assigns unique handles and owners, and omits the parts that the options exclude.
-pub(crate) fn assemble<'a>(sheet: &'a Sheet, mut written: Written<'a>) -> Vec<Pair<'a>> {
+pub(crate) fn assemble<'a>(sheet: &'a Sheet, mut written: CrateOutput<'a>) -> Vec<Pair<'a>> {
     let options = sheet.options();
     let is_in = |part: Part| !options.left_out.contains(&part);
     if let Some((template, left_out)) = sheet.template() {
-        template.put_around(&mut written, left_out);
+        template.add_to(&mut written, left_out);
     }
     let objects = Objects::from(sheet.next_handle());
     let mut counter = objects.end()..;

@@ -120,20 +120,20 @@ fn add_blocks(drawing: &mut Drawing, sheet: &Sheet, tickets: &mut Tickets) {
 
 fn crate_entity(entity: &Entity, sheet: &Sheet, drawing: &mut Drawing, tickets: &mut Tickets) -> CrateEntity {
     let version = sheet.options().version;
-    let mut made = CrateEntity::new(entity_type(entity, version, drawing, tickets));
+    let mut converted = CrateEntity::new(entity_type(entity, version, drawing, tickets));
     let layer = entity.layer.as_deref().unwrap_or("0");
-    made.common.layer = tickets.ticket(layer);
+    converted.common.layer = tickets.ticket(layer);
     if let Some(line_type) = &entity.line_type {
-        made.common.line_type_name = tickets.ticket(line_type);
+        converted.common.line_type_name = tickets.ticket(line_type);
     }
     if let Some(colour) = entity.colour {
-        made.common.color = Color::from_index(colour);
+        converted.common.color = Color::from_index(colour);
     }
-    if let (EntityType::LwPolyline(_), Shape::Polyline(polyline)) = (&made.specific, &entity.shape) {
-        made.common.elevation = super::crate_entity::elevation(polyline, entity.orientation);
+    if let (EntityType::LwPolyline(_), Shape::Polyline(polyline)) = (&converted.specific, &entity.shape) {
+        converted.common.elevation = super::crate_entity::elevation(polyline, entity.orientation);
     }
-    made.common.is_in_paper_space = entity.paper;
-    made.common.is_visible = !entity.invisible;
-    made.common.lineweight_enum_value = -1;
-    made
+    converted.common.is_in_paper_space = entity.paper;
+    converted.common.is_visible = !entity.invisible;
+    converted.common.lineweight_enum_value = -1;
+    converted
 }

@@ -23,9 +23,9 @@ pub(crate) fn entity_type(
     let plane = entity.orientation;
     match &entity.shape {
         Shape::Line(line) => {
-            let mut made = CrateLine::new(point(line.from), point(line.to));
-            made.extrusion_direction = normal(plane);
-            EntityType::Line(made)
+            let mut converted = CrateLine::new(point(line.from), point(line.to));
+            converted.extrusion_direction = normal(plane);
+            EntityType::Line(converted)
         }
         Shape::Arc(shape) => EntityType::Arc(arc(shape, plane)),
         Shape::Circle(shape) => EntityType::Circle(circle(shape, plane)),
@@ -80,15 +80,15 @@ fn arc(arc: &Arc, plane: Orientation) -> CrateArc {
     let (start, end) =
         if is_mirrored(plane) { (180.0 - arc.end, 180.0 - arc.start) } else { (arc.start, arc.end) };
     let turn = |angle: f64| if (0.0..=360.0).contains(&angle) { angle } else { angle.rem_euclid(360.0) };
-    let mut made = CrateArc::new(object_point(arc.centre, plane), arc.radius, turn(start), turn(end));
-    made.normal = normal(plane);
-    made
+    let mut converted = CrateArc::new(object_point(arc.centre, plane), arc.radius, turn(start), turn(end));
+    converted.normal = normal(plane);
+    converted
 }
 
 fn circle(circle: &Circle, plane: Orientation) -> CrateCircle {
-    let mut made = CrateCircle::new(object_point(circle.centre, plane), circle.radius);
-    made.normal = normal(plane);
-    made
+    let mut converted = CrateCircle::new(object_point(circle.centre, plane), circle.radius);
+    converted.normal = normal(plane);
+    converted
 }
 
 fn light_polyline(polyline: &Polyline, plane: Orientation) -> LwPolyline {
@@ -110,22 +110,22 @@ fn light_polyline(polyline: &Polyline, plane: Orientation) -> LwPolyline {
 fn heavy_polyline(polyline: &Polyline, plane: Orientation, drawing: &mut Drawing) -> CratePolyline {
     let spatial = polyline.kind == PolylineKind::Spatial;
     let sign = if is_mirrored(plane) { -1.0 } else { 1.0 };
-    let mut made = CratePolyline {
+    let mut converted = CratePolyline {
         contains_vertices: true,
         flags: i32::from(polyline.closed) + if spatial { 8 } else { 0 },
         normal: normal(plane),
         ..Default::default()
     };
     if !spatial {
-        made.location.z = elevation(polyline, plane);
+        converted.location.z = elevation(polyline, plane);
     }
     for vertex in &polyline.vertices {
         let mut corner = CrateVertex::new(object_point(vertex.point, plane));
         corner.bulge = sign * vertex.bulge;
         corner.flags = if spatial { 32 } else { 0 };
-        made.add_vertex(drawing, corner);
+        converted.add_vertex(drawing, corner);
     }
-    made
+    converted
 }
 
 /// Centre and axis are always in world coordinates; seen from below, the parameters run in the opposite direction.
@@ -197,7 +197,7 @@ fn dimension(dimension: &Dimension, tickets: &mut Tickets) -> RotatedDimension {
 
 fn solid(corners: &[Point; 4], plane: Orientation) -> CrateSolid {
     let [a, b, c, d] = corners.map(|corner| object_point(corner, plane));
-    let mut made = CrateSolid::new(a, b, c, d);
-    made.extrusion_direction = normal(plane);
-    made
+    let mut converted = CrateSolid::new(a, b, c, d);
+    converted.extrusion_direction = normal(plane);
+    converted
 }

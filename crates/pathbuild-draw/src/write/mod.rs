@@ -25,7 +25,7 @@ pub use template::Template;
 
 use crate::sheet::Sheet;
 use tickets::Tickets;
-use written::Written;
+use written::CrateOutput;
 
 /// Writes ASCII DXF.
 pub(crate) fn ascii(sheet: &Sheet) -> Vec<u8> {
@@ -42,14 +42,14 @@ fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[record::Pair<'_>]) -> Vec<u8>)
 }
 
 /// Lets the crate write a sheet without its template.
-fn with_written<T>(sheet: &Sheet, next: impl FnOnce(Written<'_>) -> T) -> T {
+fn with_written<T>(sheet: &Sheet, next: impl FnOnce(CrateOutput<'_>) -> T) -> T {
     let mut tickets = Tickets::default();
     let drawing = crate_drawing::drawing(sheet, &mut tickets);
     let mut text = Vec::new();
     // Saving to memory without a thumbnail cannot fail.
     _ = drawing.save(&mut text);
     let text = String::from_utf8_lossy(&text);
-    let mut written = Written::of(&text, &tickets);
+    let mut written = CrateOutput::of(&text, &tickets);
     written.tidy(&sheet.tagged(), sheet.options().version);
     next(written)
 }

@@ -1,6 +1,6 @@
 use super::record::{Pair, Record, drop_codes, kind, value};
 use super::with_written;
-use super::written::Written;
+use super::written::CrateOutput;
 use crate::sheet::Sheet;
 
 /// A frame around a drawing, as written by the crate, without handles: created once and shared by many drawings.
@@ -36,7 +36,7 @@ impl Template {
     }
 
     /// Adds the template to the records of a sheet, without its last `left_out` records.
-    pub(crate) fn put_around<'a>(&'a self, written: &mut Written<'a>, left_out: usize) {
+    pub(crate) fn add_to<'a>(&'a self, written: &mut CrateOutput<'a>, left_out: usize) {
         written.tables.extend(borrowed(&self.tables));
         written.blocks.extend(borrowed(&self.blocks));
         written.entities.splice(0..0, borrowed(&self.early));

@@ -6,7 +6,7 @@ use crate::model::{Entity, Version};
 
 /// The output of the crate, section by section.
 #[derive(Debug, Default)]
-pub(crate) struct Written<'a> {
+pub(crate) struct CrateOutput<'a> {
     /// Header variables: the pair with the name, and the pairs of its value.
     pub(crate) header: Vec<Record<'a>>,
     /// The records of all tables, without their heads.
@@ -15,7 +15,7 @@ pub(crate) struct Written<'a> {
     pub(crate) entities: Vec<Record<'a>>,
 }
 
-impl<'a> Written<'a> {
+impl<'a> CrateOutput<'a> {
     /// Splits the output of the crate and replaces the tickets by their strings.
     pub(crate) fn of(text: &'a str, tickets: &'a Tickets) -> Self {
         let mut written = Self::default();

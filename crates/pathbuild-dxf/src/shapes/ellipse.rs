@@ -6,7 +6,7 @@ use super::is_mirrored;
 use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
 use crate::fields::{BadGroup, Fields};
 use crate::placement::{Placement, is_near};
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 use crate::{Geometry, Point3};
 
 /// An ellipse or elliptical arc.
@@ -23,12 +23,12 @@ pub(crate) struct Ellipse {
 
 impl Ellipse {
     /// Reads an ELLIPSE, whose points are in world coordinates.
-    pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
+    pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         let major = fields.point(11)?;
         let ratio = fields.length(40)?;
         let is_mirrored = is_mirrored(fields)?;
         if major.z != 0.0 {
-            return Err(Trouble::Tilted);
+            return Err(EntityError::Tilted);
         }
         if major.x == 0.0 && major.y == 0.0 {
             let value = fields.get(11).ok_or(BadGroup::Missing { code: 11 })?;

@@ -9,7 +9,7 @@ use crate::Point3;
 use crate::encoding::Decoder;
 use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 
 /// An insertion.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub(crate) struct Insert<'a> {
     /// The block's name as spelt here.
     pub(crate) block: SmolStr,
     /// Its placement. A fault in it matters only if the block holds something wanted.
-    pub(crate) array: Result<Array, Trouble<'a>>,
+    pub(crate) array: Result<Array, EntityError<'a>>,
 }
 
 /// The placement of the copies of a block, computed on demand because most blocks hold nothing wanted.
@@ -42,7 +42,7 @@ struct Steps {
 
 impl<'a> Insert<'a> {
     /// Reads an INSERT.
-    pub(crate) fn read(fields: &Fields<'a>, decoder: &mut Decoder<'_>) -> Result<Self, Trouble<'a>> {
+    pub(crate) fn read(fields: &Fields<'a>, decoder: &mut Decoder<'_>) -> Result<Self, EntityError<'a>> {
         let name = fields.get(2).ok_or(BadGroup::Missing { code: 2 })?;
         let block: SmolStr = decoder.decode(name.bytes, name.line).trim().into();
         let array = Array::read(fields, &block);
@@ -51,14 +51,14 @@ impl<'a> Insert<'a> {
 }
 
 impl Array {
-    fn read<'a>(fields: &Fields<'a>, block: &str) -> Result<Self, Trouble<'a>> {
+    fn read<'a>(fields: &Fields<'a>, block: &str) -> Result<Self, EntityError<'a>> {
         let at = fields.point(10)?;
         let is_mirrored = is_mirrored(fields)?;
         let [x, y, z] = [scale(fields, 41)?, scale(fields, 42)?, scale(fields, 43)?];
         let Some(scaled) = Placement::scaled_by(x, y, z) else {
             let at = object(is_mirrored).point(at);
             let point = Some(Point::new(at.x, at.y));
-            return Err(Trouble::LeftOut { message: &INSERT_SCALED, point, block: Some(block.into()) });
+            return Err(EntityError::LeftOut { message: &INSERT_SCALED, point, block: Some(block.into()) });
         };
         Ok(Self {
             at,

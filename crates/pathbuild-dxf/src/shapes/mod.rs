@@ -12,7 +12,7 @@ use crate::fields::{BadGroup, Fields, Value};
 use crate::number::real;
 use crate::pairs::Pair;
 use crate::placement::Placement;
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 
 pub(crate) use ellipse::Ellipse;
 pub(crate) use insert::Insert;
@@ -22,7 +22,7 @@ pub(crate) use spline::Spline;
 pub(crate) use text::{mtext, text};
 
 /// Whether object coordinates are mirrored: extrusion (0, 0, -1).
-fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, Trouble<'a>> {
+fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, EntityError<'a>> {
     /// Tolerance for the components of a normal that was computed.
     const NOISE: f64 = 1e-9;
     if fields.get(210).is_none() && fields.get(220).is_none() && fields.get(230).is_none() {
@@ -31,13 +31,16 @@ fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, Trouble<'a>> {
     let [x, y] = [fields.number(210)?.unwrap_or(0.0), fields.number(220)?.unwrap_or(0.0)];
     let z = fields.number(230)?.unwrap_or(1.0);
     if z == 0.0 || x.abs().max(y.abs()) > NOISE * z.abs() {
-        return Err(Trouble::Tilted);
+        return Err(EntityError::Tilted);
     }
     Ok(z < 0.0)
 }
 
 /// Maps a shape from object coordinates to those of the space.
-fn from_object_coordinates<'a>(mut geometry: Geometry, fields: &Fields<'a>) -> Result<Geometry, Trouble<'a>> {
+fn from_object_coordinates<'a>(
+    mut geometry: Geometry,
+    fields: &Fields<'a>,
+) -> Result<Geometry, EntityError<'a>> {
     if is_mirrored(fields)? {
         Placement::MIRRORED.apply(&mut geometry);
     }

@@ -5,13 +5,13 @@ use pathbuild_diagnostic::messages::reading::POLYLINE_NOT_FLAT;
 use crate::angle;
 use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 use crate::{Arc, Geometry, Line, Point3};
 
 use super::{is_mirrored, repeated_number};
 
 /// Converts an LWPOLYLINE to lines and arcs.
-pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, Trouble<'a>> {
+pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, EntityError<'a>> {
     let flags = fields.whole(70)?.unwrap_or(0);
     let z = fields.number(38)?.unwrap_or(0.0);
     let mut corners: Vec<Corner> = Vec::new();
@@ -44,10 +44,10 @@ pub(crate) struct OpenPolyline {
 
 impl OpenPolyline {
     /// Starts a POLYLINE.
-    pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
+    pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
         if flags & (THREE_DIMENSIONAL | MESH | POLYFACE) != 0 {
-            return Err(Trouble::left_out(&POLYLINE_NOT_FLAT, fields));
+            return Err(EntityError::left_out(&POLYLINE_NOT_FLAT, fields));
         }
         Ok(Self {
             elevation: fields.number(30)?.unwrap_or(0.0),
@@ -59,7 +59,7 @@ impl OpenPolyline {
     }
 
     /// Adds the next VERTEX. Frame points of a smoothed polyline are not corners.
-    pub(crate) fn vertex<'a>(&mut self, fields: &Fields<'a>) -> Result<(), Trouble<'a>> {
+    pub(crate) fn vertex<'a>(&mut self, fields: &Fields<'a>) -> Result<(), EntityError<'a>> {
         let flags = fields.whole(70)?.unwrap_or(0);
         if self.is_spline_fit && flags & FRAME_POINT != 0 {
             return Ok(());

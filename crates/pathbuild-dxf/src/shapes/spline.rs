@@ -6,7 +6,7 @@ use super::{is_mirrored, repeated_number};
 use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
 use crate::fields::{BadGroup, Fields};
 use crate::placement::{Placement, is_near};
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 use crate::{Geometry, Point3};
 
 /// A B-spline in a plane parallel to the drawing's.
@@ -42,17 +42,17 @@ const HIGHEST_DEGREE: usize = 15;
 
 impl Spline {
     /// Reads a SPLINE, whose points are in world coordinates. One defined by fit points only is left out.
-    pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, Trouble<'a>> {
+    pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         is_mirrored(fields)?;
         let groups = Groups::of(fields)?;
         let z = groups.points.first().and_then(|point| point[2]).unwrap_or(0.0);
         if groups.points.iter().any(|point| point[2].unwrap_or(0.0) != z) {
-            return Err(Trouble::Tilted);
+            return Err(EntityError::Tilted);
         }
         let degree = usize::try_from(fields.whole(71)?.unwrap_or(CUBIC)).unwrap_or(0);
         let spline = Self { degree, points: groups.control_points()?, knots: groups.knots, z };
         if !spline.is_sound() {
-            return Err(Trouble::left_out(&SPLINE_NOT_UNDERSTOOD, fields));
+            return Err(EntityError::left_out(&SPLINE_NOT_UNDERSTOOD, fields));
         }
         Ok(spline)
     }

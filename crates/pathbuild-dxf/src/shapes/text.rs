@@ -7,7 +7,7 @@ use crate::encoding::{Decoder, without_carets};
 use crate::fields::{BadGroup, Fields};
 use crate::mtext::plain_text;
 use crate::placement::opposite;
-use crate::trouble::Trouble;
+use crate::trouble::EntityError;
 use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAlign};
 
 use super::{from_object_coordinates, is_mirrored};
@@ -17,10 +17,10 @@ pub(crate) fn text<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
     longest: usize,
-) -> Result<Geometry, Trouble<'a>> {
+) -> Result<Geometry, EntityError<'a>> {
     let string = fields.get(1).ok_or(BadGroup::Missing { code: 1 })?;
     if string.bytes.len() > longest {
-        return Err(Trouble::TextTooLong);
+        return Err(EntityError::TextTooLong);
     }
     let horizontal = fields.whole(72)?.unwrap_or(0);
     let vertical = fields.whole(73)?.unwrap_or(0);
@@ -44,7 +44,7 @@ pub(crate) fn mtext<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
     options: &Options<'_>,
-) -> Result<Geometry, Trouble<'a>> {
+) -> Result<Geometry, EntityError<'a>> {
     let plain = plain_text(&joined_chunks(fields, decoder, options.max_text)?);
     let attachment = fields.whole(71)?.unwrap_or(1);
     let (horizontal, vertical) = attachment_align(attachment);
@@ -145,11 +145,11 @@ fn joined_chunks<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
     longest: usize,
-) -> Result<Cow<'a, str>, Trouble<'a>> {
+) -> Result<Cow<'a, str>, EntityError<'a>> {
     let chunks = || fields.repeated.iter().map(|pair| pair.value);
     let first = fields.repeated.first().ok_or(BadGroup::Missing { code: 1 })?;
     if fields.is_full() || chunks().map(<[u8]>::len).sum::<usize>() > longest {
-        return Err(Trouble::TextTooLong);
+        return Err(EntityError::TextTooLong);
     }
     if chunks().nth(1).is_none() {
         return Ok(decoder.decode(first.value, first.line));

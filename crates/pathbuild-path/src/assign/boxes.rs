@@ -10,7 +10,7 @@ use crate::geometry::{Curve, Xy};
 use crate::text_circle::TextCircle;
 
 /// A spatial index of the candidates of a layer.
-pub(crate) enum Boxes {
+pub(crate) enum CandidateIndex {
     /// For a few candidates: scanning all of them is faster than building a tree.
     List(List),
     Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
@@ -18,13 +18,13 @@ pub(crate) enum Boxes {
 
 /// The bounding boxes of a few candidates.
 pub(crate) struct List {
-    fours: Vec<Four>,
+    fours: Vec<BoxGroup>,
     count: usize,
 }
 
 /// The left, lower, right and upper sides of four boxes, the last two negated, so that all four boxes are compared at once. Rounded
 /// outwards.
-struct Four([f32x4; 4]);
+struct BoxGroup([f32x4; 4]);
 
 /// The sides of one box, in the same order.
 type Sides = [f32; 4];
@@ -38,13 +38,13 @@ const BITS: usize = u64::BITS as usize;
 /// Margin in mm around each box, so that rounding does not decide which candidates a text touches.
 const SLACK: f64 = 1e-6;
 
-impl Default for Boxes {
+impl Default for CandidateIndex {
     fn default() -> Self {
         Self::new(&[])
     }
 }
 
-impl Boxes {
+impl CandidateIndex {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
         let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
         if candidates.len() <= FEW {
@@ -91,7 +91,7 @@ impl List {
                 *place = next;
                 count += 1;
             }
-            fours.push(Four(std::array::from_fn(|side| f32x4::from(four.map(|sides| sides[side])))));
+            fours.push(BoxGroup(std::array::from_fn(|side| f32x4::from(four.map(|sides| sides[side])))));
         }
         Self { fours, count }
     }
@@ -101,7 +101,7 @@ impl List {
         let mut first = 0;
         for fours in self.fours.chunks(BITS / 4) {
             // First all matches are collected as bits, then processed, since matches are rare and unpredictable for the branch predictor.
-            let found = |Four(sides): &Four| {
+            let found = |BoxGroup(sides): &BoxGroup| {
                 let [left, low, right, high] = std::array::from_fn(|side| sides[side].simd_le(limits[side]));
                 ((left & low) & (right & high)).to_bitmask()
             };

@@ -14,7 +14,7 @@ use crate::geometry::Curve;
 use crate::read::Owner;
 use crate::text_circle::TextCircle;
 
-pub(crate) use boxes::Boxes;
+pub(crate) use boxes::CandidateIndex;
 
 /// An element that a text may belong to.
 pub(crate) struct Candidate {
@@ -31,7 +31,7 @@ pub(crate) struct Candidate {
 }
 
 /// A candidate that a text does not reach, with the distance between them.
-pub(crate) struct Miss {
+pub(crate) struct NearMiss {
     pub(crate) candidate: usize,
     pub(crate) distance: f64,
 }
@@ -46,7 +46,7 @@ enum OverlapKind {
 
 /// The candidate that a text belongs to.
 #[derive(Clone, Copy)]
-pub(crate) struct Found {
+pub(crate) struct AssignedCandidate {
     pub(crate) candidate: usize,
     /// The second best candidate of the same kind, and how much farther away it is in mm.
     pub(crate) rival: Option<(usize, f64)>,
@@ -55,22 +55,22 @@ pub(crate) struct Found {
 }
 
 /// Budget for examining candidates. It bounds the quadratic work if thousands of texts overlap thousands of elements.
-pub(crate) struct Looks(Cell<usize>);
+pub(crate) struct SearchBudget(Cell<usize>);
 
-impl Looks {
+impl SearchBudget {
     pub(crate) fn new(most: usize) -> Self {
         Self(Cell::new(most))
     }
 
     /// Whether the budget was exceeded, so that results since then are unreliable.
-    pub(crate) fn are_over(&self) -> bool {
+    pub(crate) fn is_exhausted(&self) -> bool {
         self.0.get() == 0
     }
 
     /// Uses up one unit, if that does not exhaust the budget.
     fn take(&self) -> bool {
         self.0.set(self.0.get().saturating_sub(1));
-        !self.are_over()
+        !self.is_exhausted()
     }
 }
 
@@ -79,10 +79,10 @@ impl Looks {
 pub(crate) fn find(
     circle: &TextCircle,
     candidates: &[Candidate],
-    boxes: &Boxes,
-    looks: &Looks,
-) -> Option<Found> {
-    if looks.are_over() {
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+) -> Option<AssignedCandidate> {
+    if budget.is_exhausted() {
         return None;
     }
     let mut nearest: Option<(OverlapKind, f64, usize)> = None;
@@ -94,7 +94,7 @@ pub(crate) fn find(
     };
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
-        if !looks.take() || candidate.is_taken {
+        if !budget.take() || candidate.is_taken {
             return;
         }
         let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
@@ -111,7 +111,7 @@ pub(crate) fn find(
             second = Some(found);
         }
     });
-    nearest.filter(|_| !looks.are_over()).map(|(kind, distance, candidate)| Found {
+    nearest.filter(|_| !budget.is_exhausted()).map(|(kind, distance, candidate)| AssignedCandidate {
         candidate,
         rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
         nearer: closest
@@ -124,28 +124,28 @@ pub(crate) fn find(
 pub(crate) fn nearest_miss(
     circle: &TextCircle,
     candidates: &[Candidate],
-    boxes: &Boxes,
-    looks: &Looks,
-) -> Option<Miss> {
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+) -> Option<NearMiss> {
     // A tree examines more nodes initially than it yields candidates.
-    if candidates.len() > boxes::FEW && looks.are_over() {
+    if candidates.len() > boxes::FEW && budget.is_exhausted() {
         return None;
     }
-    let mut nearest: Option<Miss> = None;
+    let mut nearest: Option<NearMiss> = None;
     for (number, (candidate, at_least)) in boxes.nearest(circle.centre).enumerate() {
         if nearest.as_ref().is_some_and(|nearest| nearest.distance < at_least - circle.radius) {
             break;
         }
         // The first few candidates are free for each text.
-        if number >= boxes::FEW && !looks.take() {
+        if number >= boxes::FEW && !budget.take() {
             return None;
         }
         if candidates[candidate].is_taken {
             continue;
         }
         let distance = gap(circle, &candidates[candidate].shape);
-        if nearest.as_ref().is_none_or(|it| (distance, candidate) < (it.distance, it.candidate)) {
-            nearest = Some(Miss { candidate, distance });
+        if nearest.as_ref().is_none_or(|best| (distance, candidate) < (best.distance, best.candidate)) {
+            nearest = Some(NearMiss { candidate, distance });
         }
     }
     nearest

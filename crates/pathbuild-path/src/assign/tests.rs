@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::ElementId;
 use proptest::prelude::*;
 
-use super::{Boxes, Candidate, Looks, find, gap, nearest_miss, overlap};
+use super::{Candidate, CandidateIndex, SearchBudget, find, gap, nearest_miss, overlap};
 use crate::element::Shape;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::read::Owner;
@@ -43,20 +43,20 @@ proptest! {
         radius in 0.1..6.0,
     ) {
         let (circle, candidates) = (TextCircle { centre, radius }, shapes.into_iter().map(candidate).collect::<Vec<_>>());
-        let boxes = Boxes::new(&candidates);
+        let boxes = CandidateIndex::new(&candidates);
         let free = || candidates.iter().enumerate().filter(|(_, candidate)| !candidate.is_taken);
-        let overlapped = free().filter_map(|(index, it)| overlap(&circle, &it.shape).map(|(kind, distance)| (kind, distance, index)));
+        let overlapped = free().filter_map(|(index, candidate)| overlap(&circle, &candidate.shape).map(|(kind, distance)| (kind, distance, index)));
         let mut overlapped: Vec<_> = overlapped.collect();
         overlapped.sort_by(|one, other| one.partial_cmp(other).expect("distances are numbers"));
         let expected = overlapped.first().map(|(kind, distance, index)| {
             let rival = overlapped.get(1).filter(|rival| rival.0 == *kind);
             (*index, rival.map(|(_, other, index)| (*index, other - distance)))
         });
-        let found = find(&circle, &candidates, &boxes, &Looks::new(1000)).map(|found| (found.candidate, found.rival));
+        let found = find(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|found| (found.candidate, found.rival));
         prop_assert_eq!(found, expected);
-        let gaps = free().map(|(index, it)| (gap(&circle, &it.shape), index));
+        let gaps = free().map(|(index, candidate)| (gap(&circle, &candidate.shape), index));
         let least = gaps.reduce(|best, other| if other < best { other } else { best });
-        prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes, &Looks::new(1000)).map(|miss| (miss.distance, miss.candidate)), least);
+        prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|miss| (miss.distance, miss.candidate)), least);
     }
 }
 
@@ -71,10 +71,10 @@ fn bundle(count: usize) -> Vec<Candidate> {
 fn what_is_found_when_the_looks_are_over_is_not_trusted() {
     for count in [10, 200] {
         let (circle, candidates) = (TextCircle { centre: Xy::origin(), radius: 0.5 }, bundle(count));
-        let boxes = Boxes::new(&candidates);
+        let boxes = CandidateIndex::new(&candidates);
         let finds = |most: usize| {
-            let looks = Looks::new(most);
-            (find(&circle, &candidates, &boxes, &looks).is_some(), looks.are_over())
+            let budget = SearchBudget::new(most);
+            (find(&circle, &candidates, &boxes, &budget).is_some(), budget.is_exhausted())
         };
         assert_eq!((finds(count + 1), finds(count), finds(0)), ((true, false), (false, true), (false, true)));
     }
@@ -84,9 +84,9 @@ fn what_is_found_when_the_looks_are_over_is_not_trusted() {
 #[test]
 fn the_hint_of_the_nearest_is_given_up_when_the_looks_are_over() {
     let (circle, candidates) = (TextCircle { centre: Xy::new(0.0, 9.0), radius: 0.5 }, bundle(200));
-    let boxes = Boxes::new(&candidates);
-    let misses = |most: usize| nearest_miss(&circle, &candidates, &boxes, &Looks::new(most)).is_some();
+    let boxes = CandidateIndex::new(&candidates);
+    let misses = |most: usize| nearest_miss(&circle, &candidates, &boxes, &SearchBudget::new(most)).is_some();
     assert_eq!((misses(200 - 128 + 1), misses(200 - 128)), (true, false));
     let few = bundle(128);
-    assert!(nearest_miss(&circle, &few, &Boxes::new(&few), &Looks::new(0)).is_some());
+    assert!(nearest_miss(&circle, &few, &CandidateIndex::new(&few), &SearchBudget::new(0)).is_some());
 }

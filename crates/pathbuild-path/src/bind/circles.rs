@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::{drawing, walk};
 
 use super::cuts::no_gap;
 use super::segments::{Scope, pushed};
-use super::{At, Binder};
+use super::{Binder, FaultSite};
 use crate::approx::above;
 use crate::element::{Cut, Element};
 use crate::geometry::Xy;
@@ -27,8 +27,8 @@ impl Binder<'_> {
         tool: Option<f64>,
     ) -> (f64, SegmentKind) {
         let (class, text) = (element.class(tool), self.raw.drawn.text(element.text));
-        let values = self.element_values(At::Element(element), text, class);
-        let scope = Scope { at: At::Element(element), class, values: &values };
+        let values = self.element_values(FaultSite::Element(element), text, class);
+        let scope = Scope { at: FaultSite::Element(element), class, values: &values };
         match (class, tool) {
             (ElementClass::DrilledHole | ElementClass::DrilledMark, _) => {
                 let hole = self.hole(&scope, cut);

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::walk;
 
 use super::segments::{Scope, pushed};
-use super::{At, Binder};
+use super::{Binder, FaultSite};
 use crate::approx::at_least;
 use crate::element::{Cut, Element};
 use crate::geometry::Curve;
@@ -22,8 +22,8 @@ impl Binder<'_> {
         tool: Option<f64>,
     ) -> (f64, u32) {
         let (class, text) = (element.class(tool), self.raw.drawn.text(element.text));
-        let values = self.element_values(At::Element(element), text, class);
-        let scope = Scope { at: At::Element(element), class, values: &values };
+        let values = self.element_values(FaultSite::Element(element), text, class);
+        let scope = Scope { at: FaultSite::Element(element), class, values: &values };
         let parameters = self.cut_parameters(&scope, element.text, cut, curve, tool);
         let order = self.order(&scope);
         (order, pushed(&mut self.cuts, parameters))

@@ -22,7 +22,7 @@ use crate::matrix::ElementClass;
 use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Surface, Turn};
 use crate::raw::{Language, RawPath};
 use crate::text::{ParameterText, TextId};
-use crate::values::{Given, Values};
+use crate::values::{GivenNumber, Values};
 use crate::variables::{Bindings, Interpolation};
 use crate::{doubts, limits};
 
@@ -30,7 +30,7 @@ use segments::{Scope, UNNUMBERED};
 
 /// A path as far as it is known, with the problems of its values.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Examined {
+pub struct ExaminedPath {
     /// The path; one with [faults](Path::has_faults) serves only to find further problems. `None` if nothing is drawn.
     pub path: Option<Path>,
     /// Problems with its values, unless they merely follow from errors in the drawing.
@@ -41,15 +41,15 @@ pub struct Examined {
 ///
 /// The bindings must match its definitions.
 pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<Path>, Vec<Diagnostic>) {
-    let Examined { path, problems } = examine(raw, bindings, language);
+    let ExaminedPath { path, problems } = examine(raw, bindings, language);
     (path.filter(|path| !path.has_faults()), problems)
 }
 
 /// Binds a raw path to values, even if it has errors, and reports problems with them.
-pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> Examined {
+pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> ExaminedPath {
     let mut binder = Binder::new(raw, bindings, language);
     let path = binder.path();
-    Examined { path, problems: binder.problems }
+    ExaminedPath { path, problems: binder.problems }
 }
 
 /// State of binding a path.
@@ -65,7 +65,7 @@ struct Binder<'a> {
     helices: Vec<Helix>,
     problems: Vec<Diagnostic>,
     /// Indices of the diagnostics about each text.
-    of_texts: HashMap<TextId, Vec<usize>>,
+    by_text: HashMap<TextId, Vec<usize>>,
     /// Whether the path's D was reported as doubtful for marks.
     has_doubtful_marks: bool,
     /// Whether any segment with support bars has a gap between them.
@@ -73,12 +73,12 @@ struct Binder<'a> {
     /// The finding about the first segment without a gap.
     gapless: Option<Diagnostic>,
     /// What is unknown because of errors.
-    unknown: Unknown,
+    unknown: UnknownValues,
 }
 
 /// What errors leave unknown.
 #[derive(Default)]
-struct Unknown {
+struct UnknownValues {
     /// I of some segment.
     infeed: bool,
     /// N of some segment, and therefore the order at a star.
@@ -89,17 +89,17 @@ struct Unknown {
 
 /// The location of a finding.
 #[derive(Clone, Copy)]
-enum At<'a> {
+enum FaultSite<'a> {
     Element(&'a Element),
     Marker(&'a Marker),
 }
 
-impl At<'_> {
+impl FaultSite<'_> {
     /// The element's own text.
     fn text(self) -> Option<TextId> {
         match self {
-            At::Element(element) => element.text,
-            At::Marker(marker) => marker.text,
+            FaultSite::Element(element) => element.text,
+            FaultSite::Marker(marker) => marker.text,
         }
     }
 }
@@ -124,11 +124,11 @@ impl<'a> Binder<'a> {
             holes: Vec::new(),
             helices: Vec::new(),
             problems: Vec::new(),
-            of_texts: HashMap::new(),
+            by_text: HashMap::new(),
             has_doubtful_marks: false,
             has_gap: false,
             gapless: None,
-            unknown: Unknown::default(),
+            unknown: UnknownValues::default(),
         }
     }
 
@@ -293,7 +293,7 @@ impl<'a> Binder<'a> {
     /// The checked values of an element's text. Problems are reported at the element.
     fn element_values(
         &mut self,
-        at: At<'_>,
+        at: FaultSite<'_>,
         text: Option<ParameterText<'a>>,
         class: ElementClass,
     ) -> Values<'a> {
@@ -311,18 +311,18 @@ impl<'a> Binder<'a> {
         values
     }
 
-    fn origin(&self, at: At<'_>) -> Origin {
+    fn origin(&self, at: FaultSite<'_>) -> Origin {
         match at {
-            At::Element(element) => self.raw.drawn.origin(element).clone(),
-            At::Marker(marker) => marker.origin.clone(),
+            FaultSite::Element(element) => self.raw.drawn.origin(element).clone(),
+            FaultSite::Marker(marker) => marker.origin.clone(),
         }
     }
 
     /// Reports a problem, but only once for the parts of a polyline, which share a text. Other texts may have the same problem.
-    fn report(&mut self, at: At<'_>, problem: Diagnostic) {
+    fn report(&mut self, at: FaultSite<'_>, problem: Diagnostic) {
         let problem = self.origin(at).at(problem.in_path(self.raw.name.as_str()));
         if let (Some(text), true) = (at.text(), problem.text.is_some()) {
-            let known = self.of_texts.entry(text).or_default();
+            let known = self.by_text.entry(text).or_default();
             let is_same = |known: &usize| {
                 let known = &self.problems[*known];
                 (known.message, &known.text, &known.arguments)
@@ -338,9 +338,9 @@ impl<'a> Binder<'a> {
 
     fn add_probes(&mut self, path: &mut Path) {
         for marker in &self.raw.probes {
-            let (at, class) = (At::Marker(marker), ElementClass::Probe);
+            let (at, class) = (FaultSite::Marker(marker), ElementClass::Probe);
             let values = self.element_values(at, self.raw.drawn.text(marker.text), class);
-            if let (Some(_), Given::Number(thickness)) = (&path.surface, values.number(Letter::T)) {
+            if let (Some(_), GivenNumber::Number(thickness)) = (&path.surface, values.number(Letter::T)) {
                 let origin = marker.origin.clone();
                 path.probe_surfaces.push(Surface { origin, thickness, text: marker.text });
             }

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 use smol_str::SmolStr;
 
-use super::{At, Binder};
+use super::{Binder, FaultSite};
 use crate::effective::Texts;
 use crate::element::{Element, Role, Shape};
 use crate::geometry::Curve;
@@ -12,7 +12,7 @@ use crate::letter::{Letter, Letters};
 use crate::matrix::{ElementClass, Use};
 use crate::path::{Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::text::{LetterValue, ParameterText};
-use crate::values::{Given, Values};
+use crate::values::{GivenNumber, Values};
 
 /// Order of elements without N. (book: language/chains-and-passes)
 pub(super) const UNNUMBERED: f64 = 9998.0;
@@ -48,8 +48,9 @@ impl Binder<'_> {
     fn other(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
         let Shape::Curve(curve) = element.shape else { return None };
         let class = element.class(None);
-        let values = self.element_values(At::Element(element), self.raw.drawn.text(element.text), class);
-        let scope = Scope { at: At::Element(element), class, values: &values };
+        let values =
+            self.element_values(FaultSite::Element(element), self.raw.drawn.text(element.text), class);
+        let scope = Scope { at: FaultSite::Element(element), class, values: &values };
         let order = self.order(&scope);
         if element.role != Role::Subpath {
             return Some((order, SegmentKind::Sweep { height: self.value(&scope, Letter::S) }));
@@ -64,7 +65,8 @@ impl Binder<'_> {
 
     /// N of an element, or the default order.
     pub(super) fn order(&mut self, scope: &Scope<'_>) -> f64 {
-        self.unknown.order |= scope.values.number(Letter::N) == Given::Faulty && scope.values.has(Letter::N);
+        self.unknown.order |=
+            scope.values.number(Letter::N) == GivenNumber::Faulty && scope.values.has(Letter::N);
         self.value(scope, Letter::N).unwrap_or(UNNUMBERED)
     }
 
@@ -115,14 +117,14 @@ impl Binder<'_> {
         let given = scope.texts(&self.values).number(letter);
         // A letter that every path must have is reported once, at the path's start.
         let is_missing_here = || ElementClass::PathStart.use_of(letter) != Use::Needed;
-        if scope.class.use_of(letter) == Use::Needed && given == Given::Absent && is_missing_here() {
+        if scope.class.use_of(letter) == Use::Needed && given == GivenNumber::Absent && is_missing_here() {
             let problem = Diagnostic::new(&messages::MISSING)
                 .with("letter", letter.as_char())
                 .with("element", scope.class.word());
             self.report(scope.at, problem);
         }
         self.unknown.needed |= scope.class.use_of(letter) == Use::Needed && given.number().is_none();
-        self.unknown.infeed |= letter == Letter::I && given == Given::Faulty;
+        self.unknown.infeed |= letter == Letter::I && given == GivenNumber::Faulty;
         given.number()
     }
 }
@@ -134,7 +136,7 @@ fn has_unread(values: &Values<'_>) -> bool {
 
 /// The element whose values are looked up.
 pub(super) struct Scope<'a> {
-    pub(super) at: At<'a>,
+    pub(super) at: FaultSite<'a>,
     pub(super) class: ElementClass,
     pub(super) values: &'a Values<'a>,
 }

@@ -102,7 +102,9 @@ impl<'a> Judge<'a> {
     /// The rule that forbids embedding a path of this name.
     fn broken_rule(&self, name: &PathName) -> Option<&str> {
         let (rule, is_kept) = match &self.rule {
-            Rule::Own(rule, pattern) => (*rule, pattern.as_ref().is_some_and(|it| name.is_match(it))),
+            Rule::Own(rule, pattern) => {
+                (*rule, pattern.as_ref().is_some_and(|pattern| name.is_match(pattern)))
+            }
             Rule::Restriction(child) => (child.as_str(), name.is_match(child)),
             Rule::Any => return None,
         };

@@ -12,11 +12,11 @@ pub(crate) struct Outline {
     pieces: RTree<Boxed>,
 }
 
-type Boxed = GeomWithData<Rectangle<[f64; 2]>, LetterValue>;
+type Boxed = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
 
 /// A part of the outline that rises or falls monotonically.
 #[derive(Clone, Copy, Debug)]
-struct LetterValue {
+struct OutlinePiece {
     curve: Curve,
     /// The range of Y in which it counts as a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
     /// leave.
@@ -33,7 +33,7 @@ impl Outline {
         let monotone: Vec<Curve> = curves.iter().flat_map(monotone).collect();
         let mut from = monotone.last().map_or(0.0, |last| last.end().y);
         let pieces = monotone.into_iter().map(|curve| {
-            let piece = LetterValue { curve, from, to: curve.end().y };
+            let piece = OutlinePiece { curve, from, to: curve.end().y };
             from = piece.to;
             GeomWithData::new(Rectangle::from_aabb(around(&curve, SLACK)), piece)
         });
@@ -62,7 +62,7 @@ impl Outline {
     }
 }
 
-impl LetterValue {
+impl OutlinePiece {
     /// 1 if it crosses the ray to the right of a point upwards, -1 if downwards, 0 if not at all.
     fn crossing(&self, point: Xy) -> i32 {
         let up = self.from <= point.y && point.y < self.to;

@@ -67,8 +67,9 @@ impl<'a> Judge<'a> {
         }
         let Some(path) = self.component.path(raw, Some(proxy)) else { return Vec::new() };
         let differences = differences_from_path(proxy, &path).into_iter();
-        let mut problems: Vec<Diagnostic> =
-            differences.map(|it| differing(&messages::PROXY_VALUE_DIFFERS, it, &name)).collect();
+        let mut problems: Vec<Diagnostic> = differences
+            .map(|difference| differing(&messages::PROXY_VALUE_DIFFERS, difference, &name))
+            .collect();
         let (here, there) = (proxy.curve.chord(), (path.end - path.start).norm());
         if (here - there).abs() > LENGTH_TOLERANCE {
             let problem = Diagnostic::new(&messages::PROXY_LENGTH_DIFFERS).with("name", name.as_str());
@@ -144,7 +145,7 @@ impl<'a> Judge<'a> {
         subpath: &Subpath,
     ) -> Vec<Diagnostic> {
         let differences = differences_from_proxy(path, subpath, proxy).into_iter();
-        let differing = differences.map(|it| differing(&messages::Q_VALUE_DIFFERS, it, name));
+        let differing = differences.map(|difference| differing(&messages::Q_VALUE_DIFFERS, difference, name));
         let mut problems: Vec<Diagnostic> = differing.collect();
         let (here, there) = ((subpath.end - subpath.start).norm(), proxy.curve.chord());
         if (here - there).abs() > LENGTH_TOLERANCE {
@@ -184,8 +185,9 @@ fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
     };
     let material = || {
         let (here, fault) = proxy.value(Letter::M)?;
-        let there = path.material.as_deref();
-        (there != Some(here)).then(|| ("M".to_owned(), here.into(), there.unwrap_or("-").into(), Some(fault)))
+        let expected = path.material.as_deref();
+        (expected != Some(here))
+            .then(|| ("M".to_owned(), here.into(), expected.unwrap_or("-").into(), Some(fault)))
     };
     let numbers = [number(Letter::T, path.thickness), number(Letter::O, path.tool)];
     numbers.into_iter().flatten().chain(material()).collect()
@@ -215,19 +217,19 @@ fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> 
 }
 
 fn differing_variables(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
-    let there: BTreeMap<char, &str> = proxy.variables().collect();
+    let on_proxy: BTreeMap<char, &str> = proxy.variables().collect();
     let here = subpath.values.iter().filter_map(|given| Some((given.variable?, given)));
     let mut differences = Vec::new();
     let mut given = Vec::new();
     for (variable, value) in here {
         given.push(variable);
-        let other = there.get(&variable).copied();
+        let other = on_proxy.get(&variable).copied();
         if other.is_none_or(|other| !is_same_value(&value.value, other)) {
             let values = ((&*value.value).into(), other.unwrap_or("-").into());
             differences.push((format!(":{variable}"), values.0, values.1, Some(value.text.clone())));
         }
     }
-    let missing = there.iter().filter(|(variable, _)| !given.contains(variable));
+    let missing = on_proxy.iter().filter(|(variable, _)| !given.contains(variable));
     differences
         .extend(missing.map(|(variable, value)| (format!(":{variable}"), "-".into(), (*value).into(), None)));
     differences

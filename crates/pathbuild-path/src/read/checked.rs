@@ -6,11 +6,11 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use crate::raw::RawPath;
 
 /// A raw path being checked.
-pub(super) struct Checked<'r> {
+pub(super) struct PathCheck<'r> {
     pub(super) raw: &'r mut RawPath,
 }
 
-impl Checked<'_> {
+impl PathCheck<'_> {
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         let name = self.raw.name.as_str();
         let is_placed = diagnostic.path.is_some();

@@ -9,7 +9,7 @@ use pathbuild_dxf::Drawing;
 use smol_str::SmolStr;
 
 use super::Starts;
-use super::checked::Checked;
+use super::checked::PathCheck;
 use super::layers::{FoundLayer, Membership, PathLayers};
 use super::texts::Texts;
 use crate::assign::Candidate;
@@ -18,11 +18,11 @@ use crate::faults::DrawingFaults;
 use crate::geometry::Curve;
 use crate::line_type::LineTypes;
 use crate::name::PathName;
-use crate::raw::{Drawn, Language, Position, RawPath, SourceMap};
+use crate::raw::{DrawnElements, Language, Position, RawPath, SourceMap};
 use crate::text::ParameterTexts;
 
 /// A path whose entities are being collected.
-pub(crate) struct Collected<'d> {
+pub(crate) struct PathCollector<'d> {
     pub(crate) name: PathName,
     pub(crate) start: Option<Marker>,
     pub(super) ends: Vec<Marker>,
@@ -73,9 +73,9 @@ pub(crate) enum Owner {
 }
 
 /// The paths of a drawing in order of first appearance, before their texts are assigned.
-pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collected<'d>> {
+pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<PathCollector<'d>> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
-    let mut paths: Vec<_> = layers.by_path().map(|layers| Collected::new(drawing, layers)).collect();
+    let mut paths: Vec<_> = layers.by_path().map(|layers| PathCollector::new(drawing, layers)).collect();
     if let [path] = &mut paths[..] {
         path.map.0.reserve(drawing.entities.len());
         path.elements.reserve(drawing.entities.len());
@@ -101,7 +101,7 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<Collec
     paths
 }
 
-impl Collected<'_> {
+impl PathCollector<'_> {
     /// Creates a path with these layers.
     fn new(drawing: &Drawing, layers: &[FoundLayer]) -> Self {
         let mut path = Self {
@@ -174,7 +174,8 @@ impl Collected<'_> {
             Shape::Curve(Curve::Arc(_)) => 2,
         });
         let mut ends = self.ends.into_iter();
-        let drawn = Drawn { elements: self.elements, texts: self.given, layers: self.texts.layer_names() };
+        let drawn =
+            DrawnElements { elements: self.elements, texts: self.given, layers: self.texts.layer_names() };
         let mut raw = RawPath {
             name: self.name.into(),
             start: self.start,
@@ -190,7 +191,7 @@ impl Collected<'_> {
             diagnostics: self.diagnostics,
         };
         raw.faults.other_ends.extend(ends.map(|end| end.at));
-        let mut checked = Checked { raw: &mut raw };
+        let mut checked = PathCheck { raw: &mut raw };
         if !self.has_broken_circle {
             checked.check_markers();
         }

@@ -17,7 +17,7 @@ use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
 use crate::letter::Letter;
 use crate::raw::Language;
-use crate::text::{ParameterText, ParameterTexts, Written, without_percent_codes};
+use crate::text::{ParameterText, ParameterTexts, ValueKind, without_percent_codes};
 use crate::text_circle::TextCircle;
 
 /// The clamps of a drawing. At least the layers with clamps must have been read.
@@ -59,7 +59,7 @@ struct Reading<'d> {
 
 /// The texts inside an outline.
 #[derive(Clone, Default)]
-struct Over<'d> {
+struct OutlineTexts<'d> {
     /// The first few, with the indices of their entities.
     first: Vec<(usize, AnyText<'d>)>,
     count: usize,
@@ -69,7 +69,7 @@ struct Over<'d> {
 const MOST_NAMED: usize = 3;
 
 /// An outline without its height.
-struct Closed {
+struct ClosedOutline {
     outline: Vec<Curve>,
     /// The index of its first entity.
     entity: usize,
@@ -92,7 +92,7 @@ impl Reading<'_> {
         }
         let outlines = self.outlines(entities);
         let heights = self.heights(entities, &outlines);
-        let clamp = |(closed, height): (Closed, Option<f64>)| {
+        let clamp = |(closed, height): (ClosedOutline, Option<f64>)| {
             let (layer, height) = (SmolStr::new(&self.layer.name), height?);
             Some(KeepOut { layer, at: closed.at, height, outline: closed.outline })
         };
@@ -135,7 +135,7 @@ impl Reading<'_> {
     }
 
     /// The closed outlines; PB117 for all others.
-    fn outlines(&mut self, entities: &[usize]) -> Vec<Closed> {
+    fn outlines(&mut self, entities: &[usize]) -> Vec<ClosedOutline> {
         let (mut outlines, mut parts) = (Vec::new(), Vec::new());
         for number in entities {
             let Entity { group, geometry, .. } = &self.drawing.entities[*number];
@@ -146,7 +146,7 @@ impl Reading<'_> {
                 Geometry::Circle(circle) => {
                     let at = xy(circle.centre);
                     let arc = Arc::from_angles(at, circle.radius, 0.0, 360.0, false);
-                    outlines.push(Closed { outline: vec![Curve::Arc(arc)], entity: *number, at });
+                    outlines.push(ClosedOutline { outline: vec![Curve::Arc(arc)], entity: *number, at });
                 }
                 Geometry::Text(_) | Geometry::MText(_) => {}
             }
@@ -154,7 +154,7 @@ impl Reading<'_> {
         let mut branches = HashSet::new();
         for ring in rings(&parts) {
             match ring {
-                Ring::Closed(ring) => outlines.push(Closed {
+                Ring::Closed(ring) => outlines.push(ClosedOutline {
                     at: ring[0].curve.start(),
                     entity: ring[0].entity,
                     outline: ring.iter().map(|part| part.curve).collect(),
@@ -183,10 +183,10 @@ impl Reading<'_> {
 
     /// The height of each outline, from the one text inside or overlapping it. PB117 if there is none, if there are several, or if the text
     /// gives no height.
-    fn heights(&mut self, entities: &[usize], outlines: &[Closed]) -> Vec<Option<f64>> {
+    fn heights(&mut self, entities: &[usize], outlines: &[ClosedOutline]) -> Vec<Option<f64>> {
         // Texts count as being below any height.
         let map = KeepOutMap::new(outlines.iter().map(|closed| (1.0, &*closed.outline)));
-        let mut texts = vec![Over::default(); outlines.len()];
+        let mut texts = vec![OutlineTexts::default(); outlines.len()];
         for number in entities {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
             let TextCircle { centre, radius } = text.circle();
@@ -204,7 +204,7 @@ impl Reading<'_> {
         outlines.iter().zip(texts).map(|(closed, texts)| self.height(closed, &texts)).collect()
     }
 
-    fn height(&mut self, closed: &Closed, texts: &Over<'_>) -> Option<f64> {
+    fn height(&mut self, closed: &ClosedOutline, texts: &OutlineTexts<'_>) -> Option<f64> {
         let problem = match &texts.first[..] {
             [(number, text)] => return self.height_in(*number, *text),
             [] => Diagnostic::new(&messages::CLAMP_WITHOUT_TEXT),
@@ -242,7 +242,7 @@ impl Reading<'_> {
     }
 }
 
-impl<'d> Over<'d> {
+impl<'d> OutlineTexts<'d> {
     fn add(&mut self, number: usize, text: AnyText<'d>) {
         self.count += 1;
         if self.first.len() < MOST_NAMED {
@@ -255,7 +255,7 @@ impl<'d> Over<'d> {
 fn height(text: ParameterText<'_>) -> Option<f64> {
     let [piece] = text.pieces() else { return None };
     match (piece.letter, piece.written) {
-        (Some(Letter::Z), Written::Number(height)) if height > 0.0 => Some(height),
+        (Some(Letter::Z), ValueKind::Number(height)) if height > 0.0 => Some(height),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::{ElementId, EntityKind};
 use pathbuild_dxf::{Drawing, Entity};
 
-use super::collect::{self, Collected};
+use super::collect::{self, PathCollector};
 use super::texts::Match;
 use crate::element::Shape;
 use crate::name::PathName;
@@ -49,7 +49,7 @@ pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedTex
     let entities = entities_by_path(drawing, language);
     let mut texts: Vec<AssignedText> = Vec::new();
     for path in collect::paths(drawing, language) {
-        let Collected { name, map, texts: found, .. } = path;
+        let PathCollector { name, map, texts: found, .. } = path;
         let Some(entities) = entities.get(&name) else { continue };
         let at = |id: ElementId| map.positions()[id.0 as usize];
         texts.extend(found.matched().into_iter().map(|found| assigned(&name, found, entities, &at)));

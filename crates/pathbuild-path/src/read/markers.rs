@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::drawing as messages;
 
-use super::collect::Collected;
+use super::collect::PathCollector;
 use super::texts::Texts;
 use crate::element::{Marker, MeantMarker, Shape};
 
@@ -12,7 +12,7 @@ const END: f64 = 1.0;
 const TURN: f64 = 0.75;
 const PROBE: f64 = 3.0;
 
-impl Collected<'_> {
+impl PathCollector<'_> {
     /// Chooses the circles that were probably meant as start and end. Each problem has been reported already, or is reported here.
     pub(super) fn settle_markers(&mut self, texts: &mut Texts<'_>) {
         if self.start.is_none() {

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::{Arc as DxfArc, Entity, Geometry, Point3};
 
-use super::collect::{Collected, Owner, UnclearCircle};
+use super::collect::{Owner, PathCollector, UnclearCircle};
 use crate::approx::near;
 use crate::assign::Candidate;
 use crate::element::{
@@ -16,13 +16,13 @@ use crate::raw::Position;
 
 /// An entity on one of a path's layers.
 #[derive(Clone, Copy)]
-struct Found<'d> {
+struct LayerEntity<'d> {
     source: Source,
     entity: &'d Entity,
     line_type: Option<LineType>,
 }
 
-impl<'d> Collected<'d> {
+impl<'d> PathCollector<'d> {
     /// Adds the next entity in file order.
     pub(super) fn add(
         &mut self,
@@ -32,7 +32,7 @@ impl<'d> Collected<'d> {
         line_types: &mut LineTypes<'_, 'd>,
     ) {
         let source = Source { id: self.next_id(position), entity: entity.kind, layer };
-        let found = |line_type| Found { source, entity, line_type };
+        let found = |line_type| LayerEntity { source, entity, line_type };
         match &entity.geometry {
             Geometry::Text(text) => self.texts.add_text(text, source),
             Geometry::MText(text) => self.texts.add_mtext(text, source),
@@ -70,7 +70,7 @@ impl<'d> Collected<'d> {
         }
     }
 
-    fn add_curve(&mut self, found: &Found<'_>, curve: Curve) {
+    fn add_curve(&mut self, found: &LayerEntity<'_>, curve: Curve) {
         let shape = Shape::Curve(curve);
         let Some(role) = found.line_type.and_then(curve_role) else {
             self.add_unknown(found, shape);
@@ -80,7 +80,7 @@ impl<'d> Collected<'d> {
         self.add_element(found, shape, role);
     }
 
-    fn add_circle(&mut self, found: &Found<'_>, centre: Xy, radius: f64) {
+    fn add_circle(&mut self, found: &LayerEntity<'_>, centre: Xy, radius: f64) {
         let shape = Shape::Circle { centre, radius };
         let Some(line_type) = found.line_type else {
             let like = LineType::like(&found.entity.line_type).unwrap_or(LineType::Phantom);
@@ -109,17 +109,17 @@ impl<'d> Collected<'d> {
         }
     }
 
-    fn add_unclear(&mut self, found: &Found<'_>, shape: Shape, meant: MeantMarker) {
+    fn add_unclear(&mut self, found: &LayerEntity<'_>, shape: Shape, meant: MeantMarker) {
         let marker = self.marker(found, shape.point());
         self.faults.unclear_circles.push(marker.at);
         self.unclear.push(UnclearCircle { marker, shape, meant });
     }
 
-    fn marker(&self, found: &Found<'_>, at: Xy) -> Marker {
+    fn marker(&self, found: &LayerEntity<'_>, at: Xy) -> Marker {
         Marker { origin: self.origin(found.source, at), at, text: None }
     }
 
-    fn add_start(&mut self, found: &Found<'_>, shape: Shape) {
+    fn add_start(&mut self, found: &LayerEntity<'_>, shape: Shape) {
         let marker = self.marker(found, shape.point());
         if let Some(first) = &self.start {
             let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
@@ -134,7 +134,7 @@ impl<'d> Collected<'d> {
     }
 
     /// Adds an element with a meaningless line type. It still takes its text, which would otherwise be reported as belonging to nothing.
-    fn add_unknown(&mut self, found: &Found<'_>, shape: Shape) {
+    fn add_unknown(&mut self, found: &LayerEntity<'_>, shape: Shape) {
         let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
         let name = &*found.entity.line_type;
         let like = LineType::like(name);
@@ -154,15 +154,15 @@ impl<'d> Collected<'d> {
         self.candidate(found, shape, Owner::Faulty);
     }
 
-    fn add_element(&mut self, found: &Found<'_>, shape: Shape, role: Role) {
+    fn add_element(&mut self, found: &LayerEntity<'_>, shape: Shape, role: Role) {
         if role != Role::SilentSweep {
             self.candidate(found, shape, Owner::Element(self.elements.len()));
         }
         self.elements.push(Element { source: found.source, shape, role, text: None });
     }
 
-    fn candidate(&mut self, found: &Found<'_>, shape: Shape, owner: Owner) {
-        let Found { source, entity, .. } = *found;
+    fn candidate(&mut self, found: &LayerEntity<'_>, shape: Shape, owner: Owner) {
+        let LayerEntity { source, entity, .. } = *found;
         let candidate = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
         self.texts.add_candidate(source.layer, candidate);
     }

@@ -26,7 +26,7 @@ use crate::letter::Letter;
 use crate::name::PathName;
 use crate::raw::{Language, RawFile};
 
-use collect::Collected;
+use collect::PathCollector;
 
 pub(crate) use collect::Owner;
 pub(crate) use rings::{Part, Ring, rings};
@@ -76,7 +76,7 @@ struct Start {
     origin: Origin,
 }
 
-fn starts(paths: &[Collected<'_>]) -> Starts {
+fn starts(paths: &[PathCollector<'_>]) -> Starts {
     let texts = paths.iter().filter_map(|path| {
         let start = path.start.as_ref()?;
         let text = path.given.get(start.text?)?;

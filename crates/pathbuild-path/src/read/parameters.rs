@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
-use super::checked::Checked;
+use super::checked::PathCheck;
 use super::{Start, Starts};
 use crate::definition::Definition;
 use crate::element::{Cut, Role};
@@ -16,7 +16,7 @@ use crate::matrix::ElementClass;
 use crate::name::PathName;
 use crate::text::{LetterValue, ParameterText};
 
-impl Checked<'_> {
+impl PathCheck<'_> {
     pub(super) fn check_parameters(&mut self, starts: &Starts) {
         let Some(start) = &self.raw.start else { return self.check_elements(None) };
         let Some(text) = self.raw.drawn.text(start.text) else {

@@ -36,7 +36,7 @@ pub(crate) fn rings(parts: &[Part]) -> Vec<Ring> {
             loose.extend_from_slice(polyline);
         }
     }
-    rings.extend(Joining::new(&loose).rings());
+    rings.extend(RingBuilder::new(&loose).rings());
     rings
 }
 
@@ -53,24 +53,24 @@ type End = usize;
 
 /// The other ends that an end coincides with.
 #[derive(Clone, Copy, PartialEq)]
-enum Meets {
+enum Junction {
     Nothing,
     One(End),
     Several,
 }
 
 /// State of joining curves.
-struct Joining<'p> {
+struct RingBuilder<'p> {
     parts: &'p [Part],
     /// What each end meets.
-    meets: Vec<Meets>,
+    meets: Vec<Junction>,
     is_done: Vec<bool>,
 }
 
 /// Search radius in mm for ends that may coincide.
 const NEAR: f64 = 1e-3;
 
-impl<'p> Joining<'p> {
+impl<'p> RingBuilder<'p> {
     fn new(parts: &'p [Part]) -> Self {
         let ends = || (0..2 * parts.len()).map(|end| (end, at(parts, end)));
         let tree = RTree::bulk_load(ends().map(|(end, at)| GeomWithData::new([at.x, at.y], end)).collect());
@@ -78,9 +78,9 @@ impl<'p> Joining<'p> {
             let near = tree.locate_within_distance([place.x, place.y], NEAR * NEAR).map(|other| other.data);
             let mut others = near.filter(|other| *other != end && coincide(place, at(parts, *other)));
             match (others.next(), others.next()) {
-                (None, _) => Meets::Nothing,
-                (Some(other), None) => Meets::One(other),
-                (Some(_), Some(_)) => Meets::Several,
+                (None, _) => Junction::Nothing,
+                (Some(other), None) => Junction::One(other),
+                (Some(_), Some(_)) => Junction::Several,
             }
         };
         Self { parts, meets: ends().map(meets).collect(), is_done: vec![false; parts.len()] }
@@ -106,7 +106,7 @@ impl<'p> Joining<'p> {
         }
         // Follow the other direction as well, since all of it is a single problem.
         let (_, other) = self.follow(start);
-        let several = [last, other].into_iter().find(|end| self.meets[*end] != Meets::Nothing);
+        let several = [last, other].into_iter().find(|end| self.meets[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
         match several {
             Some(_) => Ring::Branch { part, at: at(self.parts, end) },
@@ -127,8 +127,8 @@ impl<'p> Joining<'p> {
 
     /// The only end that this end meets, if that meets no other.
     fn next(&self, end: End) -> Option<End> {
-        let Meets::One(next) = self.meets[end] else { return None };
-        (self.meets[next] == Meets::One(end)).then_some(next)
+        let Junction::One(next) = self.meets[end] else { return None };
+        (self.meets[next] == Junction::One(end)).then_some(next)
     }
 
     /// A curve in the direction that ends there.

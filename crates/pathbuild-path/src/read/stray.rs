@@ -7,24 +7,24 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 
-use super::collect::{self, Collected, candidate_word};
+use super::collect::{self, PathCollector, candidate_word};
 use super::found_text::AnyText;
 use super::layers::PathLayers;
 use super::meaning::{plane_arc, xy};
 use super::{Owner, at_entity};
-use crate::assign::{Candidate, Looks};
+use crate::assign::{Candidate, SearchBudget};
 use crate::element::shown;
 use crate::geometry::Xy;
 use crate::letter::{Letter, Letters};
 use crate::name::PathName;
 use crate::raw::Language;
-use crate::text::{ParameterText, ParameterTexts, Written};
+use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
 /// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
 const WEIGHTY: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
 
 /// Maximum number of candidates examined for the stray texts of a drawing.
-const MOST_LOOKS: usize = 1_000_000;
+const MOST_EXAMINED: usize = 1_000_000;
 
 /// Maximum number of characters after a path name that count as a typing error.
 const LONGEST_SLIP: usize = 2;
@@ -78,7 +78,7 @@ fn folded(name: &str) -> String {
 pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths = collect::paths(drawing, language);
-    paths.retain(Collected::has_elements);
+    paths.retain(PathCollector::has_elements);
     for path in &mut paths {
         path.assign_texts(language);
         path.texts.prepare();
@@ -92,7 +92,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
             is_other.then(|| names.path(&layer.name)).flatten()
         })
         .collect();
-    let looks = Looks::new(MOST_LOOKS);
+    let budget = SearchBudget::new(MOST_EXAMINED);
     let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     let mut findings = Vec::new();
     for (number, entity) in drawing.entities.iter().enumerate() {
@@ -104,7 +104,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
             && !layer.hidden
             && !language.is_keep_out(&layer.name)
         {
-            findings.extend(stray_text(drawing, number, text, &paths, &looks));
+            findings.extend(stray_text(drawing, number, text, &paths, &budget));
         }
     }
     findings.extend(
@@ -120,15 +120,15 @@ fn stray_text(
     drawing: &Drawing,
     entity: usize,
     text: AnyText<'_>,
-    paths: &[Collected<'_>],
-    looks: &Looks,
+    paths: &[PathCollector<'_>],
+    budget: &SearchBudget,
 ) -> Option<Diagnostic> {
     let mut texts = ParameterTexts::default();
     let id = texts.push_drawn(text.string());
     let read = texts.get(id).filter(|read| is_weighty(*read))?;
     let circle = text.circle();
     let (path, (layer, candidate)) = paths.iter().find_map(|path| {
-        let taker = path.texts.takers(&circle, looks).find(|(_, taker)| path.would_heed(read, taker))?;
+        let taker = path.texts.takers(&circle, budget).find(|(_, taker)| path.would_heed(read, taker))?;
         Some((path, taker))
     })?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
@@ -143,7 +143,7 @@ fn stray_text(
 
 /// Whether a text consists of letters with numbers or variables, including a letter that spoils a part if it is missing.
 fn is_weighty(text: ParameterText<'_>) -> bool {
-    let is_number = |written: Written| matches!(written, Written::Number(_) | Written::Reference);
+    let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
     text.letters.has_any(WEIGHTY)
         && text
             .pieces()
@@ -151,7 +151,7 @@ fn is_weighty(text: ParameterText<'_>) -> bool {
             .all(|piece| piece.letter.is_some_and(|letter| !letter.is_text()) && is_number(piece.written))
 }
 
-impl Collected<'_> {
+impl PathCollector<'_> {
     /// Whether all letters of a text would have an effect on an element without a text.
     fn would_heed(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
         let Owner::Element(element) = candidate.owner else { return false };
@@ -165,7 +165,7 @@ impl Collected<'_> {
     fn tool(&self) -> Option<f64> {
         let text = self.given.get(self.start.as_ref()?.text?)?;
         match text.piece(Letter::O)?.written {
-            Written::Number(number) => Some(number),
+            ValueKind::Number(number) => Some(number),
             _ => None,
         }
     }

@@ -9,10 +9,10 @@ use pathbuild_diagnostic::{Diagnostic, ElementId, Value};
 use pathbuild_dxf::{MText, Text};
 use smol_str::SmolStr;
 
-use super::collect::{Collected, Owner, candidate_word};
+use super::collect::{Owner, PathCollector, candidate_word};
 use super::found_text::{AnyText, FoundText};
 use crate::approx::near;
-use crate::assign::{Boxes, Candidate, Found, Looks, find, nearest_miss};
+use crate::assign::{AssignedCandidate, Candidate, CandidateIndex, SearchBudget, find, nearest_miss};
 use crate::element::{Element, Marker, Origin, Shape, Source, shown};
 use crate::geometry::Xy;
 use crate::letter::{Letter, Letters};
@@ -32,7 +32,7 @@ struct LayerTexts<'d> {
     name: SmolStr,
     candidates: Vec<Candidate>,
     /// The spatial index of the candidates, built on demand.
-    boxes: Boxes,
+    boxes: CandidateIndex,
     texts: Vec<FoundText<'d>>,
 }
 
@@ -44,10 +44,10 @@ const MOST_NAMED: usize = 3;
 const MOST_ASKED: usize = 100;
 
 /// Maximum number of elements examined for the texts of a path: enough for thousands of texts that each overlap thousands of elements.
-const MOST_LOOKS: usize = 50_000_000;
+const MOST_EXAMINED: usize = 50_000_000;
 
 /// Further elements examined for hints about texts without an element.
-const MOST_LOOKS_FOR_HINTS: usize = 1_000_000;
+const MOST_EXAMINED_FOR_HINTS: usize = 1_000_000;
 
 /// A text with the candidates it belongs to.
 pub(crate) struct Match<'d> {
@@ -120,10 +120,10 @@ impl<'d> Texts<'d> {
     /// Each text with its circle and its candidates, layer by layer.
     pub(crate) fn matched(mut self) -> Vec<Match<'d>> {
         let mut matched = Vec::new();
-        let looks = Looks::new(MOST_LOOKS);
+        let budget = SearchBudget::new(MOST_EXAMINED);
         for layer in &mut self.layers {
             let candidate = |candidate: &Candidate| (candidate.id, candidate.shape);
-            layer.each_match(&looks, |layer, text, circle, owners, _| {
+            layer.each_match(&budget, |layer, text, circle, owners, _| {
                 let owners = layer.candidates[owners].iter().map(candidate).collect();
                 let origin = layer.origin(text.source, text.anchor());
                 matched.push(Match { string: without_percent_codes(text.string()), circle, origin, owners });
@@ -136,7 +136,7 @@ impl<'d> Texts<'d> {
     /// Builds the spatial indexes of all layers for [`takers`](Self::takers).
     pub(crate) fn prepare(&mut self) {
         for layer in &mut self.layers {
-            layer.boxes = Boxes::new(&layer.candidates);
+            layer.boxes = CandidateIndex::new(&layer.candidates);
         }
     }
 
@@ -144,10 +144,10 @@ impl<'d> Texts<'d> {
     pub(super) fn takers<'t>(
         &'t self,
         circle: &'t TextCircle,
-        looks: &'t Looks,
+        budget: &'t SearchBudget,
     ) -> impl Iterator<Item = (&'t str, &'t Candidate)> {
         let taker = |layer: &'t LayerTexts<'d>| {
-            let found = find(circle, &layer.candidates, &layer.boxes, looks)?;
+            let found = find(circle, &layer.candidates, &layer.boxes, budget)?;
             Some((&*layer.name, &layer.candidates[found.candidate]))
         };
         self.layers.iter().take(MOST_ASKED).filter_map(taker)
@@ -155,10 +155,10 @@ impl<'d> Texts<'d> {
 
     /// Assigns each text to its element; PB107 if there is none. `margin`: minimum difference in mm between the distances from this element
     /// and from another one; PB116 if it is less.
-    pub(crate) fn assign(&mut self, path: &mut Collected<'_>, margin: f64) {
-        let looks = Looks::new(MOST_LOOKS);
+    pub(crate) fn assign(&mut self, path: &mut PathCollector<'_>, margin: f64) {
+        let budget = SearchBudget::new(MOST_EXAMINED);
         for layer in &mut self.layers {
-            if let Some(problem) = layer.assign(path, margin, &looks) {
+            if let Some(problem) = layer.assign(path, margin, &budget) {
                 // The elements of the remaining texts are unknown.
                 path.diagnostics.push(problem);
                 path.faults.stray_letters = Letters::ALL;
@@ -169,11 +169,11 @@ impl<'d> Texts<'d> {
             return;
         }
         self.prepare();
-        let looks = Looks::new(MOST_LOOKS_FOR_HINTS);
+        let budget = SearchBudget::new(MOST_EXAMINED_FOR_HINTS);
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
-                let problem = layer.without_element(text, others.map(|(_, other)| other), &looks);
+                let problem = layer.without_element(text, others.map(|(_, other)| other), &budget);
                 path.diagnostics.push(problem);
                 let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
                 let letters = texts.first().map(ParameterText::meant_letters);
@@ -189,8 +189,13 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Assigns each text to its element. Texts without an element stay in `texts`. PB005 if the budget is exhausted.
-    fn assign(&mut self, path: &mut Collected<'_>, margin: f64, looks: &Looks) -> Option<Diagnostic> {
-        let last = self.each_match(looks, |layer, text, _, owners, found| {
+    fn assign(
+        &mut self,
+        path: &mut PathCollector<'_>,
+        margin: f64,
+        budget: &SearchBudget,
+    ) -> Option<Diagnostic> {
+        let last = self.each_match(budget, |layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
             path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
             if has_owner {
@@ -199,7 +204,7 @@ impl<'d> LayerTexts<'d> {
             }
             has_owner
         });
-        let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MOST_LOOKS);
+        let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MOST_EXAMINED);
         last.map(|last| self.origin(last.source, last.anchor()).at(problem))
     }
 
@@ -207,20 +212,26 @@ impl<'d> LayerTexts<'d> {
     /// that are not taken stay. Stops at the text that exhausts the budget, and returns it.
     fn each_match(
         &mut self,
-        looks: &Looks,
-        mut is_taken: impl FnMut(&Self, &FoundText<'d>, TextCircle, Range<usize>, Option<Found>) -> bool,
+        budget: &SearchBudget,
+        mut is_taken: impl FnMut(
+            &Self,
+            &FoundText<'d>,
+            TextCircle,
+            Range<usize>,
+            Option<AssignedCandidate>,
+        ) -> bool,
     ) -> Option<FoundText<'d>> {
         if self.texts.is_empty() {
             return None;
         }
-        self.boxes = Boxes::new(&self.candidates);
+        self.boxes = CandidateIndex::new(&self.candidates);
         let mut texts = std::mem::take(&mut self.texts);
         texts.sort_by_key(FoundText::is_mtext);
         let mut last = None;
         texts.retain(|text| {
             let circle = text.circle();
-            let found = find(&circle, &self.candidates, &self.boxes, looks);
-            if looks.are_over() {
+            let found = find(&circle, &self.candidates, &self.boxes, budget);
+            if budget.is_exhausted() {
                 last.get_or_insert(*text);
                 return false;
             }
@@ -246,7 +257,7 @@ impl<'d> LayerTexts<'d> {
         first..behind
     }
 
-    fn give(&self, text: TextId, owners: Range<usize>, path: &mut Collected<'_>) {
+    fn give(&self, text: TextId, owners: Range<usize>, path: &mut PathCollector<'_>) {
         for owner in &self.candidates[owners] {
             let owner = match owner.owner {
                 Owner::Start => path.start.as_mut().map(|start| &mut start.text),
@@ -265,7 +276,7 @@ impl<'d> LayerTexts<'d> {
     fn doubt(
         &self,
         text: &FoundText<'_>,
-        found: Found,
+        found: AssignedCandidate,
         margin: f64,
         elements: &[Element],
     ) -> Option<Diagnostic> {
@@ -305,7 +316,7 @@ impl<'d> LayerTexts<'d> {
         &self,
         text: &FoundText<'_>,
         elsewhere: impl Iterator<Item = &'a Self>,
-        looks: &Looks,
+        budget: &SearchBudget,
     ) -> Diagnostic
     where
         'd: 'a,
@@ -316,7 +327,7 @@ impl<'d> LayerTexts<'d> {
             .with("centre", shown(circle.centre))
             .with("diameter", 2.0 * circle.radius);
         diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
-        if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, looks) {
+        if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
                 &messages::NEAREST_ELEMENT,
@@ -327,15 +338,15 @@ impl<'d> LayerTexts<'d> {
                 ],
             );
         }
-        let takers = elsewhere.take(MOST_ASKED).filter_map(|layer| layer.would_take(&circle, looks));
+        let takers = elsewhere.take(MOST_ASKED).filter_map(|layer| layer.would_take(&circle, budget));
         let note = |diagnostic: Diagnostic, taker| diagnostic.note(&messages::ELEMENT_ON_OTHER_LAYER, taker);
         let diagnostic = takers.take(MOST_NAMED).fold(diagnostic, note);
         self.origin(text.source, text.anchor()).at(diagnostic)
     }
 
     /// The element that a text with this circle would belong to on this layer.
-    fn would_take(&self, circle: &TextCircle, looks: &Looks) -> Option<Vec<(&'static str, Value)>> {
-        let found = find(circle, &self.candidates, &self.boxes, looks)?;
+    fn would_take(&self, circle: &TextCircle, budget: &SearchBudget) -> Option<Vec<(&'static str, Value)>> {
+        let found = find(circle, &self.candidates, &self.boxes, budget)?;
         let candidate = &self.candidates[found.candidate];
         Some(vec![
             ("layer", (&*self.name).into()),

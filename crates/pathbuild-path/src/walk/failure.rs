@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Diagnostic, Word, words};
 
-use super::Walk;
+use super::Walker;
 use super::twice::Curves;
 use crate::approx::coincide;
 use crate::element::shown;
@@ -14,7 +14,7 @@ use crate::text_circle::TextCircle;
 /// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
 const ON_CURVE: f64 = 0.001;
 
-impl Walk<'_> {
+impl Walker<'_> {
     pub(super) fn empty(&self) -> Diagnostic {
         self.path.start_origin.at(Diagnostic::new(&messages::EMPTY_PATH))
     }

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::drawing as messages;
 
 use rstar::RTree;
 
-use super::Walk;
+use super::Walker;
 use super::ends::Ends;
 use crate::approx::{above, at_least};
 use crate::element::Origin;
@@ -66,7 +66,7 @@ fn bits(point: [f64; 2]) -> [u64; 2] {
     point.map(f64::to_bits)
 }
 
-impl Walk<'_> {
+impl Walker<'_> {
     /// The segment with the nearest end, if that is within the tolerance. Reports the join.
     pub(super) fn next_within_tolerance(&mut self) -> Option<usize> {
         if self.join_tolerance <= 0.0 {

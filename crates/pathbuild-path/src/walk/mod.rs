@@ -13,7 +13,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing as messages, parameters};
 
 use crate::approx::coincide;
-use crate::chain::{Chain, ChainSegment, Grouped, Item};
+use crate::chain::{Chain, ChainBuilder, ChainSegment, Item};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 
@@ -27,7 +27,7 @@ pub(crate) use passage::{Passage, curve};
 
 /// A path in milling order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Walked {
+pub struct WalkedPath {
     /// The operations in order. Complete only if no diagnostic is an error.
     pub items: Vec<Item>,
     /// The members of all chains, in walking order.
@@ -39,13 +39,13 @@ pub struct Walked {
 }
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
-pub fn walk(path: &Path, join_tolerance: f64) -> Walked {
+pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
     walk_watched(path, join_tolerance, &|| {})
 }
 
 /// Like [`walk`], and calls `checkpoint` regularly, from where callers can unwind if the result is no longer needed.
-pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> Walked {
-    let mut walk = Walk::new(path, join_tolerance, checkpoint);
+pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> WalkedPath {
+    let mut walk = Walker::new(path, join_tolerance, checkpoint);
     let result = walk.run();
     let mut walked = walk.finish(result);
     for diagnostic in &mut walked.diagnostics {
@@ -54,7 +54,7 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
     walked
 }
 
-impl Walked {
+impl WalkedPath {
     /// A walk that failed.
     pub fn failed(problem: Diagnostic) -> Self {
         Self { diagnostics: vec![problem], ..Self::default() }
@@ -75,7 +75,7 @@ const CROWDED: usize = 16;
 /// Number of segments between calls of the checkpoint.
 const STRETCH: usize = 256;
 
-struct Walk<'a> {
+struct Walker<'a> {
     path: &'a Path,
     ends: Ends,
     stars: Stars,
@@ -89,7 +89,7 @@ struct Walk<'a> {
     /// The last traversed segment.
     last: Option<usize>,
     /// The traversed segments, grouped into items.
-    grouped: Grouped<'a>,
+    chains: ChainBuilder<'a>,
     /// Segments traversed forwards and not yet retraced. They always lead from the start to `at`. Unused without turn markers.
     way_back: Vec<(usize, Passage)>,
     turns: Turns,
@@ -97,11 +97,11 @@ struct Walk<'a> {
     checkpoint: &'a dyn Fn(),
     /// PB115 for each join.
     joined: Vec<Diagnostic>,
-    /// See [`Walked::open_end`].
+    /// See [`WalkedPath::open_end`].
     open_end: Option<Xy>,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> Walker<'a> {
     fn new(path: &'a Path, join_tolerance: f64, checkpoint: &'a dyn Fn()) -> Self {
         let count = path.segments.len();
         Self {
@@ -118,24 +118,24 @@ impl<'a> Walk<'a> {
             left: count,
             at: path.start,
             last: None,
-            grouped: Grouped::new(path),
+            chains: ChainBuilder::new(path),
             way_back: Vec::new(),
             turns: Turns::new(path),
         }
     }
 
     /// The result of the walk.
-    fn finish(self, result: Result<(), Failure>) -> Walked {
+    fn finish(self, result: Result<(), Failure>) -> WalkedPath {
         let idle = self.idle_markers();
-        let Self { path, grouped, mut joined, open_end, .. } = self;
-        let mut walked = grouped.finish();
+        let Self { path, chains, mut joined, open_end, .. } = self;
+        let mut walked = chains.finish();
         walked.open_end = open_end;
         let is_complete = result.is_ok();
         if let Err(problem) = result {
             let missing =
                 walked.diagnostics.into_iter().filter(|found| found.is_error() && !path.gives_infeed());
             let problems = problem.map(|problem| *problem).into_iter().chain(missing);
-            walked = Walked { diagnostics: problems.collect(), ..Walked::default() };
+            walked = WalkedPath { diagnostics: problems.collect(), ..WalkedPath::default() };
         }
         if path.faults.as_ref().is_some_and(|faults| faults.is_infeed_unknown) {
             walked.diagnostics.retain(|found| found.message != &parameters::MISSING);
@@ -247,7 +247,7 @@ impl<'a> Walk<'a> {
     fn follow(&mut self, segment: usize, passage: Passage, is_return: bool) {
         self.at = passage.end;
         self.last = Some(segment);
-        self.grouped.add(segment, passage, is_return);
+        self.chains.add(segment, passage, is_return);
     }
 
     /// Reverses a segment if its end is at the current point. A joined segment is made to begin exactly there.
@@ -283,7 +283,7 @@ impl<'a> Walk<'a> {
             let (segment, passage) = self.way_back.pop().ok_or(())?;
             if let SegmentKind::Hole(_) = self.path.segments[segment].kind {
                 self.last = Some(segment);
-                self.grouped.finish_chain();
+                self.chains.finish_chain();
             } else {
                 let passage = self.as_met_here(segment, passage.turned_round(), true);
                 self.follow(segment, passage, true);

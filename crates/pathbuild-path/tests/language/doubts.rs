@@ -1,11 +1,11 @@
 //! Permitted values that are suspicious to a machinist: PB116 and PB211.
 
-use pathbuild_path::{Bindings, Doubts, Language};
+use pathbuild_path::{Bindings, DoubtThresholds, Language};
 
 use crate::support::{codes, compile_raw, language, path, read_as};
 
 /// The findings about a path, with their values.
-fn said(drawing: &str, doubts: Doubts) -> Vec<String> {
+fn said(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
     let language = Language { doubts, ..language() };
     let (raw, _) = read_as(drawing, &language).paths.into_iter().next().expect("there is a path");
     let compiled = compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language);
@@ -22,7 +22,7 @@ fn line(start: &str, text: &str) -> Vec<String> {
     said(&path(start, &format!("mill 0,0 40,0{text}\nend 40,0")), MACHINE)
 }
 
-const MACHINE: Doubts = Doubts { maximum_feed: Some(1500.0), ..Doubts::DEFAULT };
+const MACHINE: DoubtThresholds = DoubtThresholds { maximum_feed: Some(1500.0), ..DoubtThresholds::DEFAULT };
 
 #[test]
 fn the_bottom_is_not_far_below_the_plate() {
@@ -30,7 +30,7 @@ fn the_bottom_is_not_far_below_the_plate() {
     assert_eq!(line("T5 O2 I1 B-0.51", ""), ["PB211 B-0.51"]);
     assert_eq!(line("T5 O2 I1 B0", "B-0.5"), [""; 0]);
     assert_eq!(line("T5 O2 I1 B0", "B-0.51"), ["PB211 B-0.51"]);
-    let higher = Doubts { below_plate: 3.0, ..MACHINE };
+    let higher = DoubtThresholds { below_plate: 3.0, ..MACHINE };
     assert_eq!(said(&path("T5 O2 I1 B-3", "mill 0,0 40,0\nend 40,0"), higher), [""; 0]);
 }
 
@@ -59,7 +59,7 @@ fn a_mark_is_not_deeper_than_half_the_material() {
     assert_eq!(mark("T5 O2 I1 D2.5", ""), [""; 0]);
     assert_eq!(mark("T5 O2 I1 D2.49", ""), ["PB211 D2.49"]);
     assert_eq!(mark("T5 O2 I1 D2.49", " \"D4.8\""), [""; 0]);
-    let through = Doubts { mark_depth: 1.0, ..MACHINE };
+    let through = DoubtThresholds { mark_depth: 1.0, ..MACHINE };
     assert_eq!(said(&path("T5 O2 I1 D0", "mark 0,0 40,0\nend 40,0"), through), [""; 0]);
 }
 
@@ -78,7 +78,7 @@ fn an_infeed_is_not_above_the_thickness() {
     assert_eq!(line("T5 O2 I5.01 B0", ""), ["PB211 I5.01"]);
     assert_eq!(line("T5 O2 I1 B0", "I5"), [""; 0]);
     assert_eq!(line("T5 O2 I1 B0", "I5.01"), ["PB211 I5.01"]);
-    let twice = Doubts { infeed: 2.0, ..MACHINE };
+    let twice = DoubtThresholds { infeed: 2.0, ..MACHINE };
     assert_eq!(said(&path("T5 O2 I10 B0", "mill 0,0 40,0\nend 40,0"), twice), [""; 0]);
     assert_eq!(said(&path("T5 O2 I10.01 B0", "mill 0,0 40,0\nend 40,0"), twice), ["PB211 I10.01"]);
 }
@@ -89,14 +89,14 @@ fn a_feed_is_not_above_the_machines() {
     assert_eq!(line("T5 O2 I1 B0 F1501", ""), ["PB211 F1501"]);
     assert_eq!(line("T5 O2 I1 B0", "F1500"), [""; 0]);
     assert_eq!(line("T5 O2 I1 B0", "F1501"), ["PB211 F1501"]);
-    let unknown = Doubts { maximum_feed: None, ..MACHINE };
+    let unknown = DoubtThresholds { maximum_feed: None, ..MACHINE };
     assert_eq!(said(&path("T5 O2 I1 B0 F9999", "mill 0,0 40,0\nend 40,0"), unknown), [""; 0]);
 }
 
 /// The codes for a path with lines or circles and a text.
 fn texts(statements: &str, margin: f64) -> Vec<String> {
     let drawing = format!("layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\n{statements}");
-    let language = Language { doubts: Doubts { text_margin: margin, ..MACHINE }, ..language() };
+    let language = Language { doubts: DoubtThresholds { text_margin: margin, ..MACHINE }, ..language() };
     codes(&read_as(&drawing, &language).paths[0].0.diagnostics)
 }
 
@@ -176,7 +176,7 @@ fn a_depth_that_was_meant_from_the_surface_is_named() {
 
 #[test]
 fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
-    let circle = |diameter: &str, doubts: Doubts| {
+    let circle = |diameter: &str, doubts: DoubtThresholds| {
         said(&path("T5 O3 I1 B0 D2", &format!("circle 0,0 d {diameter}\nmill 0,0 40,0\nend 40,0")), doubts)
     };
     // It is drilled up to 0.001 mm.
@@ -186,8 +186,8 @@ fn a_circle_hardly_larger_than_the_cutter_was_meant_to_be_drilled() {
         assert_eq!(circle(diameter, MACHINE).len(), usize::from(is_doubtful), "{diameter}");
     }
     assert_eq!(circle("3.05", MACHINE), ["PB118 "]);
-    assert_eq!(circle("3.05", Doubts { hole_margin: 0.04, ..MACHINE }), [""; 0]);
-    assert_eq!(circle("3.002", Doubts { hole_margin: 0.0, ..MACHINE }), [""; 0]);
+    assert_eq!(circle("3.05", DoubtThresholds { hole_margin: 0.04, ..MACHINE }), [""; 0]);
+    assert_eq!(circle("3.002", DoubtThresholds { hole_margin: 0.0, ..MACHINE }), [""; 0]);
 }
 
 /// A ring of lines in which statements can be replaced.

@@ -3,15 +3,15 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Curve, Doubts, Examined, Item, Language, LineTypeAliases, Path, PathPattern, RawFile, RawPath,
-    Walked, Xy, examine, raw_file, walk,
+    Bindings, Curve, DoubtThresholds, ExaminedPath, Item, Language, LineTypeAliases, Path, PathPattern,
+    RawFile, RawPath, WalkedPath, Xy, examine, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
 
 /// The compiled form of a path.
 pub(crate) struct Compiled {
     pub(crate) path: Option<Path>,
-    pub(crate) walked: Walked,
+    pub(crate) walked: WalkedPath,
     /// The findings, stage by stage.
     pub(crate) found: Vec<Diagnostic>,
 }
@@ -28,7 +28,7 @@ impl Compiled {
 }
 
 /// Disables doubts, since odd values are irrelevant to tests of other rules.
-const NO_DOUBTS: Doubts = Doubts {
+const NO_DOUBTS: DoubtThresholds = DoubtThresholds {
     below_plate: f64::INFINITY,
     infeed: f64::INFINITY,
     mark_depth: f64::INFINITY,
@@ -82,8 +82,8 @@ pub(crate) fn compile(drawing: &str) -> Compiled {
 
 /// Compiles a path stage by stage. Each stage skips findings that follow from earlier ones.
 pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
-    let mut compiled = Compiled { path: None, walked: Walked::default(), found: raw.diagnostics.clone() };
-    let Examined { path, problems } = examine(raw, bindings, language);
+    let mut compiled = Compiled { path: None, walked: WalkedPath::default(), found: raw.diagnostics.clone() };
+    let ExaminedPath { path, problems } = examine(raw, bindings, language);
     compiled.found.extend(problems);
     if let Some(path) = &path {
         compiled.walked = walk(path, language.join_tolerance);
@@ -123,7 +123,7 @@ pub(crate) fn items(drawing: &str) -> Vec<String> {
     compiled.walked.items.iter().map(|it| item(path, &compiled.walked, it)).collect()
 }
 
-fn item(path: &Path, walked: &Walked, item: &Item) -> String {
+fn item(path: &Path, walked: &WalkedPath, item: &Item) -> String {
     match item {
         Item::Chain(chain) => {
             let member = |member: &pathbuild_path::ChainSegment| {

@@ -40,7 +40,7 @@ struct Move {
 }
 
 /// A path with everything it embeds, expanded.
-struct Unfolded<'m> {
+struct ExpandedPath<'m> {
     model: &'m Model,
     occurrences: Vec<Occurrence>,
     moves: Vec<Move>,
@@ -49,14 +49,14 @@ struct Unfolded<'m> {
 impl Model {
     /// The moves of a path without errors that hit clamps.
     pub(super) fn entered_clamps(&self, root: &Instance) -> Vec<Finding> {
-        let mut unfolded = Unfolded { model: self, occurrences: Vec::new(), moves: Vec::new() };
+        let mut unfolded = ExpandedPath { model: self, occurrences: Vec::new(), moves: Vec::new() };
         let place = Place { origin: [0.0; 2], turn: [1.0, 0.0], raised: 0.0 };
         unfolded.unfold(root.clone(), None, |_| place);
         unfolded.findings()
     }
 }
 
-impl Unfolded<'_> {
+impl ExpandedPath<'_> {
     /// Adds a path, its moves, and everything it embeds.
     fn unfold(
         &mut self,
@@ -116,11 +116,11 @@ impl Unfolded<'_> {
         for (number, occurrence) in self.occurrences.iter().enumerate() {
             let drawing = &self.model.drawings[occurrence.instance.0];
             for (clamp, drawn) in drawing.clamps.iter().enumerate() {
-                for it in self.moves.iter().filter(|it| self.is_in(it, occurrence, drawn)) {
-                    let (holder, element) = self.common(number, it);
-                    let entry = entries.entry((number, clamp, holder, element, it.what));
+                for motion in self.moves.iter().filter(|motion| self.is_in(motion, occurrence, drawn)) {
+                    let (holder, element) = self.common(number, motion);
+                    let entry = entries.entry((number, clamp, holder, element, motion.what));
                     let (moves, lowest) = entry.or_insert((0, f64::INFINITY));
-                    (*moves, *lowest) = (*moves + 1, lowest.min(it.z));
+                    (*moves, *lowest) = (*moves + 1, lowest.min(motion.z));
                 }
             }
         }
@@ -144,18 +144,18 @@ impl Unfolded<'_> {
     }
 
     /// Whether a move hits a clamp: it is lower than the clamp, and closer than the cutter's radius.
-    fn is_in(&self, it: &Move, around: &Occurrence, clamp: &KeepOut) -> bool {
+    fn is_in(&self, motion: &Move, around: &Occurrence, clamp: &KeepOut) -> bool {
         let radius = self.occurrences[0].path.tool / 2.0;
-        it.z < clamp.height + around.place.raised - LENGTH
-            && distance(it.ends.map(|end| around.place.back(end)), &corners(clamp)) < radius - LENGTH
+        motion.z < clamp.height + around.place.raised - LENGTH
+            && distance(motion.ends.map(|end| around.place.back(end)), &corners(clamp)) < radius - LENGTH
     }
 
     /// The innermost path that contains a clamp's drawing and a move, and its element that leads to the move.
-    fn common(&self, clamp: usize, it: &Move) -> (usize, Option<String>) {
+    fn common(&self, clamp: usize, motion: &Move) -> (usize, Option<String>) {
         let parent = |number: usize| self.occurrences[number].parent.as_ref();
         let around_clamp: Vec<usize> =
             std::iter::successors(Some(clamp), |number| parent(*number).map(|outer| outer.0)).collect();
-        let mut at = (it.occurrence, it.element.clone());
+        let mut at = (motion.occurrence, motion.element.clone());
         while let Some(outer) = parent(at.0).filter(|_| !around_clamp.contains(&at.0)) {
             at = outer.clone();
         }

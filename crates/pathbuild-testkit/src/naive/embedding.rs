@@ -1,7 +1,7 @@
 //! Checks embeddings. (book: language/embedding; the order: book: reference/diagnostics)
 
 use pathbuild_path::{
-    Allowed, Bindings, Definition, Examined, Letter, Path, PathName, Segment, SegmentKind, Subpath,
+    AllowedValues, Bindings, Definition, ExaminedPath, Letter, Path, PathName, Segment, SegmentKind, Subpath,
     SubpathName, SweepLimits, parse_number, walk,
 };
 use regex::Regex;
@@ -33,7 +33,7 @@ impl<'m> Visit<'m> {
         self.found.extend(drawing.faults());
         let raw = self.model.raw(instance);
         let mut is_wrong = self.report(instance, &raw.diagnostics) | drawing.has_unclear_clamps;
-        let Examined { path, problems } = self.model.bound(instance);
+        let ExaminedPath { path, problems } = self.model.bound(instance);
         is_wrong |= self.report(instance, &problems);
         let Some(path) = path else { return true };
         is_wrong |= path.has_faults();
@@ -97,7 +97,7 @@ impl<'m> Visit<'m> {
             [] => return self.stop(at("PB503", &[name.as_str()])),
             [_] => {}
             [first, second, ..] => {
-                let [first, second] = [first, second].map(|it| &*model.drawings[it].path);
+                let [first, second] = [first, second].map(|drawing| &*model.drawings[drawing].path);
                 return self.stop(at("PB504", &[name.as_str(), first, second]));
             }
         }
@@ -176,11 +176,11 @@ fn is_glued(value: &str, name: &str) -> bool {
 /// Whether a variable accepts a value.
 pub(super) fn allows(definition: &Definition, value: &str) -> bool {
     match &definition.values {
-        Allowed::Range { from, to, .. } => {
+        AllowedValues::Range { from, to, .. } => {
             parse_number(value).is_some_and(|number| *from <= number && number <= *to)
         }
-        Allowed::List(values) => values.iter().any(|known| known == value),
-        Allowed::Characters(all) => all.iter().any(|known| value == known.to_string()),
+        AllowedValues::List(values) => values.iter().any(|known| known == value),
+        AllowedValues::Characters(all) => all.iter().any(|known| value == known.to_string()),
     }
 }
 

@@ -42,7 +42,9 @@ impl Finding {
 
     /// Whether a finding of the program is the same.
     fn is_meant_by(&self, program: &Self) -> bool {
-        let place = |it: &Self| (it.code.clone(), it.file.clone(), it.path.clone(), it.handle.clone());
+        let place = |finding: &Self| {
+            (finding.code.clone(), finding.file.clone(), finding.path.clone(), finding.handle.clone())
+        };
         place(self) == place(program)
             && self.words.iter().all(|word| program.words.iter().any(|message| message.contains(&**word)))
     }

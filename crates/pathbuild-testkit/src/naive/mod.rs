@@ -17,7 +17,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, ElementId};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Examined, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName,
+    Bindings, ExaminedPath, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName,
     PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file, stray_findings,
 };
 
@@ -63,7 +63,7 @@ pub fn language() -> Language {
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,
-        doubts: pathbuild_path::Doubts::default(),
+        doubts: pathbuild_path::DoubtThresholds::default(),
     }
 }
 
@@ -106,9 +106,10 @@ impl Model {
 
     /// The paths of the drawings in a directory and below, as file and name.
     pub fn paths(&self, directory: &str) -> Vec<(String, String)> {
-        let below = self.drawings.iter().filter(|it| it.path.starts_with(&format!("{directory}/")));
-        let names = |it: &Drawing| {
-            let names = it.content.paths.iter().map(|(raw, _)| (it.path.clone(), raw.name.to_string()));
+        let below = self.drawings.iter().filter(|drawing| drawing.path.starts_with(&format!("{directory}/")));
+        let names = |drawing: &Drawing| {
+            let names =
+                drawing.content.paths.iter().map(|(raw, _)| (drawing.path.clone(), raw.name.to_string()));
             names.collect::<Vec<_>>()
         };
         below.flat_map(names).collect()
@@ -135,7 +136,7 @@ impl Model {
     }
 
     /// The path as far as it is known, with the errors in its values.
-    fn bound(&self, instance: &Instance) -> Examined {
+    fn bound(&self, instance: &Instance) -> ExaminedPath {
         pathbuild_path::examine(self.raw(instance), &instance.2, &self.language)
     }
 }

@@ -51,7 +51,8 @@ pub(super) fn may_hold(stem: &str, path: &str) -> bool {
     let Some(path) = PATH.captures(path) else { return false };
     let path: Vec<&str> = (1..=3).map(|group| &path[group]).collect();
     let end = |found: &regex::Captures<'_>, first: usize| -> Vec<String> {
-        let group = |number: usize| found.get(number).map_or(String::new(), |it| it.as_str().to_owned());
+        let group =
+            |number: usize| found.get(number).map_or(String::new(), |group| group.as_str().to_owned());
         vec![group(first), group(first + 1)]
     };
     let mut ranges = RANGE.captures_iter(stem).map(|found| (end(&found, 1), end(&found, 3)));

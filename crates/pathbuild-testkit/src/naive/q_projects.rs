@@ -18,7 +18,7 @@ impl Model {
         let mut found = Vec::new();
         for drawing in numbers {
             for q_project in numbers {
-                let [here, there] = [drawing, q_project].map(|it| &*self.drawings[*it].path);
+                let [here, there] = [drawing, q_project].map(|number| &*self.drawings[*number].path);
                 let is_pair = directory(here) == directory(there)
                     && [format!("{}_Q", stem(here)), format!("{}_q", stem(here))]
                         .contains(&stem(there).to_owned());
@@ -40,7 +40,8 @@ impl Model {
         let values = |path: usize| Bindings::check_values(&project.content.paths[path].0.definitions);
         let bound = |path: usize| self.sound(&(q_project, path, values(path)));
         let paths: Option<Vec<Path>> = (0..project.content.paths.len()).map(bound).collect();
-        let Some(paths) = paths.filter(|_| project.content.diagnostics.iter().all(|it| !it.is_error()))
+        let Some(paths) =
+            paths.filter(|_| project.content.diagnostics.iter().all(|problem| !problem.is_error()))
         else {
             return found;
         };
@@ -148,8 +149,10 @@ fn joined(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
 fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     let mut found = Vec::new();
     for (letter, name, here) in [(Letter::T, "T", subpath.thickness), (Letter::O, "O", subpath.tool)] {
-        let there = proxy.value(letter);
-        found.extend(there.filter(|(there, _)| !is_same(there, &here.to_string())).map(|_| name.to_owned()));
+        let on_proxy = proxy.value(letter);
+        found.extend(
+            on_proxy.filter(|(there, _)| !is_same(there, &here.to_string())).map(|_| name.to_owned()),
+        );
     }
     if proxy.value(Letter::M).is_some_and(|(there, _)| subpath.material.as_deref() != Some(there)) {
         found.push("M".to_owned());
@@ -160,8 +163,8 @@ fn differing(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     variables.dedup();
     for variable in variables {
         let here = subpath.values.iter().find(|given| given.variable == Some(variable));
-        let there = proxy.variables().find(|(name, _)| *name == variable);
-        let agree = matches!((here, there), (Some(here), Some((_, there))) if is_same(&here.value, there));
+        let on_proxy = proxy.variables().find(|(name, _)| *name == variable);
+        let agree = matches!((here, on_proxy), (Some(here), Some((_, there))) if is_same(&here.value, there));
         found.extend((!agree).then(|| format!(":{variable}")));
     }
     if ((subpath.end - subpath.start).norm() - proxy.curve.chord()).abs() > LENGTH {

@@ -1,10 +1,10 @@
 use super::cursor::{Cursor, Parsed};
 use super::shapes::{begin, one};
-use super::statement::Drawn;
+use super::statement::ParsedEntities;
 use pathbuild_draw::model::{Arc, Point, Shape};
 
 /// `centre P r R from A to B [cw]`, or `P P` and `r R [cw] [large]`, `via P`, `bulge B` or `centre P [cw]`.
-pub(crate) fn arc(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn arc(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     if cursor.take("centre") {
         return arc_by_angles(cursor);
     }
@@ -35,7 +35,7 @@ pub(crate) fn arc(cursor: &mut Cursor) -> Parsed<Drawn> {
     Ok(one(Shape::Arc(arc), Some(to)))
 }
 
-fn arc_by_angles(cursor: &mut Cursor) -> Parsed<Drawn> {
+fn arc_by_angles(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let centre = cursor.point("the centre")?;
     cursor.keyword("r")?;
     let radius = cursor.length("the radius")?;
@@ -74,7 +74,7 @@ fn through(from: Point, via: Point, to: Point) -> Option<Arc> {
     let cross = a.x * b.y - a.y * b.x;
     let (a2, b2) = (a.x * a.x + a.y * a.y, b.x * b.x + b.y * b.y);
     let centre = from + Point::new(b.y * a2 - a.y * b2, a.x * b2 - b.x * a2) * (0.5 / cross);
-    let made =
+    let arc =
         directed(centre, centre.distance(from), centre.direction(from), centre.direction(to), cross < 0.0);
-    (cross != 0.0 && made.radius.is_finite()).then_some(made)
+    (cross != 0.0 && arc.radius.is_finite()).then_some(arc)
 }

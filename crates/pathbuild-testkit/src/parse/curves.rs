@@ -1,10 +1,10 @@
 use super::cursor::{Cursor, Parsed};
 use super::shapes::one;
-use super::statement::Drawn;
+use super::statement::ParsedEntities;
 use pathbuild_draw::model::{Ellipse, Point, Shape, Spline};
 
 /// `centre P major X,Y ratio R [from A to B]`
-pub(crate) fn ellipse(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn ellipse(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     cursor.keyword("centre")?;
     let centre = cursor.point("the centre")?;
     cursor.keyword("major")?;
@@ -23,7 +23,7 @@ pub(crate) fn ellipse(cursor: &mut Cursor) -> Parsed<Drawn> {
 }
 
 /// `[degree N] control P ... [knots K ...] [weights W ...] [closed]` or `fit P ...`
-pub(crate) fn spline(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn spline(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let degree = if cursor.take("degree") { cursor.integer("degree")? } else { 3 };
     let mut spline = Spline {
         degree,

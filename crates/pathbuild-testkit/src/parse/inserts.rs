@@ -1,10 +1,10 @@
 use super::cursor::{Cursor, Parsed};
 use super::shapes::one;
-use super::statement::Drawn;
+use super::statement::ParsedEntities;
 use pathbuild_draw::model::{Insert, Point, Shape};
 
 /// `insert NAME at P [scale S | scale X,Y] [rotate A] [columns N DX] [rows N DY]`
-pub(crate) fn insert(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn insert(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let block = cursor.name("a block's name")?;
     cursor.keyword("at")?;
     let at = cursor.point("where the block goes")?;
@@ -41,7 +41,7 @@ fn scale(cursor: &mut Cursor) -> Parsed<Point> {
 }
 
 /// `P P P [P]`
-pub(crate) fn solid(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn solid(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let corners = cursor.points("a corner")?;
     let corners = match corners[..] {
         [a, b, c] => [a, b, c, c],

@@ -3,12 +3,12 @@ use super::cursor::{Cursor, Parsed};
 use super::curves::{ellipse, spline};
 use super::inserts::{insert, solid};
 use super::line_type;
-use super::statement::Drawn;
+use super::statement::ParsedEntities;
 use pathbuild_draw::Draft;
 use pathbuild_draw::model::{Circle, Entity, Line, Point, Polyline, PolylineKind, Shape, Vertex};
 
 /// An element: `[VERB] [SHAPE] [LINETYPE] geometry`.
-pub(crate) fn shape(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<Drawn> {
+pub(crate) fn shape(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<ParsedEntities> {
     let word = cursor.name("an element")?;
     match word.as_str() {
         "start" => marker(cursor, Entity::start),
@@ -34,12 +34,12 @@ pub(crate) fn shape(cursor: &mut Cursor, draft: &mut Draft) -> Parsed<Drawn> {
     }
 }
 
-fn marker(cursor: &mut Cursor, make: fn(Point) -> Entity) -> Parsed<Drawn> {
+fn marker(cursor: &mut Cursor, make: fn(Point) -> Entity) -> Parsed<ParsedEntities> {
     let at = cursor.point("the marker's centre")?;
-    Ok(Drawn { entities: vec![make(at)], end: Some(at) })
+    Ok(ParsedEntities { entities: vec![make(at)], end: Some(at) })
 }
 
-fn typed(mut drawn: Drawn, line_type: &str) -> Drawn {
+fn typed(mut drawn: ParsedEntities, line_type: &str) -> ParsedEntities {
     let is_by_layer = line_type.eq_ignore_ascii_case("BYLAYER");
     for entity in &mut drawn.entities {
         entity.line_type = (!is_by_layer).then(|| line_type.to_owned());
@@ -48,14 +48,14 @@ fn typed(mut drawn: Drawn, line_type: &str) -> Drawn {
 }
 
 /// A shape whose line type follows from the verb. The default shape is a line.
-fn verb(cursor: &mut Cursor, line_type: &str) -> Parsed<Drawn> {
+fn verb(cursor: &mut Cursor, line_type: &str) -> Parsed<ParsedEntities> {
     let shape =
         ["line", "arc", "circle", "polyline", "ellipse", "spline"].into_iter().find(|word| cursor.take(word));
     geometry(cursor, shape.unwrap_or("line")).map(|drawn| typed(drawn, line_type))
 }
 
 /// A shape with its line type; the default is CONTINUOUS.
-fn plain(cursor: &mut Cursor, draft: &mut Draft, word: &str) -> Parsed<Drawn> {
+fn plain(cursor: &mut Cursor, draft: &mut Draft, word: &str) -> Parsed<ParsedEntities> {
     if !matches!(word, "line" | "arc" | "circle" | "polyline" | "ellipse" | "spline") {
         return Err(cursor.error(format!("{word:?} is no element and no option")));
     }
@@ -71,7 +71,7 @@ fn is_unknown_line_type(cursor: &Cursor) -> bool {
     !cursor.is_at_number() && cursor.peek_word().is_some_and(|word| !keywords.contains(&word))
 }
 
-fn geometry(cursor: &mut Cursor, shape: &str) -> Parsed<Drawn> {
+fn geometry(cursor: &mut Cursor, shape: &str) -> Parsed<ParsedEntities> {
     match shape {
         "arc" => arc(cursor),
         "circle" => circle(cursor),
@@ -82,8 +82,8 @@ fn geometry(cursor: &mut Cursor, shape: &str) -> Parsed<Drawn> {
     }
 }
 
-pub(crate) fn one(shape: Shape, end: Option<Point>) -> Drawn {
-    Drawn { entities: vec![Entity::new(shape)], end }
+pub(crate) fn one(shape: Shape, end: Option<Point>) -> ParsedEntities {
+    ParsedEntities { entities: vec![Entity::new(shape)], end }
 }
 
 /// The start of a line or arc: a point, or `to` for the end of the previous element.
@@ -98,7 +98,7 @@ pub(crate) fn begin(cursor: &mut Cursor) -> Parsed<Point> {
 }
 
 /// `P P [P ...]` or `to P [P ...]`: a line between consecutive points.
-fn lines(cursor: &mut Cursor) -> Parsed<Drawn> {
+fn lines(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let mut from = begin(cursor)?;
     let mut entities = Vec::new();
     while cursor.is_at_number() || entities.is_empty() {
@@ -106,11 +106,11 @@ fn lines(cursor: &mut Cursor) -> Parsed<Drawn> {
         entities.push(Entity::new(Shape::Line(Line { from, to })));
         from = to;
     }
-    Ok(Drawn { entities, end: Some(from) })
+    Ok(ParsedEntities { entities, end: Some(from) })
 }
 
 /// `P d D` or `P r R`
-fn circle(cursor: &mut Cursor) -> Parsed<Drawn> {
+fn circle(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let centre = cursor.point("the centre")?;
     let radius = if cursor.take("r") {
         cursor.length("the radius")?
@@ -122,7 +122,7 @@ fn circle(cursor: &mut Cursor) -> Parsed<Drawn> {
 }
 
 /// `[heavy|spatial] P [bulge B] P ... [closed]`
-fn polyline(cursor: &mut Cursor) -> Parsed<Drawn> {
+fn polyline(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     let kind = if cursor.take("heavy") {
         PolylineKind::Heavy
     } else if cursor.take("spatial") {

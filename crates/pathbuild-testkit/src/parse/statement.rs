@@ -30,7 +30,7 @@ pub(crate) struct Parser {
 }
 
 /// The entities of a line, and their end point.
-pub(crate) struct Drawn {
+pub(crate) struct ParsedEntities {
     pub(crate) entities: Vec<Entity>,
     pub(crate) end: Option<Point>,
 }
@@ -84,7 +84,7 @@ impl Parser {
             Some("mtext") => texts::mtext(cursor)?,
             _ => shapes::shape(cursor, &mut self.draft)?,
         };
-        let Drawn { mut entities, end } = drawn;
+        let ParsedEntities { mut entities, end } = drawn;
         modifiers::modifiers(cursor, &mut entities)?;
         for entity in &mut entities {
             entity.line = cursor.line;

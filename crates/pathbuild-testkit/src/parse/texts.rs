@@ -1,12 +1,12 @@
 use super::cursor::{Cursor, Parsed};
-use super::statement::Drawn;
+use super::statement::ParsedEntities;
 use pathbuild_draw::model::{Attachment, Direction, Entity, Horizontal, MText, Point, Shape, Text, Vertical};
 
 /// Default letter height in mm.
 const HEIGHT: f64 = 2.5;
 
 /// `text P "..." [height H] [rotate A] [align ...] [backwards] [upside-down]`
-pub(crate) fn text(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn text(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     cursor.keyword("text")?;
     let anchor = cursor.point("the text's anchor")?;
     let value = cursor.string("the text")?;
@@ -37,8 +37,8 @@ pub(crate) fn text(cursor: &mut Cursor) -> Parsed<Drawn> {
     }
 }
 
-fn drawn(shape: Shape, at: Point) -> Drawn {
-    Drawn { entities: vec![Entity::new(shape)], end: Some(at) }
+fn drawn(shape: Shape, at: Point) -> ParsedEntities {
+    ParsedEntities { entities: vec![Entity::new(shape)], end: Some(at) }
 }
 
 /// `align [left|centre|right|middle|aligned P|fit P] [baseline|bottom|middle|top]`
@@ -72,7 +72,7 @@ fn align(cursor: &mut Cursor, text: &mut Text) -> Parsed<()> {
 }
 
 /// `mtext P "..." [height H] [rotate A | direction X,Y] [align ROW COLUMN] [chunks N] [width W]`
-pub(crate) fn mtext(cursor: &mut Cursor) -> Parsed<Drawn> {
+pub(crate) fn mtext(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     cursor.keyword("mtext")?;
     let anchor = cursor.point("the text's anchor")?;
     let value = cursor.string("the text")?;

@@ -29,7 +29,7 @@ pub(crate) fn language() -> Language {
         line_types: pathbuild_path::LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,
-        doubts: pathbuild_path::Doubts::default(),
+        doubts: pathbuild_path::DoubtThresholds::default(),
     }
 }
 

@@ -2,14 +2,14 @@
 
 use pathbuild_dxf::Options;
 use pathbuild_path::{
-    Bindings, Language, LineTypeAliases, Path, PathOptions, PathPattern, SegmentKind, SubpathName, Walked,
-    bind, raw_file, walk,
+    Bindings, Language, LineTypeAliases, Path, PathOptions, PathPattern, SegmentKind, SubpathName,
+    WalkedPath, bind, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
 use pathbuild_toolpath::{Comment, Count, Move, Names, Parts, Program, Step, fold, own_moves};
 
 /// The paths of a drawing, which may embed each other.
-struct Drawn(Vec<(Path, Walked)>);
+struct Drawn(Vec<(Path, WalkedPath)>);
 
 impl Parts for Drawn {
     type Id = usize;
@@ -18,7 +18,7 @@ impl Parts for Drawn {
         &self.0[id].0
     }
 
-    fn walked(&self, id: usize) -> &Walked {
+    fn walked(&self, id: usize) -> &WalkedPath {
         &self.0[id].1
     }
 
@@ -61,7 +61,7 @@ fn drawn(drawing: &str) -> Drawn {
         keep_out: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
-        doubts: pathbuild_path::Doubts::default(),
+        doubts: pathbuild_path::DoubtThresholds::default(),
         join_tolerance: 0.0,
     };
     let reading = Options {

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::ElementId;
 use pathbuild_path::{
-    AssignedText, Curve, InForce, Marker, Parameter as InForceParameter, Placement, Position, RawPath, Role,
-    Shape as DrawnShape, SourceMap, Xy,
+    AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, Placement, Position,
+    RawPath, Role, Shape as DrawnShape, SourceMap, Xy,
 };
 
-use crate::scene::{Arc, Element, ElementKind, Embedded, KeepOut, Label, Parameter, Point, ScenePath, Shape};
+use crate::scene::{
+    Arc, Element, ElementKind, EmbeddedPath, KeepOut, Label, Parameter, Point, ScenePath, Shape,
+};
 
 /// A path as it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +24,7 @@ pub struct DrawnSource<'a> {
     /// The texts of its drawing, including those of other paths.
     pub texts: &'a [AssignedText],
     /// The effective parameters of its elements.
-    pub in_force: &'a [InForce],
+    pub in_force: &'a [ElementParameters],
 }
 
 /// A path without a program: the drawn elements, in the coordinates of the drawing.
@@ -35,7 +37,7 @@ pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
     let placement = Placement::from_origin(Xy::origin());
     let end = |marker: &Option<Marker>| marker.as_ref().map_or(Xy::origin(), |marker| marker.at);
     let ends = [end(&source.raw.start), end(&source.raw.end)].map(pair);
-    scene.embedded.push(Embedded {
+    scene.embedded.push(EmbeddedPath {
         name: scene.name.clone(),
         file: scene.file.clone(),
         by: None,
@@ -54,8 +56,12 @@ impl ScenePath {
     pub(super) fn draw(&mut self, source: &DrawnSource<'_>, placement: &Placement) -> u32 {
         let path = number(self.embedded.len()).saturating_sub(1);
         let first = self.elements.len();
-        let in_force = source.in_force.iter().map(|it| (it.origin.id, &*it.parameters)).collect();
-        let drawn = Drawn { source, placement, path, in_force };
+        let in_force = source
+            .in_force
+            .iter()
+            .map(|parameters| (parameters.origin.id, &*parameters.parameters))
+            .collect();
+        let drawn = ElementBuilder { source, placement, path, in_force };
         let shapes = drawn.add_elements(&mut self.elements);
         let own = |text: &&AssignedText| text.path == *source.raw.name;
         let texts = source.texts.iter().filter(own);
@@ -65,9 +71,9 @@ impl ScenePath {
 }
 
 /// An element as texts refer to it: its position in the file, and its shape as drawn.
-type Known = (Option<Position>, DrawnShape);
+type LocatedShape = (Option<Position>, DrawnShape);
 
-struct Drawn<'a> {
+struct ElementBuilder<'a> {
     source: &'a DrawnSource<'a>,
     placement: &'a Placement,
     path: u32,
@@ -75,8 +81,8 @@ struct Drawn<'a> {
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
 }
 
-impl Drawn<'_> {
-    fn add_elements(&self, elements: &mut Vec<Element>) -> Vec<Known> {
+impl ElementBuilder<'_> {
+    fn add_elements(&self, elements: &mut Vec<Element>) -> Vec<LocatedShape> {
         let raw = self.source.raw;
         let mut known = Vec::new();
         for element in &raw.drawn.elements {
@@ -105,7 +111,7 @@ impl Drawn<'_> {
         kind: ElementKind,
         origin: &pathbuild_path::Origin,
         shape: DrawnShape,
-    ) -> Known {
+    ) -> LocatedShape {
         let position = self.position(origin.id);
         elements.push(Element {
             path: self.path,
@@ -126,8 +132,8 @@ impl Drawn<'_> {
     }
 
     /// A text with those elements among `shapes` that it belongs to.
-    fn label(&self, text: &AssignedText, shapes: &[Known], first: usize) -> Label {
-        let is_owner = |(position, shape): &Known| {
+    fn label(&self, text: &AssignedText, shapes: &[LocatedShape], first: usize) -> Label {
+        let is_owner = |(position, shape): &LocatedShape| {
             text.elements
                 .iter()
                 .any(|owner| *position == Some(owner.position) && is_same(&owner.shape, shape))

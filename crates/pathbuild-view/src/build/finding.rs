@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 
-use crate::scene::{Finding, Said};
+use crate::scene::{BilingualText, Finding};
 
 /// Numbers findings. `file` is the drawing shown: a finding in another drawing is placed where that is embedded.
 pub fn findings(diagnostics: &[Diagnostic], file: &str) -> Vec<Finding> {
@@ -18,8 +18,8 @@ fn finding(number: usize, diagnostic: &Diagnostic, file: &str) -> Finding {
         number,
         code: diagnostic.code().to_string(),
         is_error: diagnostic.is_error(),
-        message: Said { en: diagnostic.text(Lang::En), de: diagnostic.text(Lang::De) },
-        help: Said { en: help(Lang::En), de: help(Lang::De) },
+        message: BilingualText { en: diagnostic.text(Lang::En), de: diagnostic.text(Lang::De) },
+        help: BilingualText { en: help(Lang::En), de: help(Lang::De) },
         file: diagnostic.file.as_ref().map(|file| shown::line(file.as_str()).into_owned()),
         path: diagnostic.path.as_deref().map(str::to_owned),
         line: diagnostic.place.line,

@@ -9,7 +9,9 @@ use pathbuild_toolpath::{Drawn, Occurrence, Program, Trace, support_bars};
 use super::drawn::{DrawnSource, curve_shape, pair};
 use super::gcode::plain_lines;
 use super::lines::lines_of_moves;
-use crate::scene::{Bar, ElementKind, Embedded, Move, MoveKind, NativeText, ProbeMark, ScenePath, Totals};
+use crate::scene::{
+    Bar, ElementKind, EmbeddedPath, Move, MoveKind, NativeText, ProbeMark, ScenePath, Totals,
+};
 
 /// The number of the parameter for the first probe.
 const FIRST_PARAMETER: usize = 51;
@@ -109,7 +111,7 @@ struct Builder {
 impl Builder {
     fn occurrence(&mut self, occurrence: &Occurrence<usize>, (drawn, path): &(DrawnSource<'_>, &Path)) {
         let Occurrence { placement, raised, .. } = occurrence;
-        self.scene.embedded.push(Embedded {
+        self.scene.embedded.push(EmbeddedPath {
             name: path.name.as_str().to_owned(),
             file: drawn.file.to_owned(),
             by: occurrence.parent.and_then(|parent| self.element(parent)),

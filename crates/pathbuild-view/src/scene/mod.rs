@@ -59,7 +59,7 @@ pub struct ScenePath {
     /// Material M.
     pub material: Option<String>,
     /// The path itself and everything it embeds, directly or indirectly.
-    pub embedded: Vec<Embedded>,
+    pub embedded: Vec<EmbeddedPath>,
     /// The elements on the layers of all these paths.
     pub elements: Vec<Element>,
     /// Parameter texts.
@@ -78,7 +78,7 @@ pub struct ScenePath {
     pub written: Option<String>,
     /// Why `emit` refuses to write a path without errors.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub refusal: Option<Said>,
+    pub refusal: Option<BilingualText>,
     /// The native program, if a post writes a different one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub native: Option<NativeText>,
@@ -107,7 +107,7 @@ pub struct Example {
 
 /// An embedded path with its place in a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Embedded {
+pub struct EmbeddedPath {
     /// Its name.
     pub name: String,
     /// Its drawing.
@@ -323,9 +323,9 @@ pub struct Finding {
     /// Whether it is an error.
     pub is_error: bool,
     /// The message.
-    pub message: Said,
+    pub message: BilingualText,
     /// The help; may be empty.
-    pub help: Said,
+    pub help: BilingualText,
     /// The file.
     pub file: Option<String>,
     /// The path.
@@ -339,7 +339,7 @@ pub struct Finding {
 /// A sentence in both languages.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[expect(missing_docs, reason = "the names say it")]
-pub struct Said {
+pub struct BilingualText {
     pub en: String,
     pub de: String,
 }

@@ -4,7 +4,7 @@ use super::canvas::{Anchor, Canvas};
 use super::frame::{Frame, PageTransform, widen};
 use super::palette::{ERROR, INK, TEXT, WARNING};
 use super::room::Room;
-use super::{Shown, things};
+use super::{VisibleParts, things};
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
 
@@ -55,7 +55,7 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     canvas.open("id=\"drawing\"");
     let mut room = Room::new([[0.0; 2], SIZE]);
     things::under(&mut canvas, &near, &frame, &mut room);
-    let shown = Shown { rapids: false, order: false, arrows: false, ..Shown::all(lang) };
+    let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };
     for path in &near.paths {
         let place = frame.of_path(path);
         circles(&mut canvas, path, spot, &place);
@@ -111,10 +111,10 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
 
 /// Removes texts beyond the maximum.
 fn keep_first_texts(paths: &mut [ScenePath]) {
-    let mut left = MOST_TEXTS;
+    let mut remaining = MOST_TEXTS;
     for path in paths {
-        path.texts.truncate(left);
-        left -= path.texts.len();
+        path.texts.truncate(remaining);
+        remaining -= path.texts.len();
     }
 }
 

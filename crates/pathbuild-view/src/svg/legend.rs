@@ -1,6 +1,6 @@
 //! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
-use super::Shown;
+use super::VisibleParts;
 use super::canvas::{Anchor, Canvas, n};
 use super::frame::Frame;
 use super::palette::{BAR, Depths, ERROR, INK, PROBE, TEXT, WARNING, color};
@@ -21,14 +21,14 @@ const STEPS: u32 = 24;
 pub(super) struct Legend<'a> {
     scene: &'a Scene,
     depths: &'a Depths,
-    shown: Shown,
+    shown: VisibleParts,
     scale: f64,
     top: f64,
     findings: Vec<(Option<&'a Finding>, String)>,
 }
 
 impl<'a> Legend<'a> {
-    pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: Shown) -> Self {
+    pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: VisibleParts) -> Self {
         let findings = scene.findings.iter().flat_map(|finding| lines(finding, shown)).collect();
         Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings }
     }
@@ -117,7 +117,13 @@ impl<'a> Legend<'a> {
 }
 
 /// Draws the kinds of lines that occur, from `left` to `right`, continuing on further lines.
-pub(super) fn kinds(canvas: &mut Canvas, scene: &Scene, shown: Shown, [left, mut y]: Point, right: f64) {
+pub(super) fn kinds(
+    canvas: &mut Canvas,
+    scene: &Scene,
+    shown: VisibleParts,
+    [left, mut y]: Point,
+    right: f64,
+) {
     let moves = || scene.paths.iter().flat_map(|path| &path.moves);
     let has = |kind| moves().any(|it| it.kind == kind);
     let cut = color(0.6);
@@ -195,10 +201,10 @@ pub(super) fn mm(value: f64) -> String {
 }
 
 /// The lines of a finding, the first with its number.
-fn lines<'a>(finding: &'a Finding, shown: Shown) -> Vec<(Option<&'a Finding>, String)> {
-    let pick = |said: &'a crate::scene::Said| match shown.lang {
-        Lang::En => said.en.as_str(),
-        Lang::De => said.de.as_str(),
+fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
+    let pick = |text: &'a crate::scene::BilingualText| match shown.lang {
+        Lang::En => text.en.as_str(),
+        Lang::De => text.de.as_str(),
     };
     let mut lines = Vec::new();
     let first = format!("{} · {}: {}", finding.number, finding.code, pick(&finding.message));

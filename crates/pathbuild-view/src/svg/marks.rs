@@ -1,6 +1,6 @@
 //! Markers: cutting order, start and end, findings.
 
-use super::Shown;
+use super::VisibleParts;
 use super::canvas::{Anchor, Canvas, n};
 use super::frame::{Frame, PageTransform};
 use super::palette::{ERROR, INK, PROBE, WARNING};
@@ -79,7 +79,7 @@ pub(super) fn ends(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
-    shown: Shown,
+    shown: VisibleParts,
     room: &mut Room,
 ) {
     let [start, end] = markers(path);

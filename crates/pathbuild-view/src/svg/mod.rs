@@ -31,7 +31,7 @@ pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg
 /// The visible parts of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a layer of its own")]
-pub struct Shown {
+pub struct VisibleParts {
     /// Language of the legend and the findings.
     pub lang: Lang,
     /// Whether to show rapid moves.
@@ -44,7 +44,7 @@ pub struct Shown {
     pub texts: bool,
 }
 
-impl Shown {
+impl VisibleParts {
     /// Shows everything.
     pub fn all(lang: Lang) -> Self {
         Self { lang, rapids: true, order: true, arrows: true, texts: true }
@@ -59,7 +59,7 @@ impl Shown {
 }
 
 /// Draws a scene.
-pub fn svg(scene: &Scene, shown: Shown) -> String {
+pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     let frame = Frame::of(scene);
     let depths = Depths::of(scene);
     let legend = legend::Legend::new(scene, &frame, &depths, shown);

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use pathbuild_gcode::interpret::Path;
 
-use super::Shown;
+use super::VisibleParts;
 use super::canvas::{Canvas, n};
 use super::frame::PageTransform;
 use super::palette::{Depths, KERF, RAPID};
@@ -29,7 +29,7 @@ pub(super) fn draw(
     path: &ScenePath,
     place: &PageTransform,
     depths: &Depths,
-    shown: Shown,
+    shown: VisibleParts,
 ) {
     let cuts = cuts(path);
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
@@ -131,7 +131,7 @@ fn micrometres(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 
-fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: Shown) {
+fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: VisibleParts) {
     let style = format!(
         "id=\"rapids\" fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
     );

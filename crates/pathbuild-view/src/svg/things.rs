@@ -1,6 +1,6 @@
 //! Draws the elements, below and above the moves.
 
-use super::Shown;
+use super::VisibleParts;
 use super::canvas::{Anchor, Canvas, n};
 use super::frame::{Frame, PageTransform};
 use super::marks;
@@ -97,7 +97,7 @@ pub(super) fn over(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
-    shown: Shown,
+    shown: VisibleParts,
     room: &mut Room,
 ) {
     elements(canvas, path, place);

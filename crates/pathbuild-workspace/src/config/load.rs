@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use camino::Utf8Path;
 use pathbuild_db::System;
-use pathbuild_db::system::Confined;
+use pathbuild_db::system::ConfinedSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
 use toml::de::DeTable;
@@ -49,11 +49,11 @@ fn confinement(
     given: &Overrides,
     file: Option<&Utf8Path>,
     discovery: &Discovery<'_>,
-) -> Option<Confined> {
+) -> Option<ConfinedSystem> {
     let first = || discovery.beginning();
     let directory = file.and_then(Utf8Path::parent).map_or_else(first, Utf8Path::to_owned);
     let root = confining(&**system, &directory);
-    let confined = Confined::new(Arc::clone(system), root, discovery.working_directory);
+    let confined = ConfinedSystem::new(Arc::clone(system), root, discovery.working_directory);
     let further = discovery.beginnings();
     let confined = further.fold(confined, |confined, place| confined.and(confining(&**system, &place)));
     let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
@@ -71,7 +71,7 @@ pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
 fn read(
     system: &dyn System,
     file: &Utf8Path,
-    confined: Option<&Confined>,
+    confined: Option<&ConfinedSystem>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Options {
     let system = confined.map_or(system, |confined| confined);
@@ -91,7 +91,7 @@ fn read(
 }
 
 /// Parses a configuration. A syntax error yields diagnostics only, since tables may be incomplete.
-fn parse(file: &Utf8Path, text: &str, confined: Option<&Confined>) -> (Options, Vec<Diagnostic>) {
+fn parse(file: &Utf8Path, text: &str, confined: Option<&ConfinedSystem>) -> (Options, Vec<Diagnostic>) {
     read_table(file, text, confined, Options::read)
 }
 
@@ -99,7 +99,7 @@ fn parse(file: &Utf8Path, text: &str, confined: Option<&Confined>) -> (Options, 
 pub(super) fn read_table<T: Default>(
     file: &Utf8Path,
     text: &str,
-    confined: Option<&Confined>,
+    confined: Option<&ConfinedSystem>,
     read: impl FnOnce(&DeTable<'_>, &mut TomlReader<'_>) -> T,
 ) -> (T, Vec<Diagnostic>) {
     let source = Source::new(file, text);

@@ -3,7 +3,7 @@ use std::cell::OnceCell;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Confined, spelt};
+use pathbuild_db::system::{ConfinedSystem, spelt};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Value, Word};
 use toml::Spanned;
@@ -20,7 +20,7 @@ pub(super) struct TomlReader<'a> {
     source: Source<'a>,
     directory: &'a Utf8Path,
     /// Directories that an untrusted configuration may refer to.
-    confined: Option<&'a Confined>,
+    confined: Option<&'a ConfinedSystem>,
     /// Knows which table a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
     homes: Option<OnceCell<Homes>>,
     key: String,
@@ -49,7 +49,11 @@ impl Counted {
 
 impl<'a> TomlReader<'a> {
     /// A reader for a file whose relative paths start at `directory`.
-    pub(super) fn new(source: Source<'a>, directory: &'a Utf8Path, confined: Option<&'a Confined>) -> Self {
+    pub(super) fn new(
+        source: Source<'a>,
+        directory: &'a Utf8Path,
+        confined: Option<&'a ConfinedSystem>,
+    ) -> Self {
         Self {
             source,
             directory,

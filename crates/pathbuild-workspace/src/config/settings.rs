@@ -1,6 +1,6 @@
 use camino::{Utf8Path, Utf8PathBuf};
 
-use pathbuild_db::system::Confined;
+use pathbuild_db::system::ConfinedSystem;
 use pathbuild_diagnostic::Lang;
 
 use super::origin::Origin;
@@ -17,7 +17,7 @@ pub struct Settings {
     /// configuration.
     pub not_used: Option<Utf8PathBuf>,
     /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
-    pub confined: Option<Confined>,
+    pub confined: Option<ConfinedSystem>,
     pub general: general::Settings,
     pub emit: emit::Settings,
     pub limits: limits::Settings,

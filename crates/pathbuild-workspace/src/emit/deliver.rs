@@ -4,7 +4,7 @@ use std::ops::Add;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Written;
+use pathbuild_db::system::WriteOutcome;
 use pathbuild_db::{Database, System, program};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Note, Point, Severity, Value};
@@ -434,9 +434,10 @@ fn write<'a>(
     }
     for (output, hash) in outputs {
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
-        let written = if is_kept { Ok(Written::Unchanged) } else { system.write(&output.path, &output.text) };
+        let written =
+            if is_kept { Ok(WriteOutcome::Unchanged) } else { system.write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), reason)))?;
-        let state = if written == Written::Changed { State::Written } else { State::Unchanged };
+        let state = if written == WriteOutcome::Changed { State::Written } else { State::Unchanged };
         delivered.hashes.push(hash);
         delivered.files.push((output.path.clone(), state));
     }

@@ -220,7 +220,7 @@ fn add(
     db: &Database,
     scene: &mut Scene,
     target: Target,
-    traced: &pathbuild_db::Traced,
+    traced: &pathbuild_db::TracedProgram,
     writing: &Writing,
 ) -> Result<Option<Arc<Program>>, Box<Diagnostic>> {
     let Some(mut path) = program_scene(db, traced, writing, None)? else { return Ok(None) };

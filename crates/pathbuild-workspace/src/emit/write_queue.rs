@@ -34,7 +34,7 @@ pub(super) fn deliver_all(
         let made = |db: &Database, (index, job): &(usize, &Job)| {
             let JobFiles { mut delivered, outputs } = make(db, job, means);
             // Last point to give up: after this, all files of the job are written.
-            db.give_up_if_late();
+            db.check_time_limit();
             // Without a receiver (the system had no thread left), write here.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
                 delivered.add(finished(outputs));

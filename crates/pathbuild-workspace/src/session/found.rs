@@ -219,7 +219,7 @@ impl Session<'_> {
         let searched = searched.map(|directory| self.normal(directory));
         let walked = self.library_walked(listings);
         let library = holding_drawings(&walked);
-        self.know_names(listings);
+        self.provide_names(listings);
         let directories = distinct(std::iter::once(Utf8PathBuf::new()).chain(searched).chain(library));
         (directories, walked.into_iter().flat_map(|directory| directory.problems).collect())
     }
@@ -257,9 +257,9 @@ impl Session<'_> {
     }
 
     /// Passes the names of freshly listed directories to the database, to save listing them again, unless they are doubtful.
-    pub fn know_names(&self, listings: &Listings) {
+    pub fn provide_names(&self, listings: &Listings) {
         for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
-            self.db.know_names(directory, listing.names.iter().collect());
+            self.db.provide_names(directory, listing.names.iter().collect());
         }
     }
 

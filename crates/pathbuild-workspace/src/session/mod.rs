@@ -26,7 +26,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Overlay, System, spelt};
+use pathbuild_db::system::{OverlaySystem, System, spelt};
 use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
@@ -92,7 +92,7 @@ impl<'a> Session<'a> {
 
     /// A session in which a drawing exists that has not been written to disk.
     pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
-        let overlay = Overlay::new(Arc::clone(&context.system), path.to_owned(), bytes);
+        let overlay = OverlaySystem::new(Arc::clone(&context.system), path.to_owned(), bytes);
         Self::over(context, false, Arc::new(overlay))
     }
 
@@ -102,7 +102,7 @@ impl<'a> Session<'a> {
         loop {
             let result = catch_unwind(AssertUnwindSafe(|| work(self)));
             rounds += 1;
-            if !self.db.take_over_changes() || rounds == ROUNDS {
+            if !self.db.apply_noted_changes() || rounds == ROUNDS {
                 return result.unwrap_or_else(|panic| resume_unwind(panic));
             }
         }

@@ -4,16 +4,16 @@ use std::slice;
 
 use camino::Utf8Path;
 use pathbuild_db::{
-    Db, DrawnPath, Role, Settings, SourceFile, Target, Traced, assigned_texts, check_file, drawn_path,
+    Db, DrawnPath, Role, Settings, SourceFile, Target, TracedProgram, assigned_texts, check_file, drawn_path,
     file_index, in_force, keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_path::{InForce, KeepOut, PathName, PathRole};
+use pathbuild_path::{ElementParameters, KeepOut, PathName, PathRole};
 use pathbuild_toolpath::{Correction, Move, Step};
 use pathbuild_view::{
-    self as view, DrawnSource, EmittedText, Example, ProgramSource, Said, Scene, ScenePath,
+    self as view, BilingualText, DrawnSource, EmittedText, Example, ProgramSource, Scene, ScenePath,
 };
 
 use super::work::about;
@@ -183,12 +183,16 @@ fn stops_making(problem: &Diagnostic) -> bool {
 }
 
 /// The message of a diagnostic in both languages.
-fn said(problem: &Diagnostic) -> Said {
-    Said { en: problem.text(Lang::En), de: problem.text(Lang::De) }
+fn said(problem: &Diagnostic) -> BilingualText {
+    BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
 }
 
 /// Values that were chosen only for display: of variables, of S, and of options that are not set.
-fn examples(db: &dyn Db, Traced { program, parts, .. }: &Traced, writing: &Writing) -> Vec<Example> {
+fn examples(
+    db: &dyn Db,
+    TracedProgram { program, parts, .. }: &TracedProgram,
+    writing: &Writing,
+) -> Vec<Example> {
     let Some(root) = parts.first() else { return Vec::new() };
     let example = |name: String, value: Option<&str>| Example { name, value: value.map(str::to_owned) };
     let mut examples: Vec<Example> =
@@ -226,17 +230,17 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
 /// PB005 if its text is too large.
 pub(crate) fn program_scene(
     db: &dyn Db,
-    traced: &Traced,
+    traced: &TracedProgram,
     writing: &Writing,
     emitted: Option<EmittedText<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
-    let Traced { program, trace, parts } = traced;
+    let TracedProgram { program, trace, parts } = traced;
     // The first part is the path that is emitted.
     let known = parts
         .iter()
         .zip(0..)
         .map(|(part, number)| in_force(db, part.file, &part.path.name, &part.bindings, number == 0));
-    let known: Vec<Vec<InForce>> = known.collect();
+    let known: Vec<Vec<ElementParameters>> = known.collect();
     let sources = parts.iter().zip(&known).map(|(part, known)| {
         let drawn = drawn_path(db, part.file, &part.path.name)?;
         Some((drawn_source(db, part.file, drawn, known), &part.path))
@@ -261,7 +265,7 @@ fn drawn_source<'db>(
     db: &'db dyn Db,
     file: SourceFile,
     drawn: DrawnPath<'db>,
-    in_force: &'db [InForce],
+    in_force: &'db [ElementParameters],
 ) -> DrawnSource<'db> {
     let DrawnPath { raw, positions } = drawn;
     DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file), in_force }

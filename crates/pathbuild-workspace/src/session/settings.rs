@@ -5,7 +5,8 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_dxf::Units;
 use pathbuild_path::{
-    Doubts, FilePattern, KeepOutPattern, Language, LineTypeAliases, PathOptions, PathPattern, Restriction,
+    DoubtThresholds, FilePattern, KeepOutPattern, Language, LineTypeAliases, PathOptions, PathPattern,
+    Restriction,
 };
 
 use super::normal;
@@ -58,9 +59,9 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
-fn doubts(settings: &crate::config::Settings) -> Doubts {
+fn doubts(settings: &crate::config::Settings) -> DoubtThresholds {
     let warnings = &settings.warnings;
-    Doubts {
+    DoubtThresholds {
         below_plate: warnings.below_plate.value,
         infeed: warnings.infeed.value,
         mark_depth: warnings.mark_depth.value,

@@ -4,7 +4,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use pathbuild_db::{Database, Underway};
+use pathbuild_db::{Database, WorkInProgress};
 
 /// Background thread that cancels work exceeding its time limit; stops when dropped, and is never joined.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ struct Shared {
 
 #[derive(Debug, Default)]
 struct State {
-    underway: Vec<Option<Underway>>,
+    underway: Vec<Option<WorkInProgress>>,
     is_over: bool,
 }
 
@@ -62,7 +62,7 @@ impl Drop for Watched<'_> {
     fn drop(&mut self) {
         self.watchdog.0.state().underway[self.place] = None;
         // The work may have been cancelled at the very moment when it ended.
-        self.db.forget_given_up();
+        self.db.clear_cancellation();
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant, SystemTime};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
 use pathbuild_db::System;
-use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Written};
+use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, WriteOutcome};
 use pathbuild_diagnostic::Value;
 
 /// What happens to a file.
@@ -137,7 +137,7 @@ impl System for Mischief {
         OsSystem.canonical(path)
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         let written = OsSystem.write(path, bytes);
         if self.is_now(path) {
             self.happen();

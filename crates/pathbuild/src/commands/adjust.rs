@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
-use pathbuild_db::system::{FileKind, Written, join};
+use pathbuild_db::system::{FileKind, WriteOutcome, join};
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_diagnostic::{Diagnostic, in_prose};
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
@@ -276,7 +276,7 @@ impl<'a> Adjustment<'a> {
         }
     }
 
-    fn say_written(&self, file: &Utf8Path, written: Written, adjusted: &Adjusted) {
+    fn say_written(&self, file: &Utf8Path, written: WriteOutcome, adjusted: &Adjusted) {
         self.context.row_of_json(|| {
             let (kind, mut row) = output_row(self.context, file, written);
             row["heights"] = adjusted.heights.into();
@@ -284,8 +284,8 @@ impl<'a> Adjustment<'a> {
             (kind, row)
         });
         let state = match written {
-            Written::Changed => self.context.choose("written", "geschrieben"),
-            Written::Unchanged => self.context.choose("unchanged", "unverändert"),
+            WriteOutcome::Changed => self.context.choose("written", "geschrieben"),
+            WriteOutcome::Unchanged => self.context.choose("unchanged", "unverändert"),
         };
         let heights = match adjusted.heights {
             1 => self.context.choose("height corrected by", "Höhe korrigiert um"),

@@ -28,7 +28,7 @@ pub mod watch;
 pub mod why;
 
 use camino::Utf8Path;
-use pathbuild_db::system::Written;
+use pathbuild_db::system::WriteOutcome;
 use serde_json::{Value, json};
 
 use crate::args::{Command, Format};
@@ -36,11 +36,11 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::usage;
 
-/// A written file, as a line of JSON.
-fn output_row(context: &Context, file: &Utf8Path, written: Written) -> (&'static str, Value) {
+/// A file that was written, as a line in JSON.
+fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'static str, Value) {
     let state = match written {
-        Written::Changed => "written",
-        Written::Unchanged => "unchanged",
+        WriteOutcome::Changed => "written",
+        WriteOutcome::Unchanged => "unchanged",
     };
     ("output", json!({ "file": context.file(file), "state": state }))
 }
@@ -75,11 +75,11 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Cache(args) => cache::run(context, args),
         Command::Init(args) => init::run(context, args.example),
         Command::Config(args) => config::run(context, args),
-        Command::Watch(_) | Command::Compat(_) => unreachable!("these commands create their own context"),
+        Command::Watch(_) | Command::Compat(_) => unreachable!("they make their own surroundings"),
     }
 }
 
-/// Refuses graph formats for commands that print no graphs.
+/// Formats of graphs are for commands that print graphs.
 fn format_refusal(context: &Context, command: &Command) -> Option<String> {
     if context.format == Format::Html {
         let refusal = context.choose(

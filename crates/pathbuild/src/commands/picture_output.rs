@@ -1,7 +1,7 @@
 //! Writes pictures and pages to a file, or shows them in the browser.
 
 use camino::Utf8Path;
-use pathbuild_db::system::Written;
+use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_workspace::files::cannot_write;
 
@@ -21,8 +21,8 @@ pub(super) fn deliver(
     let written = written.map_err(|reason| Box::new(cannot_write(file, reason)))?;
     context.row_of_json(|| output_row(context, file, written));
     let state = match written {
-        Written::Changed => context.choose("written", "geschrieben"),
-        Written::Unchanged => context.choose("unchanged", "unverändert"),
+        WriteOutcome::Changed => context.choose("written", "geschrieben"),
+        WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
     };
     context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
     Ok(())

@@ -1,7 +1,7 @@
 //! `pathbuild post`: rewrites a program for another machine, and shows the built-in posts. (book: program/posts)
 
 use camino::Utf8Path;
-use pathbuild_db::system::Written;
+use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
@@ -116,8 +116,8 @@ fn written(
     };
     let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, reason)])?;
     let state = match written {
-        Written::Changed => context.choose("written", "geschrieben"),
-        Written::Unchanged => context.choose("unchanged", "unverändert"),
+        WriteOutcome::Changed => context.choose("written", "geschrieben"),
+        WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
     };
     context.row_of_json(|| output_row(context, to, written));
     context.printer.status(format_args!("{to}: {state}"));

@@ -1,7 +1,7 @@
 //! `pathbuild q-project`: writes a drawing that embeds all paths of another drawing. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Written, spelt};
+use pathbuild_db::system::{WriteOutcome, spelt};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
@@ -179,8 +179,8 @@ fn write(
         Ok(written) => {
             context.row_of_json(|| output_row(context, output, written));
             match written {
-                Written::Changed => context.choose("written", "geschrieben"),
-                Written::Unchanged => context.choose("unchanged", "unverändert"),
+                WriteOutcome::Changed => context.choose("written", "geschrieben"),
+                WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
             }
         }
         Err(reason) => {

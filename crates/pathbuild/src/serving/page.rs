@@ -8,7 +8,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{SourceFile, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
-use pathbuild_view::Shown;
+use pathbuild_view::VisibleParts;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::{Session, ShownText};
@@ -57,7 +57,7 @@ impl<'a> Page<'a> {
         })?;
         Some(match form {
             Form::Scene => scene.to_json(),
-            Form::Picture => pathbuild_view::svg(&scene, Shown::all(self.context.lang())),
+            Form::Picture => pathbuild_view::svg(&scene, VisibleParts::all(self.context.lang())),
         })
     }
 }

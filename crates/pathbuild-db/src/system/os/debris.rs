@@ -25,8 +25,8 @@ pub(super) fn remove(directory: &Utf8Path) {
         // Nothing can be removed from a directory that cannot be listed.
         _ = directory::list_by_parts(directory, &mut drop);
     }
-    let left = std::mem::take(known().entry(directory.to_owned()).or_default());
-    for debris in left {
+    let leftovers = std::mem::take(known().entry(directory.to_owned()).or_default());
+    for debris in leftovers {
         let is_regular = debris.as_std_path().symlink_metadata().is_ok_and(|data| data.is_file());
         let is_left = || open::open(&debris).ok().filter(|file| file.try_lock().is_ok());
         if let Some(_locked) = is_regular.then(is_left).flatten() {

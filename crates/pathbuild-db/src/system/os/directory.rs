@@ -18,14 +18,14 @@ use crate::system::{Entry, EntryKind, Listing};
 /// If the directory does not exist or cannot be read.
 pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> io::Result<()> {
     let mut part = Listing::default();
-    let mut left = Vec::new();
+    let mut temporary = Vec::new();
     each_name(directory, |entry| {
         let Some(Name { spelling: name, kind, .. }) = entry else {
             take(mem::take(&mut part));
             return ControlFlow::Continue(());
         };
         if debris::is_temporary(name) {
-            left.push(directory.join(name));
+            temporary.push(directory.join(name));
         }
         // A link has the type of its target, and counts as an unreadable file if it is dangling. Some file systems do not report types.
         let is_directory = match kind {
@@ -38,7 +38,7 @@ pub(super) fn list_by_parts(directory: &Utf8Path, take: &mut dyn FnMut(Listing))
         if is_directory { &mut part.directories } else { &mut part.files }.push(name);
         ControlFlow::Continue(())
     })?;
-    debris::listed(directory, left);
+    debris::listed(directory, temporary);
     Ok(())
 }
 
@@ -56,14 +56,14 @@ pub(super) fn each_entry(
             ListedKind::Directory => EntryKind::Directory,
             ListedKind::Link => EntryKind::Link,
             ListedKind::File => EntryKind::File,
-            ListedKind::Untold => told(&directory.join(name)),
+            ListedKind::Untold => entry_kind(&directory.join(name)),
         };
         take(Entry { name, is_exact, kind })
     })
 }
 
 /// Asks the system for the type of an entry if the directory does not report it.
-fn told(path: &Utf8Path) -> EntryKind {
+fn entry_kind(path: &Utf8Path) -> EntryKind {
     match fs::symlink_metadata(path).map(|data| data.file_type()) {
         Ok(kind) if kind.is_dir() => EntryKind::Directory,
         Ok(kind) if kind.is_symlink() => EntryKind::Link,

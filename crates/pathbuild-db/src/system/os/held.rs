@@ -39,12 +39,12 @@ mod tests {
 
     /// Simulates a file that is locked for this many attempts. Returns whether the operation succeeds, and the time waited.
     fn held(times: u32) -> (bool, Duration) {
-        let (mut left, mut waited) = (times, Duration::ZERO);
+        let (mut remaining, mut waited) = (times, Duration::ZERO);
         let attempt = || {
-            if left == 0 {
+            if remaining == 0 {
                 return Ok(());
             }
-            left -= 1;
+            remaining -= 1;
             Err(io::Error::from(io::ErrorKind::ResourceBusy))
         };
         let result = again_while(

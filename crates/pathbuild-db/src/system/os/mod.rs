@@ -19,7 +19,7 @@ use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::reason;
 
-use super::{Entry, FileKind, Listing, ReadError, System, Written};
+use super::{Entry, FileKind, Listing, ReadError, System, WriteOutcome};
 
 /// The files of the operating system. Relative paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -118,7 +118,7 @@ impl System for OsSystem {
         path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned())
     }
 
-    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         replace::replace(path, bytes)
     }
 

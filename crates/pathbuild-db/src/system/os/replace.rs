@@ -13,18 +13,18 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason};
 
 use super::{debris, held, open, readable};
-use crate::system::Written;
+use crate::system::WriteOutcome;
 
 /// Replaces the content of a file, unless it is already the same.
 ///
 /// # Errors
 /// If the file cannot be written, or is a pipe, socket or device. The path is then left as it was.
-pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<Written, Value> {
+pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
     debris::remove(readable(parent(path)));
     match path.as_std_path().metadata() {
         Ok(data) if data.is_dir() => Err(Value::Word(&DIRECTORY_OF_THAT_NAME)),
         Ok(data) if !data.is_file() => Err(Value::Word(&NOT_REGULAR)),
-        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => Ok(Written::Unchanged),
+        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => Ok(WriteOutcome::Unchanged),
         _ => write_anew(path, bytes).map_err(|error| reason(&error)),
     }
 }
@@ -33,7 +33,7 @@ fn parent(path: &Utf8Path) -> &Utf8Path {
     path.parent().unwrap_or(Utf8Path::new(""))
 }
 
-fn write_anew(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
+fn write_anew(path: &Utf8Path, bytes: &[u8]) -> io::Result<WriteOutcome> {
     let parent = parent(path);
     if !parent.as_str().is_empty() {
         fs::create_dir_all(parent)?;
@@ -46,7 +46,7 @@ fn write_anew(path: &Utf8Path, bytes: &[u8]) -> io::Result<Written> {
         // Best effort: the first error is the one to report.
         _ = fs::remove_file(&temporary);
     }
-    renamed.map(|()| Written::Changed)
+    renamed.map(|()| WriteOutcome::Changed)
 }
 
 /// Whether a file has exactly these bytes, compared in chunks.

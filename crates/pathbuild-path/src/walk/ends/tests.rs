@@ -40,7 +40,7 @@ fn ends_that_lie_close_but_do_not_meet_are_not_looked_at() {
 /// A point, and another one at this distance in a random direction.
 fn apart(distance: f64) -> impl Strategy<Value = [Xy; 2]> {
     let coordinate =
-        || prop_oneof![-0.01..0.01, -9000.0..9000.0, (-90..90).prop_map(|it| f64::from(it) / 10.0)];
+        || prop_oneof![-0.01..0.01, -9000.0..9000.0, (-90..90).prop_map(|tenths| f64::from(tenths) / 10.0)];
     (coordinate(), coordinate(), 0.0..360.0_f64).prop_map(move |(x, y, angle)| {
         let direction = Vector2::new(libm::cos(angle.to_radians()), libm::sin(angle.to_radians()));
         [Xy::new(x, y), Xy::new(x, y) + direction * distance]

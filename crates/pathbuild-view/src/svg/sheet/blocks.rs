@@ -153,7 +153,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.fact("deepest", "am tiefsten", sheet.cutting_box[2].map(|(low, _)| format!("Z {}", mm(low))));
     let rapids = facts::rapid_heights(sheet);
     facts.fact("lowest rapid", "tiefster Eilgang", rapids.lowest().map(|z| format!("Z {}", mm(z))));
-    facts.fact("rapid across", "Eilgang quer", listed(&rapids.across).map(|it| format!("Z {it}")));
+    facts.fact("rapid across", "Eilgang quer", listed(&rapids.across).map(|heights| format!("Z {heights}")));
     facts.fact("rapid down to", "Eilgang hinab", rapids.down.map(|z| format!("Z {}", mm(z))));
     facts.fact("length", "Länge", Some(format!("{:.0} mm", sheet.length)));
     facts.fact("time", "Zeit", sheet.minutes.map(|minutes| format!("{minutes:.0} min")));
@@ -267,9 +267,9 @@ fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
 /// Each embedded path with its number of occurrences.
 fn embedded(sheet: &Sheet) -> Vec<Vec<String>> {
     let all = || sheet.scene.paths.iter().flat_map(|path| path.embedded.iter().skip(1));
-    let each = distinct(all().map(|it| (&it.name, &it.file)));
+    let each = distinct(all().map(|path| (&path.name, &path.file)));
     let row = |(name, file): (&String, &String)| {
-        let times = all().filter(|it| (&it.name, &it.file) == (name, file)).count();
+        let times = all().filter(|path| (&path.name, &path.file) == (name, file)).count();
         let file = file.rsplit('/').next().unwrap_or_default();
         vec![name.clone(), times.to_string(), file.to_owned()]
     };

@@ -14,7 +14,10 @@ pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
         let radius = path.tool.unwrap_or_default() / 2.0;
         let cuts = path.moves.iter().filter(|it| it.kind.cuts()).filter_map(Move::extent);
         for [low, high] in cuts {
-            widen(&mut corners, [low.map(|it| it - radius), high.map(|it| it + radius)]);
+            widen(
+                &mut corners,
+                [low.map(|coordinate| coordinate - radius), high.map(|coordinate| coordinate + radius)],
+            );
         }
     }
     corners

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Lang;
 
 use super::blocks;
 use super::flow::{Block, Column, LETTERS, breadth, lay, wrapped};
-use super::picture::{self, Placed};
+use super::picture::{self, PlacedPicture};
 use super::words::Words;
 use super::{PAPER, Sheet, UNITS};
 use crate::scene::Point;
@@ -38,7 +38,7 @@ const CHECKLIST: f64 = 0.54;
 #[derive(Debug, Default)]
 pub(super) struct Page {
     pub(super) items: Vec<Item>,
-    pub(super) picture: Option<Placed>,
+    pub(super) picture: Option<PlacedPicture>,
 }
 
 /// A positioned item on a page.

@@ -11,7 +11,7 @@ use crate::svg::canvas::{Anchor, Canvas, n};
 use crate::svg::frame::Frame;
 use crate::svg::palette::{Depths, INK, PROBE, TEXT};
 use crate::svg::room::Room;
-use crate::svg::{Shown, legend, marks, moves, things};
+use crate::svg::{VisibleParts, legend, marks, moves, things};
 
 /// Margins around the drawing in units: dimensions are to the left and below, and their last numbers extend to the right.
 const LEFT: f64 = 56.0;
@@ -30,7 +30,7 @@ const LEAST: f64 = 4.0;
 
 /// A picture laid out on a page.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(super) struct PlacedPicture {
     area: Column,
     corners: Corners,
     scale: Scale,
@@ -63,19 +63,19 @@ impl Scale {
 }
 
 /// The picture of the first page, at true scale if there is room.
-pub(super) fn first(sheet: &Sheet, area: Column) -> Placed {
+pub(super) fn first(sheet: &Sheet, area: Column) -> PlacedPicture {
     let corners = padded(seen(sheet));
     let limit = limit(corners, area);
     let is_small = limit * SMALL >= 1.0;
     let limit = if is_small { limit_beside(corners, area) } else { limit.min(1.0) };
-    Placed::new(area, corners, Scale::within(limit), is_small)
+    PlacedPicture::new(area, corners, Scale::within(limit), is_small)
 }
 
 /// The picture on a whole page, if that makes it larger; at most at true scale.
-pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<Placed> {
+pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let upright = first(sheet, area);
     let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
-    let turned = Placed { turned: Some([area.left, area.bottom]), ..first(sheet, beneath) };
+    let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..first(sheet, beneath) };
     let placed = if turned.scale.0 > upright.scale.0 { turned } else { upright };
     let on_first = first(sheet, Column { bottom: area.top + super::page::PICTURE, ..area });
     (placed.scale.0 > on_first.scale.0).then_some(placed)
@@ -106,7 +106,7 @@ fn inset_width([low, high]: Corners) -> f64 {
     ((high[0] - low[0]) * UNITS).max(40.0) + 30.0
 }
 
-impl Placed {
+impl PlacedPicture {
     fn new(area: Column, corners: Corners, scale: Scale, has_inset: bool) -> Self {
         let [low, high] = corners;
         let height = ABOVE + (high[1] - low[1]) * scale.0 * UNITS + BELOW + LEGEND;
@@ -142,7 +142,7 @@ impl Placed {
         let place = frame.of_drawing();
         let [low, high] = self.corners;
         let ([left, bottom], [right, top]) = (place.at(low), place.at(high));
-        let shown = Shown { texts: false, ..Shown::all(lang) };
+        let shown = VisibleParts { texts: false, ..VisibleParts::all(lang) };
         let depths = Depths::of(&sheet.scene);
         canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
@@ -161,7 +161,7 @@ impl Placed {
         self.legend(canvas, sheet, &depths, shown);
     }
 
-    fn legend(&self, canvas: &mut Canvas, sheet: &Sheet, depths: &Depths, shown: Shown) {
+    fn legend(&self, canvas: &mut Canvas, sheet: &Sheet, depths: &Depths, shown: VisibleParts) {
         let words = Words(shown.lang);
         let top = self.bottom() - LEGEND + 12.0;
         canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
@@ -186,7 +186,7 @@ impl Placed {
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
         let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + ABOVE]);
         let depths = Depths::of(&sheet.scene);
-        let shown = Shown { rapids: false, order: false, arrows: false, texts: false, lang };
+        let shown = VisibleParts { rapids: false, order: false, arrows: false, texts: false, lang };
         canvas.open("id=\"true-size\"");
         for path in &sheet.scene.paths {
             moves::draw(canvas, path, &frame.of_path(path), &depths, shown);
@@ -197,7 +197,14 @@ impl Placed {
     }
 }
 
-fn drawing(canvas: &mut Canvas, scene: &Scene, frame: &Frame, depths: &Depths, shown: Shown, mut room: Room) {
+fn drawing(
+    canvas: &mut Canvas,
+    scene: &Scene,
+    frame: &Frame,
+    depths: &Depths,
+    shown: VisibleParts,
+    mut room: Room,
+) {
     things::under(canvas, scene, frame, &mut room);
     for path in &scene.paths {
         let place = frame.of_path(path);

@@ -1,7 +1,7 @@
 //! Writes a comparison to a file, besides printing it.
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::Written;
+use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::{Diagnostic, shown};
 use pathbuild_workspace::diff::Comparison;
 use pathbuild_workspace::files::cannot_write;
@@ -56,8 +56,8 @@ impl Output {
         };
         let refused = |reason| Box::new(cannot_write(file, reason));
         let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {
-            Written::Changed => context.choose("written", "geschrieben"),
-            Written::Unchanged => context.choose("unchanged", "unverändert"),
+            WriteOutcome::Changed => context.choose("written", "geschrieben"),
+            WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
         };
         context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
         Ok(())

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use pathbuild_db::{Database, SourceFile, drawn_path, file_index, in_force};
 use pathbuild_diagnostic::{Point, shown};
-use pathbuild_path::{InForce, Parameter, PathName, Position, Provider};
+use pathbuild_path::{ElementParameters, Parameter, PathName, Position, Provider};
 use pathbuild_workspace::config::Origin;
 use serde_json::{Value as Json, json};
 
@@ -34,11 +34,11 @@ fn table<'a>(
     context: &Context,
     file: &str,
     path: &PathName,
-    elements: impl Iterator<Item = (&'a InForce, Position)>,
+    elements: impl Iterator<Item = (&'a ElementParameters, Position)>,
 ) -> String {
     let title = context.choose("parameters of path", "Parameter des Pfads");
     let mut text = format!("{}: {title} {}\n", shown::line(file), shown::line(path.as_str()));
-    for (InForce { origin, what, parameters }, position) in elements {
+    for (ElementParameters { origin, what, parameters }, position) in elements {
         let element = named(origin.entity.name(), position);
         let at = context.choose("at", "bei");
         let Point { x, y } = origin.point;
@@ -78,8 +78,8 @@ fn option(context: &Context, name: &str) -> String {
     }
 }
 
-fn object(file: &str, path: &PathName, element: &InForce, position: Position) -> Json {
-    let InForce { origin, what, parameters } = element;
+fn object(file: &str, path: &PathName, element: &ElementParameters, position: Position) -> Json {
+    let ElementParameters { origin, what, parameters } = element;
     let parameter = |Parameter { letter, value, from }: &Parameter| json!({ "letter": letter.as_char(), "value": value.as_str(), "from": from.name(), "which": from.which() });
     json!({
         "file": file,

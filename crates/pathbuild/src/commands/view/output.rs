@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, shown};
-use pathbuild_view::{Scene, Shown};
+use pathbuild_view::{Scene, VisibleParts};
 
 use crate::commands::picture_output::{deliver, show};
 use crate::context::Context;
@@ -66,7 +66,7 @@ impl Format {
         )
     }
 
-    fn bytes(self, scene: &Scene, shown: Shown) -> Result<Vec<u8>, String> {
+    fn bytes(self, scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, String> {
         match self {
             Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
             Self::Json => Ok((scene.to_json() + "\n").into_bytes()),
@@ -111,7 +111,7 @@ impl Output {
     /// # Errors
     /// If it cannot be written or shown.
     pub(super) fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
-        let bytes = self.format.bytes(scene, Shown::all(context.lang()));
+        let bytes = self.format.bytes(scene, VisibleParts::all(context.lang()));
         match &self.file {
             Some(file) => deliver(context, file, bytes),
             None => show(context, bytes),
