@@ -77,13 +77,13 @@ fn of_lookup(
         DirectoryChange::Links => vec![Reason::Links { directory: directory.clone() }],
         DirectoryChange::Names(names) => {
             let names = names.iter().map(|name| &**name);
-            let asked = names.filter(|name| covers(name, path));
+            let covering = names.filter(|name| covers(name, path));
             let reason = |name: &str| Reason::Name {
                 file: directory.join(name),
                 path: path.into(),
-                is_gone: !now.names.iter().any(|there| there == name),
+                is_gone: !now.names.iter().any(|present| present == name),
             };
-            asked.map(reason).collect()
+            covering.map(reason).collect()
         }
     }
 }

@@ -14,10 +14,10 @@ use pathbuild_path::PathName;
 use pathbuild_post::BUILT_IN;
 use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, Configured, Owners};
+use pathbuild_workspace::emit::{self, Owners, TargetPatterns};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{Seen, Session, ShownText};
+use pathbuild_workspace::session::{SceneReport, Session, ShownText};
 use pathbuild_workspace::{Inputs, Silent, Workspace};
 use serde_json::{Value, json};
 
@@ -29,7 +29,7 @@ use crate::message::{Answer, LossReason, LostPath, Options, Place, Question};
 pub(crate) struct OpenedFiles {
     files: Arc<Files>,
     session: Session<'static>,
-    poster: Option<PostProcessor>,
+    post_processor: Option<PostProcessor>,
     lost: BTreeMap<Place, Diagnostic>,
     rows: BTreeMap<Place, Row>,
 }
@@ -66,12 +66,13 @@ impl OpenedFiles {
         if !faults.is_empty() {
             return (None, halted(faults));
         }
-        let poster = match PostProcessor::of_run(workspace, post.as_deref(), PostArguments::default()) {
-            Ok(poster) => poster,
+        let post_processor = match PostProcessor::of_run(workspace, post.as_deref(), PostArguments::default())
+        {
+            Ok(post_processor) => post_processor,
             Err(faults) => return (None, halted(faults)),
         };
         let session = Session::new(workspace);
-        let (sources, found) = session.everything();
+        let (sources, found) = session.all_drawings();
         let drawings: Vec<String> = sources.iter().map(|file| file.path(session.db()).to_string()).collect();
         let limit = workspace.settings.limits.seconds_per_path.value;
         let answer = json!({
@@ -86,7 +87,10 @@ impl OpenedFiles {
             LossReason::Bug { reason } => bug(&reason),
         };
         let lost = lost.into_iter().map(|LostPath { place, why }| (place, problem(why))).collect();
-        (Some(Self { files: Arc::clone(files), session, poster, lost, rows: BTreeMap::new() }), answer)
+        (
+            Some(Self { files: Arc::clone(files), session, post_processor, lost, rows: BTreeMap::new() }),
+            answer,
+        )
     }
 
     /// Answers a question about the opened files.
@@ -132,7 +136,7 @@ impl OpenedFiles {
         }
         let (db, file) = (self.session.db(), self.file(file));
         let whole = self.of_drawing(check_file(db, file).to_vec());
-        let mut targets = Configured::new(&self.session.workspace().settings);
+        let mut targets = TargetPatterns::new(&self.session.workspace().settings);
         let rows = path_names(db, file).iter().map(
             |name| json!({ "path": name.as_str(), "emitted": self.is_emitted(&mut targets, file, name) }),
         );
@@ -146,9 +150,9 @@ impl OpenedFiles {
 
     /// Whether a path is included in "write all": either the configuration lists it, or the configuration lists none and the path needs no
     /// values for variables.
-    fn is_emitted(&self, targets: &mut Configured<'_>, file: SourceFile, name: &PathName) -> bool {
+    fn is_emitted(&self, targets: &mut TargetPatterns<'_>, file: SourceFile, name: &PathName) -> bool {
         if !self.session.workspace().settings.emit.targets.value.is_empty() {
-            return targets.means(name.as_str());
+            return targets.matches(name.as_str());
         }
         let index = file_index(self.session.db(), file).path(name);
         index.is_some_and(|path| path.header.definitions.is_empty())
@@ -161,7 +165,7 @@ impl OpenedFiles {
             ListedPath::unknown(name, self.session.normal(Utf8Path::new(&place.file)), problem.clone())
         } else {
             let (file, name) = self.path(&place)?;
-            list::of_path(&mut self.session, file, &name, self.poster.as_ref()).pop()?
+            list::of_path(&mut self.session, file, &name, self.post_processor.as_ref()).pop()?
         };
         let row = Row::new(self.session.workspace(), path);
         let json = path_json(&place.file, &row);
@@ -170,7 +174,7 @@ impl OpenedFiles {
     }
 
     fn statistics(&self) -> Value {
-        let drawings = self.session.everything().0.len();
+        let drawings = self.session.all_drawings().0.len();
         stats_json(&Stats::of(self.rows.values(), drawings))
     }
 
@@ -180,7 +184,9 @@ impl OpenedFiles {
         if let Some(problem) = self.lost.get(place) {
             let scene = Scene::new(place.path.as_deref().unwrap_or(&place.file));
             let problem = problem.clone().in_file(Utf8Path::new(&place.file));
-            return Some(Seen { scene, diagnostics: vec![problem] }.judged(workspace, &place.file).0);
+            return Some(
+                SceneReport { scene, diagnostics: vec![problem] }.with_findings(workspace, &place.file).0,
+            );
         }
         let (file, names) = if place.path.is_some() {
             let (file, name) = self.path(place)?;
@@ -189,9 +195,9 @@ impl OpenedFiles {
             let file = self.file(&place.file);
             (file, path_names(self.session.db(), file).to_vec())
         };
-        let text = ShownText::Emitted(self.poster.as_ref());
-        let seen = self.session.settled(|session| session.scene(file, &names, text));
-        Some(seen.judged(workspace, &place.file).0)
+        let text = ShownText::Emitted(self.post_processor.as_ref());
+        let seen = self.session.with_stable_files(|session| session.scene(file, &names, text));
+        Some(seen.with_findings(workspace, &place.file).0)
     }
 
     /// Emits the programs of paths.
@@ -201,8 +207,9 @@ impl OpenedFiles {
         let target =
             |(file, name): &(SourceFile, PathName)| self.session.target_in(*file, name, Role::Emitted);
         let targets: Vec<Target> = found.iter().map(target).collect();
-        let poster = self.poster.as_ref();
-        let emission = match emit::write(&mut self.session, poster, &targets, &mut Owners::default()) {
+        let post_processor = self.post_processor.as_ref();
+        let emission = match emit::write(&mut self.session, post_processor, &targets, &mut Owners::default())
+        {
             Ok(emission) => emission,
             Err(refusal) => return json!({ "refused": refusal, "problems": [], "files": [] }).into(),
         };

@@ -18,7 +18,7 @@ use pathbuild_testkit::sheet;
 use pathbuild_wasm::Compiler;
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Owners};
-use pathbuild_workspace::session::{Session, WantedPath};
+use pathbuild_workspace::session::{SelectedPath, Session};
 use pathbuild_workspace::{Inputs, Silent, Workspace};
 use serde_json::{Value, json};
 
@@ -145,7 +145,7 @@ fn a_library_has_the_programs_that_are_written_from_files() {
     for (drawing, path) in rows.keys() {
         let file = session.file(&root.join(drawing));
         let name = pathbuild_path::PathName::new(path);
-        let target = session.target(&WantedPath { file, name }, Role::Emitted);
+        let target = session.target(&SelectedPath { file, name }, Role::Emitted);
         let Ok(_) = emit::write(&mut session, None, &[target], &mut Owners::default()) else { continue };
         let (programs, _) = page.emit(&[(drawing, path)]);
         for (name, text) in programs {

@@ -122,10 +122,10 @@ pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Pictures>) ->
 /// Compares all paths of two trees.
 pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
     let Tree { session, inputs, root } = new;
-    session.settled(|session| {
+    session.with_stable_files(|session| {
         let mut new = Tree { session, inputs, root };
         let Tree { session, inputs, root } = &mut *old;
-        session.settled(|session| settled(&mut Tree { session, inputs, root }, &mut new, pictures))
+        session.with_stable_files(|session| settled(&mut Tree { session, inputs, root }, &mut new, pictures))
     })
 }
 
@@ -136,7 +136,7 @@ fn settled(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pict
     let looked_at = is.len();
     let mut paths: Vec<PathDiff> = pairs(was, is)
         .into_iter()
-        .filter_map(|pair| pair.judged([old.session, new.session], pictures, &mut problems))
+        .filter_map(|pair| pair.compare([old.session, new.session], pictures, &mut problems))
         .collect();
     paths.sort_by(|a, b| by_name(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
     Comparison { paths, looked_at, problems }
@@ -144,7 +144,7 @@ fn settled(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pict
 
 /// A path on one side.
 #[derive(Clone, Debug)]
-struct Known {
+struct SidePath {
     file: SourceFile,
     /// Path of the drawing, relative to the root.
     place: Utf8PathBuf,
@@ -155,13 +155,13 @@ struct Known {
 
 impl Tree<'_, '_> {
     /// The paths of this side, and diagnostics of the drawings by themselves.
-    fn paths(&mut self) -> (Vec<Known>, Vec<Diagnostic>) {
-        let wanted = self.session.wanted(self.inputs);
-        let files = wanted.whole(self.session);
-        let mut problems = wanted.problems;
+    fn paths(&mut self) -> (Vec<SidePath>, Vec<Diagnostic>) {
+        let selection = self.session.select(self.inputs);
+        let files = selection.whole(self.session);
+        let mut problems = selection.problems;
         let root = self.session.normal(self.root);
         let found = self.session.in_batches_of_programs(&files, |session, files| {
-            session.read_ahead(files);
+            session.parse_ahead(files);
             let broken = files.iter().flat_map(|file| check_file(session.db(), *file));
             problems.extend(broken.filter(|problem| problem.is_error()).cloned());
             known(session, files, &root, &mut problems)
@@ -175,27 +175,27 @@ fn known(
     files: &[SourceFile],
     root: &Utf8Path,
     problems: &mut Vec<Diagnostic>,
-) -> Vec<Known> {
+) -> Vec<SidePath> {
     let db = session.db();
     let programs = session.move_hashes(files);
     let known = programs.into_iter().map(|hashed| {
         problems.extend(hashed.problems);
         let (file, name, moves) = (hashed.file, hashed.name, hashed.moves);
         let path = file.path(db);
-        Known { file, place: path.strip_prefix(root).unwrap_or(path).to_owned(), name, moves }
+        SidePath { file, place: path.strip_prefix(root).unwrap_or(path).to_owned(), name, moves }
     });
     known.collect()
 }
 
 /// A path on one or both sides.
 struct Pair {
-    old: Option<Known>,
-    new: Option<Known>,
+    old: Option<SidePath>,
+    new: Option<SidePath>,
 }
 
 /// Pairs the paths of both sides: those with the same name in the same drawing, then those whose name remains exactly once on each side.
-fn pairs(old: Vec<Known>, new: Vec<Known>) -> Vec<Pair> {
-    let mut by_file: HashMap<(Utf8PathBuf, PathName), Known> =
+fn pairs(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
+    let mut by_file: HashMap<(Utf8PathBuf, PathName), SidePath> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
     let mut pairs = Vec::new();
     let mut alone = Vec::new();
@@ -205,7 +205,7 @@ fn pairs(old: Vec<Known>, new: Vec<Known>) -> Vec<Pair> {
             None => alone.push(known),
         }
     }
-    let mut by_name: HashMap<PathName, Vec<Known>> = HashMap::new();
+    let mut by_name: HashMap<PathName, Vec<SidePath>> = HashMap::new();
     for known in by_file.into_values() {
         by_name.entry(known.name.clone()).or_default().push(known);
     }
@@ -223,7 +223,7 @@ fn pairs(old: Vec<Known>, new: Vec<Known>) -> Vec<Pair> {
 }
 
 impl Pair {
-    fn judged(
+    fn compare(
         self,
         sessions: [&Session<'_>; 2],
         pictures: Option<Pictures>,
@@ -275,7 +275,7 @@ fn changed(
 ///
 /// # Errors
 /// The errors that prevent its program from being built.
-fn seen(session: &Session<'_>, known: &Known) -> Result<ScenePath, Vec<Diagnostic>> {
+fn seen(session: &Session<'_>, known: &SidePath) -> Result<ScenePath, Vec<Diagnostic>> {
     let seen = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
     let path = seen.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
     // Errors of the drawing as a whole are reported already.

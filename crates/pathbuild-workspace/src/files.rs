@@ -67,7 +67,7 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     for (index, (file, content)) in files.iter().enumerate() {
         if let Err(error) = create_new(file, content) {
             // Undo, so that the next attempt does not find these files.
-            files[..index].iter().for_each(|(made, _)| _ = fs::remove_file(made));
+            files[..index].iter().for_each(|(created, _)| _ = fs::remove_file(created));
             return Err(vec![cannot_write(file, reason(&error))]);
         }
     }
@@ -77,8 +77,8 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
 /// Creates a file and writes its content; removes the file again if writing fails.
 fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
     file.parent().map_or(Ok(()), fs::create_dir_all)?;
-    let made = fs::File::create_new(file)?;
-    write_whole(made, content).inspect_err(|_| _ = fs::remove_file(file))
+    let created = fs::File::create_new(file)?;
+    write_whole(created, content).inspect_err(|_| _ = fs::remove_file(file))
 }
 
 /// Takes the file by value to close it on return: Windows does not remove open files.

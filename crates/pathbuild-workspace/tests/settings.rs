@@ -13,7 +13,7 @@ use std::fs;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_workspace::Inputs;
-use pathbuild_workspace::config::{self, Concerns, Overrides, Settings};
+use pathbuild_workspace::config::{self, Overrides, ResultKind, Settings};
 use tempfile::TempDir;
 
 /// Whose results depend on it.
@@ -128,9 +128,9 @@ fn settings(base: &Utf8Path, text: &str) -> Settings {
 
 /// What a check and an emit ask.
 fn questions(settings: &Settings) -> [String; 2] {
-    [Concerns::Check, Concerns::Emit].map(|whose| {
+    [ResultKind::Check, ResultKind::Emit].map(|whose| {
         let mut text = String::new();
-        settings.concerning(whose, &mut |name, value| _ = writeln!(text, "{name} = {value:?}"));
+        settings.visit_inputs(whose, &mut |name, value| _ = writeln!(text, "{name} = {value:?}"));
         text
     })
 }

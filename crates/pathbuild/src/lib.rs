@@ -52,8 +52,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
         Err(error) => {
             let lang = lang_of(&arguments);
             // Parse again with the German definition to get the error message in German.
-            let said = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
-            print(|printer| usage::answer(&said, lang, printer))
+            let message = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
+            print(|printer| usage::answer(&message, lang, printer))
         }
     }
 }
@@ -103,7 +103,7 @@ fn execute(cli: &Cli) -> ExitStatus {
         return context.printer.finish(status);
     }
     context.begin();
-    say_configuration_not_used(&context);
+    warn_about_unused_configuration(&context);
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
     } else {
@@ -119,7 +119,7 @@ fn refusal(context: &Context) -> Option<String> {
 }
 
 /// Warns if the working directory's configuration does not apply to this run.
-fn say_configuration_not_used(context: &Context) {
+fn warn_about_unused_configuration(context: &Context) {
     if let Some(file) = context.configuration_not_used() {
         let line = context.phrase(
             "note: {} does not hold for what lies outside of its tree (--config {} makes it hold); no other was found",

@@ -7,9 +7,9 @@ use crate::args::{Cli, WatchArgs};
 use crate::commands::watch;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::say_configuration_not_used;
 use crate::serving::Server;
 use crate::surroundings::user_configuration;
+use crate::warn_about_unused_configuration;
 use crate::{context_of, refusal};
 use camino::Utf8PathBuf;
 
@@ -32,7 +32,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         }
         if !has_begun && server.is_none() {
             context.begin();
-            say_configuration_not_used(&context);
+            warn_about_unused_configuration(&context);
             match Server::start(&context, &args.serving) {
                 Ok(started) => server = started,
                 Err(reason) => return context.printer.finish(context.usage(&reason)),

@@ -77,7 +77,7 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
         reporter: Rc::new(Silent),
     };
     let session = Session::new(&workspace);
-    let wanted = session.wanted(&Inputs { inputs });
+    let wanted = session.select(&Inputs { inputs });
     let mut targets: Vec<_> = wanted.paths.iter().map(|path| session.target(path, Role::Emitted)).collect();
     for file in wanted.whole(&session) {
         targets.extend(session.targets(file, &Role::Emitted));

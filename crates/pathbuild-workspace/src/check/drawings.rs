@@ -1,6 +1,6 @@
 //! Checks drawings and records the inputs of each result.
 
-use crate::session::{Asking, DrawingResult, Session, by_place};
+use crate::session::{Checker, DrawingResult, Session, by_place};
 use pathbuild_db::{Database, Role, SourceFile, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -28,32 +28,32 @@ pub(super) fn check_paths(
     with_all_values: bool,
 ) -> Vec<(DrawingResult, Vec<Trace>)> {
     let files: Vec<SourceFile> = targets.iter().map(|(file, _)| *file).collect();
-    session.read_ahead(&files);
+    session.parse_ahead(&files);
     session.in_batches(targets, BATCH, |session, targets| {
-        session.each(targets, |asking, target| check_drawing(asking, target, with_all_values))
+        session.each(targets, |checker, target| check_drawing(checker, target, with_all_values))
     })
 }
 
 fn check_drawing(
-    asking: &Asking<'_>,
+    checker: &Checker<'_>,
     (file, names): &CheckTarget<'_>,
     with_all_values: bool,
 ) -> (DrawingResult, Vec<Trace>) {
-    let (db, file) = (asking.db(), *file);
+    let (db, file) = (checker.db(), *file);
     let names = names.unwrap_or_else(|| path_names(db, file));
     let mut diagnostics = Vec::new();
     let mut reached = vec![file];
-    let mut traces = own_trace(asking.is_traced(), file);
+    let mut traces = own_trace(checker.is_traced(), file);
     for name in names {
         let (targets, warning) = if with_all_values {
-            asking.combined_targets(file, name)
+            checker.combined_targets(file, name)
         } else {
             (vec![db.target(file, name.as_str(), Role::Checked)], None)
         };
-        let checked = targets.into_iter().map(|target| asking.check(target)).collect::<Vec<_>>();
+        let checked = targets.into_iter().map(|target| checker.check(target)).collect::<Vec<_>>();
         diagnostics.extend(warning);
         if with_all_values {
-            diagnostics.extend(asking.merged(&checked));
+            diagnostics.extend(checker.merged(&checked));
         }
         for checked in checked {
             if !with_all_values {

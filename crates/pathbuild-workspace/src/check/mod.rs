@@ -15,11 +15,11 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use crate::Inputs;
-use crate::config::Concerns;
+use crate::config::ResultKind;
 use crate::session::timings::FINDING;
 use crate::session::{
-    DrawingResult, Found, FreshResult, Question, ResultStore, Scope, Session, Wanted, WantedPath, by_place,
-    relative,
+    ArgumentMatches, CacheQuery, DrawingResult, FreshResult, ResultStore, Scope, SelectedPath, Selection,
+    Session, by_place, relative,
 };
 use crate::workspace::Workspace;
 
@@ -53,7 +53,7 @@ pub trait Past: Debug {
 
 /// The outcome of a check.
 #[derive(Clone, Debug, Default)]
-pub struct Checked {
+pub struct CheckOutcome {
     /// All diagnostics, unsorted, with duplicates.
     pub diagnostics: Vec<Diagnostic>,
     /// The checked drawings, sorted by name.
@@ -84,7 +84,7 @@ impl CheckTarget {
 
 /// A request limited to changed drawings names single drawings or paths. Dependents are found only for whole directories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotDirectories;
+pub struct InputsNotDirectories;
 
 impl Request<'_> {
     /// Opens a session that suits this request.
@@ -100,11 +100,11 @@ impl Request<'_> {
     ///
     /// # Errors
     /// If the request is limited to changed drawings and the inputs are not all directories.
-    pub fn run(&self, session: &mut Session<'_>) -> Result<Checked, NotDirectories> {
+    pub fn run(&self, session: &mut Session<'_>) -> Result<CheckOutcome, InputsNotDirectories> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
-        let mut found = session.timings().measure(&FINDING, || session.found(self.inputs));
+        let mut found = session.timings().measure(&FINDING, || session.match_arguments(self.inputs));
         let results = Results::open(session, self, &mut found);
         let mut checked = check(session, self, &found, &results)?;
         checked.diagnostics = session.with_hints(checked.diagnostics);
@@ -117,21 +117,22 @@ impl Request<'_> {
 fn check(
     session: &mut Session<'_>,
     request: &Request<'_>,
-    found: &Found,
+    found: &ArgumentMatches,
     results: &Results,
-) -> Result<Checked, NotDirectories> {
+) -> Result<CheckOutcome, InputsNotDirectories> {
     let Answers { selection, each: answers, mut fresh } =
-        session.settled(|session| answers(session, request, found, results));
+        session.with_stable_files(|session| answers(session, request, found, results));
     if request.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
-        return Err(NotDirectories);
+        return Err(InputsNotDirectories);
     }
-    let (q_projects, fresh_pairs) = session.settled(|session| results.q_projects(session, &selection));
+    let (q_projects, fresh_pairs) =
+        session.with_stable_files(|session| results.q_projects(session, &selection));
     fresh.extend(fresh_pairs);
     results.keep(session, &fresh);
     let names = answers.iter().map(|(target, _)| subject(&target.drawing, target.names.as_deref()));
     let names = names.chain(q_projects.iter().map(|(subject, _)| Cow::Borrowed(&**subject)));
     let filter = ChangeFilter::new(session, results, &fresh, since(session, request, found), names);
-    let mut checked = Checked { diagnostics: found.problems.clone(), ..Checked::default() };
+    let mut checked = CheckOutcome { diagnostics: found.problems.clone(), ..CheckOutcome::default() };
     checked.diagnostics.extend(selection.problems);
     if !session.is_compatible() {
         let named = answers.iter().skip(selection.drawings.len()).take(selection.named.len());
@@ -158,7 +159,7 @@ fn check(
 }
 
 /// The state since which changed drawings are selected; `None` if everything is selected because a change affects all drawings.
-fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &Found) -> Option<&'a dyn Past> {
+fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &ArgumentMatches) -> Option<&'a dyn Past> {
     let past = request.changed?;
     let directories: Vec<Utf8PathBuf> =
         found.directories().flat_map(|directory| &directory.directories).cloned().collect();
@@ -174,13 +175,18 @@ fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &Found) -> Opt
 
 /// The resolved arguments, and the result of each drawing.
 struct Answers {
-    selection: Wanted,
+    selection: Selection,
     each: Vec<(CheckTarget, DrawingResult)>,
     /// Results computed in this run.
     fresh: Vec<FreshResult>,
 }
 
-fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, results: &Results) -> Answers {
+fn answers(
+    session: &mut Session<'_>,
+    request: &Request<'_>,
+    found: &ArgumentMatches,
+    results: &Results,
+) -> Answers {
     let (selection, mut fresh) = results.select(session, found);
     let targets = targets(session, &selection);
     let mut known: Vec<Option<DrawingResult>> = targets
@@ -203,7 +209,7 @@ fn answers(session: &mut Session<'_>, request: &Request<'_>, found: &Found, resu
 }
 
 /// The targets to check: each drawing, and for paths named individually the drawings that define them, unless these are checked as a whole.
-fn targets(session: &Session<'_>, selection: &Wanted) -> Vec<CheckTarget> {
+fn targets(session: &Session<'_>, selection: &Selection) -> Vec<CheckTarget> {
     let db = session.db();
     let named = selection.named.iter().map(|file| file.path(db));
     let whole = selection.drawings.iter().chain(named);
@@ -212,7 +218,7 @@ fn targets(session: &Session<'_>, selection: &Wanted) -> Vec<CheckTarget> {
     if !selection.paths.is_empty() {
         let is_whole: HashSet<Utf8PathBuf> = targets.iter().map(|target| target.drawing.clone()).collect();
         let mut single: BTreeMap<&Utf8PathBuf, Vec<PathName>> = BTreeMap::new();
-        for WantedPath { file, name } in &selection.paths {
+        for SelectedPath { file, name } in &selection.paths {
             single.entry(file.path(db)).or_default().push(name.clone());
         }
         let single = single.into_iter().filter(|(drawing, _)| !is_whole.contains(*drawing));
@@ -224,7 +230,7 @@ fn targets(session: &Session<'_>, selection: &Wanted) -> Vec<CheckTarget> {
 }
 
 /// Results of the last checks, to explain why they no longer hold. `None` if no results are cached.
-pub fn kept_results(workspace: &Workspace) -> Option<ResultStore> {
+pub fn cached_results(workspace: &Workspace) -> Option<ResultStore> {
     open(workspace, false, Scope::All, Listings::new())
 }
 
@@ -235,7 +241,7 @@ fn open(
     listings: Listings,
 ) -> Option<ResultStore> {
     let text = format!("check {with_all_values}");
-    ResultStore::open(workspace, Question { whose: Concerns::Check, text: &text, scope, listings })
+    ResultStore::open(workspace, CacheQuery { result_kind: ResultKind::Check, text: &text, scope, listings })
 }
 
 /// Leaks instead of dropping: freeing a million values takes longer than process exit.

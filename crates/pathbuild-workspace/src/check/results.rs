@@ -12,8 +12,8 @@ use super::changed::{ChangedDrawings, ReachedInputs};
 use super::{Past, Request, open};
 use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{
-    Dependencies, Drawing, DrawingResult, Drawings, Found, FreshResult, Pair, ResultStore, Scope, Session,
-    Wanted, q_project_pairs,
+    ArgumentMatches, Dependencies, Drawing, DrawingResult, Drawings, FreshResult, Pair, ResultStore, Scope,
+    Selection, Session, q_project_pairs,
 };
 
 /// The cached results of earlier checks, if there is a cache.
@@ -24,7 +24,7 @@ type PairResult = (String, Vec<Diagnostic>);
 
 impl Results {
     /// Loads the cached results of the drawings that the request may select.
-    pub(super) fn open(session: &Session<'_>, request: &Request<'_>, found: &mut Found) -> Self {
+    pub(super) fn open(session: &Session<'_>, request: &Request<'_>, found: &mut ArgumentMatches) -> Self {
         if !session.is_traced() {
             return Self(None);
         }
@@ -47,19 +47,23 @@ impl Results {
     }
 
     /// Resolves the arguments. Also returns the results that had to be computed for that.
-    pub(super) fn select(&self, session: &Session<'_>, found: &Found) -> (Wanted, Vec<FreshResult>) {
+    pub(super) fn select(
+        &self,
+        session: &Session<'_>,
+        found: &ArgumentMatches,
+    ) -> (Selection, Vec<FreshResult>) {
         let db = session.db();
         let mut named: Vec<Utf8PathBuf> = found.candidates().map(|file| file.path(db).clone()).collect();
         named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         named.dedup();
         let named = Drawings::new(session, named, |drawing| self.names(drawing));
         let names =
-            |file: SourceFile| named.get(file.path(db)).map_or(&[][..], |drawing| &drawing.said.names);
-        let selection = session.meant(found, &found.arguments, &names);
+            |file: SourceFile| named.get(file.path(db)).map_or(&[][..], |drawing| &drawing.result.names);
+        let selection = session.select_arguments(found, &found.arguments, &names);
         let read = named.iter().filter(|drawing| drawing.is_read && session.is_traced());
-        let fresh = read.map(|Drawing { path, said, .. }| {
+        let fresh = read.map(|Drawing { path, result, .. }| {
             let trace = Trace { files: vec![session.file(path)], lookups: Vec::new() };
-            new(&names_subject(path), vec![trace], said)
+            new(&names_subject(path), vec![trace], result)
         });
         (selection, fresh.collect())
     }
@@ -79,7 +83,7 @@ impl Results {
     pub(super) fn q_projects(
         &self,
         session: &Session<'_>,
-        selection: &Wanted,
+        selection: &Selection,
     ) -> (Vec<PairResult>, Vec<FreshResult>) {
         let (mut found, mut fresh) = (Vec::new(), Vec::new());
         let (mut open, mut names): (Vec<Pair>, Vec<String>) = (Vec::new(), Vec::new());
@@ -94,7 +98,7 @@ impl Results {
             }
         }
         for ((diagnostics, subject), pair) in
-            session.judge_q_projects(&open).into_iter().zip(names).zip(&open)
+            session.compare_q_projects(&open).into_iter().zip(names).zip(&open)
         {
             let result = DrawingResult { names: Vec::new(), diagnostics };
             if session.is_traced() {

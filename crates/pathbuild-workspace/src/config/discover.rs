@@ -62,7 +62,7 @@ impl Discovery<'_> {
     }
 
     /// Diagnostics for arguments whose configuration is not the one of the run.
-    pub(super) fn strangers(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
+    pub(super) fn misplaced_inputs(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),
             Input::Name(name) => self.is_directory(name.into()).then(|| name.into()),

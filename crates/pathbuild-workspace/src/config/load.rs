@@ -34,7 +34,7 @@ pub fn load(
     };
     let confined = confinement(system, given, file.as_deref(), &discovery);
     if given.config.is_none() {
-        diagnostics.extend(discovery.strangers(file.as_deref()));
+        diagnostics.extend(discovery.misplaced_inputs(file.as_deref()));
     }
     let read = |file: &Utf8Path| read(&**system, file, confined.as_ref(), &mut diagnostics);
     let configured = file.as_deref().map(read).unwrap_or_default();

@@ -11,9 +11,8 @@
 //! from that, so they all know the same keys.
 
 mod arguments;
-mod concerns;
 mod discover;
-mod homes;
+mod key_index;
 mod kind;
 mod kinds;
 mod load;
@@ -21,6 +20,7 @@ pub(crate) mod nearest;
 mod options;
 mod origin;
 mod reader;
+mod result_kind;
 mod schema;
 pub mod sections;
 mod settings;
@@ -31,10 +31,10 @@ pub mod types;
 mod user;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
-pub use concerns::Concerns;
 pub use load::{faults, load};
 pub use options::Options;
 pub use origin::{Origin, Sourced};
+pub use result_kind::ResultKind;
 pub use schema::schema;
 pub use settings::Settings;
 pub use show::{Setting, settings, show};

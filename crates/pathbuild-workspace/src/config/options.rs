@@ -20,7 +20,7 @@ pub struct Options {
 impl Options {
     /// Reads a parsed configuration. Diagnostics stay in the reader.
     pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
-        reader.tell_homes();
+        reader.suggest_tables();
         reader.table(root, "", |table| {
             let options = Self {
                 general: general::Options::read(table),

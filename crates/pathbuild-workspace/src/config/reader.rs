@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Value, Word};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::homes::{Home, Homes};
+use super::key_index::{KeyIndex, KeyPlace};
 use super::kind::ValueType;
 use super::nearest::nearest;
 use super::origin::{Origin, Sourced};
@@ -22,7 +22,7 @@ pub(super) struct TomlReader<'a> {
     /// Directories that an untrusted configuration may refer to.
     confined: Option<&'a ConfinedSystem>,
     /// Knows which table a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
-    homes: Option<OnceCell<Homes>>,
+    key_index: Option<OnceCell<KeyIndex>>,
     key: String,
     diagnostics: Vec<Diagnostic>,
     /// Number of regular expressions and globs read so far.
@@ -31,14 +31,14 @@ pub(super) struct TomlReader<'a> {
 
 /// A kind of value whose number is limited because each takes far more memory than its text.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Counted {
+pub(super) enum LimitedKind {
     /// A regular expression.
     Regex,
     /// A glob pattern for names.
     Glob,
 }
 
-impl Counted {
+impl LimitedKind {
     fn most(self) -> (u64, &'static Word) {
         match self {
             Self::Regex => (400, &messages::REGEXES),
@@ -58,7 +58,7 @@ impl<'a> TomlReader<'a> {
             source,
             directory,
             confined,
-            homes: None,
+            key_index: None,
             key: String::new(),
             diagnostics: Vec::new(),
             counts: [0; 2],
@@ -66,12 +66,12 @@ impl<'a> TomlReader<'a> {
     }
 
     /// From here on, reports which table of a `pathbuild.toml` a misplaced key belongs to.
-    pub(super) fn tell_homes(&mut self) {
-        self.homes = Some(OnceCell::new());
+    pub(super) fn suggest_tables(&mut self) {
+        self.key_index = Some(OnceCell::new());
     }
 
-    fn home(&self, name: &str) -> Option<Home<'_>> {
-        self.homes.as_ref()?.get_or_init(Homes::new).of(name)
+    fn home(&self, name: &str) -> Option<KeyPlace<'_>> {
+        self.key_index.as_ref()?.get_or_init(KeyIndex::new).find(name)
     }
 
     /// Reads a table. Keys that `read` does not take are reported.
@@ -103,7 +103,7 @@ impl<'a> TomlReader<'a> {
     }
 
     /// Whether the configuration is untrusted.
-    pub(super) fn is_strangers(&self) -> bool {
+    pub(super) fn is_untrusted(&self) -> bool {
         self.confined.is_some()
     }
 
@@ -133,7 +133,7 @@ impl<'a> TomlReader<'a> {
     }
 
     /// Counts another value of this kind. Returns whether the limit still permits it. Exceeding the limit is reported only once.
-    pub(super) fn counts(&mut self, what: Counted, span: Range<usize>) -> bool {
+    pub(super) fn counts(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
         let (most, word) = what.most();
         let count = &mut self.counts[what as usize];
         *count += 1;
@@ -206,8 +206,8 @@ impl<'a> Table<'_, '_, 'a> {
     }
 
     /// Whether the configuration is untrusted.
-    pub(super) fn is_strangers(&self) -> bool {
-        self.reader.is_strangers()
+    pub(super) fn is_untrusted(&self) -> bool {
+        self.reader.is_untrusted()
     }
 
     /// Reports a limit of an untrusted configuration that exceeds its default. `default` is formatted as TOML.
@@ -277,7 +277,7 @@ impl<'a> Table<'_, '_, 'a> {
 /// A diagnostic that names the place of a key: in a table, or before all tables.
 fn placed(
     fault: impl Fn(&'static Message) -> Diagnostic,
-    home: &Home<'_>,
+    home: &KeyPlace<'_>,
     of_table: &'static Message,
     of_top: &'static Message,
 ) -> Diagnostic {

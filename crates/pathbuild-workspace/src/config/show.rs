@@ -6,7 +6,7 @@ use super::origin::Origin;
 use super::settings::Settings;
 
 /// A key with its value as TOML, and its source.
-pub(super) struct Shown {
+pub(super) struct ShownSetting {
     pub(super) name: &'static str,
     pub(super) value: Option<String>,
     pub(super) origin: Origin,
@@ -29,7 +29,7 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
 }
 
 /// The tables with fixed keys.
-fn sections(settings: &Settings) -> [(&'static str, Vec<Shown>); 5] {
+fn sections(settings: &Settings) -> [(&'static str, Vec<ShownSetting>); 5] {
     [
         ("emit", settings.emit.shown()),
         ("limits", settings.limits.shown()),
@@ -57,7 +57,7 @@ pub fn settings(settings: &Settings) -> Vec<Setting> {
     let general = [("", settings.general.shown()), ("", settings.tables.shown())];
     let all = general.into_iter().chain(sections(settings));
     let setting = |section| {
-        move |Shown { name, value, origin }: Shown| {
+        move |ShownSetting { name, value, origin }: ShownSetting| {
             let origin = value.as_ref().map(|_| origin.to_string()).unwrap_or_default();
             Setting { section, name, value, origin }
         }
@@ -65,8 +65,8 @@ pub fn settings(settings: &Settings) -> Vec<Setting> {
     all.flat_map(|(section, entries)| entries.into_iter().map(setting(section))).collect()
 }
 
-fn write(text: &mut String, entries: Vec<Shown>, with_origin: bool) {
-    for Shown { name, value, origin } in entries {
+fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
+    for ShownSetting { name, value, origin } in entries {
         let line = value.map_or_else(|| format!("# {name} is not set"), |value| format!("{name} = {value}"));
         let origin =
             if with_origin && !line.starts_with('#') { format!("  # {origin}") } else { String::new() };

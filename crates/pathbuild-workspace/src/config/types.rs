@@ -131,7 +131,7 @@ pub struct LineTypeAlias {
     /// Name in drawings.
     pub name: Box<str>,
     /// The line type that it stands for.
-    pub means: LineType,
+    pub line_type: LineType,
 }
 
 /// A rule for embedding: paths matched by `parent` may embed only paths matched by `child`.

@@ -18,7 +18,7 @@ pub(super) fn compare(
     output: &Output,
     limit: u64,
     moves_only: bool,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
 ) -> (State, Vec<Diagnostic>) {
     let present = match system.read(&output.path, limit) {
         Ok(bytes) => bytes,
@@ -34,7 +34,7 @@ pub(super) fn compare(
         return (State::Outdated, Vec::new());
     }
     // Without a reader for the dialect, only bytes can be compared.
-    let Some(reading) = Reading::of(poster) else { return (State::Outdated, Vec::new()) };
+    let Some(reading) = ComparisonSettings::of(post_processor) else { return (State::Outdated, Vec::new()) };
     let problems = difference(&present, &output.text, &reading);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
     let state = if problems.is_empty() { State::Current } else { State::Outdated };
@@ -42,17 +42,17 @@ pub(super) fn compare(
 }
 
 /// How programs are read for comparison.
-struct Reading {
+struct ComparisonSettings {
     dialect: Dialect,
     tolerance: Tolerance,
 }
 
-impl Reading {
-    fn of(poster: Option<&PostProcessor>) -> Option<Self> {
-        let Some(poster) = poster else {
+impl ComparisonSettings {
+    fn of(post_processor: Option<&PostProcessor>) -> Option<Self> {
+        let Some(post_processor) = post_processor else {
             return Some(Self { dialect: Dialect::Native, tolerance: TOLERANCE });
         };
-        let dialect = poster.reader()?;
+        let dialect = post_processor.reader()?;
         Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
     }
 }
@@ -60,7 +60,7 @@ impl Reading {
 /// Returns why a program on disk cannot be read, or else where its moves differ first. Lines are compared before moves: numbers that differ
 /// by one unit of their last digit are equal however they are interpreted, even where rounding turns a very short arc into a full circle.
 /// Only programs with different lines are interpreted.
-fn difference(present: &[u8], expected: &[u8], reading: &Reading) -> Vec<Diagnostic> {
+fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> Vec<Diagnostic> {
     let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
     if verify::same_move_lines(&found_text, &expected_text) {
         return Vec::new();

@@ -4,13 +4,13 @@ use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Note;
 use pathbuild_diagnostic::messages::outputs;
 
-use super::{Delivered, Request, State, Task};
+use super::{ProgramOutcome, Request, State, Task};
 use crate::session::Session;
 use crate::workspace::Workspace;
 
 /// Adds a note to each difference that `--compatible` would remove. If there are any differences, the programs are generated a second time
 /// for this.
-pub(super) fn name(workspace: &Workspace, request: &Request<'_>, delivered: &mut [Delivered]) {
+pub(super) fn name(workspace: &Workspace, request: &Request<'_>, delivered: &mut [ProgramOutcome]) {
     let is_asked = request.task == Task::Compare { moves_only: true };
     let differs = delivered.iter().any(|outcome| !outcome.problems.is_empty());
     if !is_asked || !differs || workspace.settings.general.compatible.value {

@@ -23,8 +23,8 @@ use super::{compare, options, sheet};
 use crate::config::Settings;
 use crate::config::types::SheetFormat;
 use crate::machine::machine;
-use crate::posting::{Inserted, PostProcessor, tool_table};
-use crate::session::{OutputKind, Writing, hash_output, without_places, without_values};
+use crate::posting::{InsertedFile, PostProcessor, tool_table};
+use crate::session::{OutputKind, WriteSettings, hash_output, without_places, without_values};
 use crate::workspace::Workspace;
 
 /// What to do with the generated files.
@@ -46,7 +46,7 @@ pub enum Task {
 
 /// The outcome of generating the files of one program.
 #[derive(Debug, Default)]
-pub struct Delivered {
+pub struct ProgramOutcome {
     /// Name of the path, or of the joined program.
     pub path: Box<str>,
     /// Each file with its outcome.
@@ -68,10 +68,10 @@ pub struct Delivered {
     /// The command that the post-processor wants to run, with its output file.
     pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
     /// Files that the post-processor inserted or failed to insert.
-    pub(super) inserted: Vec<Inserted>,
+    pub(super) inserted: Vec<InsertedFile>,
 }
 
-impl Delivered {
+impl ProgramOutcome {
     /// Adds the outcome of each file after writing.
     pub(super) fn add(&mut self, written: Self) {
         self.files.extend(written.files);
@@ -122,8 +122,8 @@ impl Task {
 
 /// How programs are written: natively or through a post-processor.
 pub(super) struct OutputSettings<'a> {
-    pub(super) writing: Writing,
-    pub(super) poster: Option<&'a PostProcessor>,
+    pub(super) writing: WriteSettings,
+    pub(super) post_processor: Option<&'a PostProcessor>,
     pub(super) provenances: Provenances,
     pub(super) sheets: SheetSettings,
     machine: Option<Machine>,
@@ -131,12 +131,12 @@ pub(super) struct OutputSettings<'a> {
 
 impl<'a> OutputSettings<'a> {
     /// Takes the settings from the configuration.
-    pub(super) fn new(workspace: &Workspace, poster: Option<&'a PostProcessor>) -> Self {
-        let provenances = Provenances::new(&workspace.settings, poster);
-        let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), poster);
+    pub(super) fn new(workspace: &Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
+        let provenances = Provenances::new(&workspace.settings, post_processor);
+        let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), post_processor);
         Self {
             writing: options::writing(workspace),
-            poster,
+            post_processor,
             provenances,
             sheets,
             machine: machine(workspace),
@@ -148,30 +148,31 @@ impl<'a> OutputSettings<'a> {
 #[derive(Default)]
 pub(super) struct JobFiles {
     /// Everything about the program except the outcome of its files.
-    pub(super) delivered: Delivered,
+    pub(super) delivered: ProgramOutcome,
     pub(super) outputs: Vec<Output>,
 }
 
 /// Generates the files of a job. Native files are read back and compared with the program. (book: program/reading)
-pub(super) fn make(db: &Database, job: &Job, means: &OutputSettings<'_>) -> JobFiles {
+pub(super) fn make(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> JobFiles {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return JobFiles::default() };
-    let mut delivered = Delivered::default();
-    let time = total(&programs, means.writing.options.rapid);
+    let mut delivered = ProgramOutcome::default();
+    let time = total(&programs, settings.writing.options.rapid);
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
-    let provenance = means.provenances.of(&programs);
+    let provenance = settings.provenances.of(&programs);
     let line = provenance.to_string();
     delivered.provenance = Some(provenance);
-    let machine = means.machine.as_ref();
+    let machine = settings.machine.as_ref();
     let unsafe_moves = programs.iter().find_map(|program| unsafe_moves(db, job, program, machine));
-    let made = unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, means, &mut delivered), Err);
-    let made = made.and_then(|mut outputs| {
-        outputs.extend(sheets(db, job, means).map_err(|problem| vec![*problem])?);
-        let too_large = outputs.iter().find(|output| output.text.len() > means.writing.most_bytes);
-        too_large.map_or(Ok(()), |output| Err(vec![exceeding(db, job, output, &means.writing)]))?;
+    let result =
+        unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
+    let result = result.and_then(|mut outputs| {
+        outputs.extend(sheets(db, job, settings).map_err(|problem| vec![*problem])?);
+        let too_large = outputs.iter().find(|output| output.text.len() > settings.writing.most_bytes);
+        too_large.map_or(Ok(()), |output| Err(vec![exceeding(db, job, output, &settings.writing)]))?;
         Ok(outputs)
     });
-    let outputs = made.unwrap_or_else(|problems| {
+    let outputs = result.unwrap_or_else(|problems| {
         delivered.is_refused = true;
         delivered.problems.extend(problems);
         Vec::new()
@@ -185,7 +186,7 @@ pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
 }
 
 /// PB005: the output file is too large. Files on disk are not read beyond this limit either.
-fn exceeding(db: &Database, job: &Job, output: &Output, writing: &Writing) -> Diagnostic {
+fn exceeding(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
         .with("name", output.path.file_name().unwrap_or_default())
         .with("limit", writing.most_bytes)
@@ -195,11 +196,11 @@ fn exceeding(db: &Database, job: &Job, output: &Output, writing: &Writing) -> Di
 }
 
 /// Generates the setup sheets of a job.
-fn sheets(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Vec<Output>, Box<Diagnostic>> {
+fn sheets(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Vec<Output>, Box<Diagnostic>> {
     let mut outputs = Vec::new();
     for (kind, path) in &job.files {
         if let Some(format) = kind.sheet()
-            && let Some(text) = sheet::bytes(db, job, format, means)?
+            && let Some(text) = sheet::bytes(db, job, format, settings)?
         {
             outputs.push(Output { kind: *kind, path: path.clone(), text });
         }
@@ -231,10 +232,10 @@ pub(super) fn finish(
     system: &dyn System,
     mut outputs: Vec<Output>,
     task: Task,
-    means: &OutputSettings<'_>,
-    delivered: &mut Delivered,
+    settings: &OutputSettings<'_>,
+    delivered: &mut ProgramOutcome,
 ) {
-    let (poster, limit) = (means.poster, means.writing.most_bytes as u64);
+    let (post_processor, limit) = (settings.post_processor, settings.writing.most_bytes as u64);
     // Hash what this version writes, not a kept file of another version: that file must not become the expected content.
     let hashes: Vec<[u8; 32]> =
         outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
@@ -252,7 +253,7 @@ pub(super) fn finish(
         }
         Task::Compare { moves_only } => {
             for (output, hash) in hashed.filter(|(output, _)| task.compares(output.kind)) {
-                let (state, problems) = compare::compare(system, output, limit, moves_only, poster);
+                let (state, problems) = compare::compare(system, output, limit, moves_only, post_processor);
                 delivered.hashes.push(hash);
                 delivered.files.push((output.path.clone(), state));
                 delivered.problems.extend(problems);
@@ -283,7 +284,7 @@ pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bo
 
 /// PB005: cutting moves into pieces (z-split) exceeds a limit. Moves were counted before cutting, so the pieces are counted here. `steps`
 /// is the number of pieces and of the comments between them.
-fn too_many_pieces(steps: u64, program: &Program, writing: &Writing) -> Option<Diagnostic> {
+fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Option<Diagnostic> {
     if steps <= program.steps.len() as u64 {
         return None;
     }
@@ -321,18 +322,18 @@ fn outputs(
     job: &Job,
     programs: &[Arc<Program>],
     provenance: &str,
-    means: &OutputSettings<'_>,
-    delivered: &mut Delivered,
+    settings: &OutputSettings<'_>,
+    delivered: &mut ProgramOutcome,
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let drawing = job.drawing(db).path(db);
     let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
-    match (means.poster, programs) {
-        (Some(poster), programs) => {
-            posted(job, programs, provenance, poster, means.writing.options.lang, at, delivered)
+    match (settings.post_processor, programs) {
+        (Some(post_processor), programs) => {
+            posted(job, programs, provenance, post_processor, settings.writing.options.lang, at, delivered)
                 .map(|output| vec![output])
         }
         (None, [program]) => {
-            native(job, program, provenance, means, at, delivered).map_err(|problem| vec![*problem])
+            native(job, program, provenance, settings, at, delivered).map_err(|problem| vec![*problem])
         }
         // Only a post-processor can join paths.
         (None, _) => Ok(Vec::new()),
@@ -343,13 +344,13 @@ fn native(
     job: &Job,
     program: &Program,
     provenance: &str,
-    means: &OutputSettings<'_>,
+    settings: &OutputSettings<'_>,
     at: impl Fn(Diagnostic) -> Diagnostic,
-    delivered: &mut Delivered,
+    delivered: &mut ProgramOutcome,
 ) -> Result<Vec<Output>, Box<Diagnostic>> {
-    let correction = means.writing.options.correction;
+    let correction = settings.writing.options.correction;
     let steps = correction.count(program);
-    if let Some(problem) = too_many_pieces(steps, program, &means.writing) {
+    if let Some(problem) = too_many_pieces(steps, program, &settings.writing) {
         return Err(Box::new(at(problem)));
     }
     match correction.outside(program) {
@@ -359,7 +360,7 @@ fn native(
     }
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
         let text =
-            kind.text(program, provenance, &means.writing).map_err(|problem| Box::new(at(*problem)))?;
+            kind.text(program, provenance, &settings.writing).map_err(|problem| Box::new(at(*problem)))?;
         let Some(text) = text else { return Ok(None) };
         too_long_line(&text, path).map_or(Ok(()), |problem| Err(Box::new(at(problem))))?;
         kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
@@ -390,20 +391,20 @@ fn posted(
     job: &Job,
     programs: &[Arc<Program>],
     provenance: &str,
-    poster: &PostProcessor,
+    post_processor: &PostProcessor,
     lang: Lang,
     at: impl Fn(Diagnostic) -> Diagnostic,
-    delivered: &mut Delivered,
+    delivered: &mut ProgramOutcome,
 ) -> Result<Output, Vec<Diagnostic>> {
     let program = job.files.iter().find(|(kind, _)| kind.is_program());
     let Some((kind, path)) = program else { return Err(Vec::new()) };
     let (mut program, warnings) =
-        PostJob::from_programs(&job.path, programs, poster.tools(), poster.cycles());
+        PostJob::from_programs(&job.path, programs, post_processor.tools(), post_processor.cycles());
     program.remarks = vec![provenance.into(), job.title.as_str().into()];
     let left_out = programs.iter().flat_map(|program| native::left_out_lines(program, lang));
     program.remarks.extend(left_out.map(Into::into));
     let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
-    let output = poster.write(&program, Some(path), &mut delivered.inserted);
+    let output = post_processor.write(&program, Some(path), &mut delivered.inserted);
     let output = output
         .map_err(|problems| problems.into_iter().map(|problem| in_job(problem, job)).collect::<Vec<_>>())?;
     delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
@@ -422,7 +423,7 @@ fn write<'a>(
     system: &dyn System,
     outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
     force: bool,
-    delivered: &mut Delivered,
+    delivered: &mut ProgramOutcome,
 ) -> Result<(), Box<Diagnostic>> {
     let mut values =
         outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::messages::files as messages;
 
 use super::deliver::cannot_write;
 use super::job::Job;
-use crate::posting::{Inserted, PostProcessor};
+use crate::posting::{InsertedFile, PostProcessor};
 use crate::session::Session;
 
 /// Writes one rule per job, from its drawings, the configuration and the post definition to its output files. `inserted` lists, for each
@@ -19,13 +19,13 @@ pub(super) fn write(
     session: &Session<'_>,
     file: &Utf8Path,
     jobs: &[Job],
-    poster: Option<&PostProcessor>,
-    inserted: &[&[Inserted]],
+    post_processor: Option<&PostProcessor>,
+    inserted: &[&[InsertedFile]],
 ) -> Option<Diagnostic> {
     let db = session.db();
     let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
     let mut text = String::new();
-    let post = poster.and_then(PostProcessor::file).map(|file| session.normal(file));
+    let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));
     let file = session.normal(file);
     for (job, inserted) in jobs.iter().zip(inserted) {

@@ -11,8 +11,8 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::native;
 
 use super::Owners;
-use super::deliver::{Delivered, cannot_write};
-use super::store::{KnownJob, KnownProgram};
+use super::deliver::{ProgramOutcome, cannot_write};
+use super::store::{CachedJob, CachedProgram};
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
@@ -21,7 +21,7 @@ use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
 #[derive(Debug, PartialEq)]
 pub(super) struct Job {
     /// What is cached of it.
-    pub(super) known: Known,
+    pub(super) known: CachedOutcome,
     /// The paths in milling order; never empty.
     pub(super) targets: Vec<Target>,
     /// The drawings that were read for them, starting with the first path's own. Includes drawings that were searched without success.
@@ -38,8 +38,8 @@ pub(super) struct Job {
 
 impl Job {
     /// A job whose paths have a cached result.
-    pub(super) fn known(targets: Vec<Target>, KnownJob { path, stem, files, program }: KnownJob) -> Self {
-        let known = program.map_or(Known::Plan, |program| Known::Program(Box::new(program)));
+    pub(super) fn known(targets: Vec<Target>, CachedJob { path, stem, files, program }: CachedJob) -> Self {
+        let known = program.map_or(CachedOutcome::Plan, |program| CachedOutcome::Program(Box::new(program)));
         Self { known, targets, sources: Vec::new(), path, stem, files, title: String::new() }
     }
 
@@ -80,34 +80,34 @@ impl Job {
     }
 
     /// The outcome of a job that was aborted.
-    pub(super) fn given_up(&self, session: &Session<'_>, problem: Diagnostic) -> Delivered {
+    pub(super) fn given_up(&self, session: &Session<'_>, problem: Diagnostic) -> ProgramOutcome {
         let problem = problem.in_file(self.drawing(session.db()).path(session.db())).in_path(&self.path);
-        Delivered { problems: vec![problem], ..Delivered::default() }
+        ProgramOutcome { problems: vec![problem], ..ProgramOutcome::default() }
     }
 }
 
 /// What earlier runs left in the cache about a job.
 #[derive(Debug, PartialEq)]
-pub(super) enum Known {
+pub(super) enum CachedOutcome {
     Nothing,
     /// Only the names of its files: the job was dropped because another path claims one of them.
     Plan,
     /// Its outcome.
-    Program(Box<KnownProgram>),
+    Program(Box<CachedProgram>),
 }
 
 /// Turns checked paths into jobs.
-pub(super) struct Maker<'a> {
+pub(super) struct JobBuilder<'a> {
     pub(super) session: &'a Session<'a>,
     /// The post-processor to write programs through.
-    pub(super) poster: Option<&'a PostProcessor>,
+    pub(super) post_processor: Option<&'a PostProcessor>,
     /// Name of the one program that all paths are joined into.
     pub(super) join: Option<&'a str>,
     /// Format of the setup sheet.
     pub(super) sheet: SheetFormat,
 }
 
-impl Maker<'_> {
+impl JobBuilder<'_> {
     /// The job for the paths of one program; `None` if any of them has errors.
     ///
     /// # Errors
@@ -155,7 +155,7 @@ impl Maker<'_> {
 
     /// Refuses probes with a post-processor: its output cannot contain formulas, so they would be measured for nothing.
     fn refuse_probes(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<(), Box<Diagnostic>> {
-        if self.poster.is_none() || !emitted.has_probes {
+        if self.post_processor.is_none() || !emitted.has_probes {
             return Ok(());
         }
         let db = self.session.db();
@@ -170,15 +170,15 @@ impl Maker<'_> {
         checked: &[CheckedTarget],
         kinds: &[OutputKind],
     ) -> Job {
-        let name = |kind: &OutputKind| match self.poster {
-            Some(poster) if kind.is_program() => program_name(stem.as_str(), poster).into(),
+        let name = |kind: &OutputKind| match self.post_processor {
+            Some(post_processor) if kind.is_program() => program_name(stem.as_str(), post_processor).into(),
             _ => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
         };
         let kinds = kinds.iter().copied().chain(OutputKind::of_sheet(self.sheet));
         let db = self.session.db();
         let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
         Job {
-            known: Known::Nothing,
+            known: CachedOutcome::Nothing,
             title: native::title(drawing, path),
             targets: checked.iter().map(|checked| checked.target).collect(),
             path: path.into(),
@@ -203,8 +203,8 @@ fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
 }
 
 /// File name of a program written through a post-processor.
-pub(super) fn program_name(stem: &str, poster: &PostProcessor) -> String {
-    format!("{stem}_Milling.{}", poster.extension())
+pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String {
+    format!("{stem}_Milling.{}", post_processor.extension())
 }
 
 /// Directory of the files of a drawing's paths: that of the drawing, unless the configuration names one.

@@ -2,19 +2,19 @@
 
 mod compare;
 mod compatible;
-mod configured;
-mod current;
 mod deliver;
 mod deps;
+mod drawing_comparison;
+mod generate;
 mod job;
-mod making;
 mod older;
 mod options;
+mod program_text;
 mod provenance;
 mod sheet;
-mod shown;
 mod stale;
 mod store;
+mod target_patterns;
 mod targets;
 mod write_queue;
 
@@ -29,23 +29,23 @@ use pathbuild_diagnostic::Diagnostic;
 use crate::Inputs;
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
-use crate::session::{Found, Scope, Session};
+use crate::session::{ArgumentMatches, Scope, Session};
 use crate::workspace::Workspace;
 
-pub use configured::Configured;
-pub use current::{Current, current, native_text};
 use deliver::OutputSettings;
-pub use deliver::{Delivered, State, Task};
-use job::{Maker, take_clashes};
-use making::{Answer, Making, RunResult, deliver};
+pub use deliver::{ProgramOutcome, State, Task};
+pub use drawing_comparison::{DrawingComparison, compare_with_drawing, native_text};
+use generate::{CheckedProgram, EmitContext, EmitResult, deliver};
+use job::{JobBuilder, take_clashes};
 pub use options::missing_values;
 pub use options::writing;
+pub(crate) use program_text::program_text;
 pub use provenance::Provenances;
-pub use sheet::{SheetMade, sheet_bytes, sheet_of};
-pub(crate) use shown::program_text;
-use stale::Dealt;
-use store::{Run, Store};
-use targets::Selection;
+pub use sheet::{SheetOutcome, sheet_bytes, sheet_of};
+use stale::StaleOutcome;
+use store::{RunRecord, Store};
+pub use target_patterns::TargetPatterns;
+use targets::TargetSelection;
 
 /// A request to emit programs.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ pub struct Request<'a> {
     /// What to do with the generated files.
     pub task: Task,
     /// The post-processor to write programs through; `None` writes native programs.
-    pub poster: Option<&'a PostProcessor>,
+    pub post_processor: Option<&'a PostProcessor>,
     /// Joins all paths, in the order of the inputs, into one program of this name.
     pub join: Option<&'a str>,
     /// Dependency file to write for `make` and `ninja`.
@@ -68,7 +68,7 @@ pub struct Request<'a> {
 #[derive(Debug)]
 pub struct Emission {
     /// The outcome of each program, in the order of the targets.
-    pub delivered: Vec<Delivered>,
+    pub delivered: Vec<ProgramOutcome>,
     /// Stale programs that were removed.
     pub removed: Vec<Utf8PathBuf>,
     /// Adjusted programs that no longer match their path's program.
@@ -91,7 +91,7 @@ impl Request<'_> {
     fn is_always_made(&self) -> bool {
         matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
-            || self.poster.is_some_and(PostProcessor::runs_post_build)
+            || self.post_processor.is_some_and(PostProcessor::runs_post_build)
     }
 
     /// Emits the programs in a session opened by [`session`](Self::session).
@@ -102,45 +102,49 @@ impl Request<'_> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
-        let mut found = session.found(self.inputs);
+        let mut found = session.match_arguments(self.inputs);
         let store = self.store(session, &mut found);
-        let making = Making { request: self, store, found };
-        let made = session.settled(|session| making.make(session))?;
-        let RunResult { asked, answers, jobs, refused, mut delivered, mut diagnostics } = made;
-        tell_known(session.workspace(), &asked, &answers);
+        let context = EmitContext { request: self, store, found };
+        let result = session.with_stable_files(|session| context.make(session))?;
+        let EmitResult { selection, answers, jobs, refused, mut delivered, mut diagnostics } = result;
+        report_cached(session.workspace(), &selection, &answers);
         for (job, delivered) in jobs.iter().zip(&mut delivered) {
             delivered.path.clone_from(&job.path);
         }
         compatible::name(session.workspace(), self, &mut delivered);
-        let older = older::programs(session, self, &asked.targets, &jobs, &delivered, &mut diagnostics);
+        let older = older::programs(session, self, &selection.targets, &jobs, &delivered, &mut diagnostics);
         let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
         diagnostics.extend(problems.cloned());
         if let Some(file) = self.deps {
             let inserted: Vec<_> = delivered.iter().map(|delivered| &*delivered.inserted).collect();
-            diagnostics.extend(deps::write(session, file, &jobs, self.poster, &inserted));
+            diagnostics.extend(deps::write(session, file, &jobs, self.post_processor, &inserted));
         }
         let stale = match self.task {
             Task::Print => Vec::new(),
-            _ => stale::stale(session, &asked, &jobs, &delivered, self.poster, &mut diagnostics),
+            _ => stale::stale(session, &selection, &jobs, &delivered, self.post_processor, &mut diagnostics),
         };
-        let Dealt { removed, outdated } =
-            stale::deal_with(session, stale, self.removes_stale, &mut diagnostics);
-        if let Some(store) = &making.store {
-            let Self { task, join, poster, .. } = *self;
-            let (asked, answers, jobs, delivered, refused) = (&asked, &answers, &jobs, &delivered, &refused);
-            store.keep(session, &Run { task, join, poster, asked, answers, jobs, delivered, refused });
+        let StaleOutcome { removed, outdated } =
+            stale::settle(session, stale, self.removes_stale, &mut diagnostics);
+        if let Some(store) = &context.store {
+            let Self { task, join, post_processor, .. } = *self;
+            let (selection, answers, jobs, delivered, refused) =
+                (&selection, &answers, &jobs, &delivered, &refused);
+            store.keep(
+                session,
+                &RunRecord { task, join, post_processor, selection, answers, jobs, delivered, refused },
+            );
         }
         delivered.extend(older);
         Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
     }
 
     /// Loads the cached results of the drawings that the request may select.
-    fn store(&self, session: &Session<'_>, found: &mut Found) -> Option<Store> {
+    fn store(&self, session: &Session<'_>, found: &mut ArgumentMatches) -> Option<Store> {
         if !session.is_traced() {
             return None;
         }
         let (scope, listings) = (Scope::of(session, found), std::mem::take(&mut found.listings));
-        let store = Store::open(session.workspace(), self.poster, scope, listings);
+        let store = Store::open(session.workspace(), self.post_processor, scope, listings);
         let is_known = |file: SourceFile| {
             store.as_ref().is_some_and(|store| store.drawing(file.path(session.db())).is_some())
         };
@@ -150,11 +154,11 @@ impl Request<'_> {
 }
 
 /// Reports, as a detail, how much was cached.
-fn tell_known(context: &Workspace, asked: &Selection, answers: &[Answer]) {
+fn report_cached(context: &Workspace, selection: &TargetSelection, answers: &[CheckedProgram]) {
     let open: usize = answers.iter().map(|answer| answer.checked.len()).sum();
-    let drawings = asked.drawings().count();
-    let read = asked.drawings().filter(|drawing| drawing.is_read).count();
-    let known = [(asked.targets.len() - open, asked.targets.len()), (drawings - read, drawings)];
+    let drawings = selection.drawings().count();
+    let read = selection.drawings().filter(|drawing| drawing.is_read).count();
+    let known = [(selection.targets.len() - open, selection.targets.len()), (drawings - read, drawings)];
     let phrases = [
         context.choose("paths whose results still hold", "Pfade, deren Ergebnisse noch gelten"),
         context.choose("drawings that are known", "Zeichnungen, die bekannt sind"),
@@ -167,17 +171,17 @@ fn tell_known(context: &Workspace, asked: &Selection, answers: &[Answer]) {
 /// For each target with a program on disk, whether that program is up to date, or the errors that keep it from being generated.
 pub(crate) fn on_disk(
     session: &mut Session<'_>,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     targets: &[Target],
 ) -> HashMap<Target, Result<bool, Vec<Diagnostic>>> {
     let checked = session.check(targets);
-    let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
-    let made = checked.chunks(1).filter_map(|checked| maker.job(checked).ok().flatten());
-    let mut jobs: Vec<_> = made.collect();
+    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
+    let built = checked.chunks(1).filter_map(|checked| builder.job(checked).ok().flatten());
+    let mut jobs: Vec<_> = built.collect();
     let system = Arc::clone(&session.workspace().system);
     jobs.retain(|job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File));
-    let means = OutputSettings::new(session.workspace(), poster);
-    let delivered = deliver(session, &jobs, Task::Compare { moves_only: false }, &means);
+    let settings = OutputSettings::new(session.workspace(), post_processor);
+    let delivered = deliver(session, &jobs, Task::Compare { moves_only: false }, &settings);
     jobs.iter().zip(delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
 }
 
@@ -185,7 +189,7 @@ pub(crate) fn on_disk(
 ///
 /// # Errors
 /// The errors of a program that was not generated.
-fn is_current(delivered: Delivered) -> Result<bool, Vec<Diagnostic>> {
+fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
     if delivered.files.is_empty() && delivered.problems.iter().any(Diagnostic::is_error) {
         return Err(delivered.problems);
     }
@@ -203,11 +207,11 @@ pub type Owners = HashMap<String, Target>;
 /// Which options are missing.
 pub fn write(
     session: &mut Session<'_>,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     targets: &[Target],
     owners: &mut Owners,
 ) -> Result<Emission, String> {
-    session.settled(|session| {
+    session.with_stable_files(|session| {
         let context = session.workspace();
         let checked = session.check(targets);
         let task = Task::Write { force: false };
@@ -215,18 +219,19 @@ pub fn write(
             return Err(refusal);
         }
         let mut diagnostics = Vec::new();
-        let maker = Maker { session, poster, join: None, sheet: task.sheets(&context.settings) };
+        let builder =
+            JobBuilder { session, post_processor, join: None, sheet: task.sheets(&context.settings) };
         let mut jobs = Vec::new();
         for checked in checked.chunks(1) {
-            match maker.job(checked) {
+            match builder.job(checked) {
                 Ok(job) => jobs.extend(job),
                 Err(problems) => diagnostics.extend(problems),
             }
         }
         take_clashes(session, &mut jobs, &mut diagnostics);
         jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
-        let means = OutputSettings::new(context, poster);
-        let delivered = deliver(session, &jobs, task, &means);
+        let settings = OutputSettings::new(context, post_processor);
+        let delivered = deliver(session, &jobs, task, &settings);
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
         Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })
     })

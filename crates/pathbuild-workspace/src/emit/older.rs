@@ -11,7 +11,7 @@ use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::Request;
-use super::deliver::{Delivered, State, Task};
+use super::deliver::{ProgramOutcome, State, Task};
 use super::job::{Job, output_directory, program_name};
 use super::stale::is_gcode;
 use crate::posting::PostProcessor;
@@ -24,24 +24,24 @@ pub(super) fn programs(
     request: &Request<'_>,
     targets: &[Target],
     jobs: &[Job],
-    delivered: &[Delivered],
+    delivered: &[ProgramOutcome],
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Delivered> {
-    match (request.task, request.join, request.poster) {
+) -> Vec<ProgramOutcome> {
+    match (request.task, request.join, request.post_processor) {
         (Task::Print, ..) => Vec::new(),
-        (task, Some(name), Some(poster)) => {
+        (task, Some(name), Some(post_processor)) => {
             let is_done = delivered.iter().any(|delivered| !delivered.files.is_empty());
             let joined = targets.first().filter(|_| !is_done);
-            let program = joined.and_then(|first| of_joined(session, *first, name, poster));
+            let program = joined.and_then(|first| of_joined(session, *first, name, post_processor));
             program.map(|program| older(program, name, task)).into_iter().collect()
         }
-        (task, _, poster) => {
+        (task, _, post_processor) => {
             let done = jobs.iter().zip(delivered).filter(|(_, delivered)| !delivered.files.is_empty());
             let done: HashSet<Target> = done.flat_map(|(job, _)| job.targets.iter().copied()).collect();
             let open = targets.iter().filter(|target| !done.contains(target));
             let mut listings = Listings::default();
             let older = |target: &Target| {
-                let programs = of_target(session, *target, poster, &mut listings).into_iter();
+                let programs = of_target(session, *target, post_processor, &mut listings).into_iter();
                 programs.map(|program| older(program, target.name(session.db()), task)).collect::<Vec<_>>()
             };
             let older = open.flat_map(older).collect();
@@ -62,16 +62,16 @@ impl Listings {
     /// Programs in a directory whose names begin with `stem`, ignoring case.
     fn beginning(
         &mut self,
-        (session, poster): (&Session<'_>, Option<&PostProcessor>),
+        (session, post_processor): (&Session<'_>, Option<&PostProcessor>),
         directory: &Utf8PathBuf,
         stem: &str,
     ) -> impl Iterator<Item = &Utf8PathBuf> {
         let programs = self.programs.entry(directory.clone()).or_insert_with(|| {
-            let names = session.names_in(directory).unwrap_or_else(|problem| {
+            let names = session.file_names_in(directory).unwrap_or_else(|problem| {
                 self.problems.push(*problem);
                 Names::default()
             });
-            let programs = names.iter().filter(|name| is_gcode(name, poster));
+            let programs = names.iter().filter(|name| is_gcode(name, post_processor));
             let mut programs: Vec<_> =
                 programs.map(|name| (name.to_lowercase(), join(directory, name))).collect();
             programs.sort_unstable();
@@ -86,21 +86,21 @@ impl Listings {
     }
 }
 
-fn older(program: Utf8PathBuf, path: &str, task: Task) -> Delivered {
+fn older(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutcome {
     let problem = Diagnostic::new(&messages::OLDER_OUTPUT)
         .with("name", program.file_name().unwrap_or_default())
         .with("path", path)
         .in_file(&program);
     let is_compared = matches!(task, Task::Compare { .. });
     let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();
-    Delivered { path: path.into(), files, problems: vec![problem], ..Delivered::default() }
+    ProgramOutcome { path: path.into(), files, problems: vec![problem], ..ProgramOutcome::default() }
 }
 
 /// The names begin with that of the drawing or of the path, whatever R was; the head of each program names its path.
 fn of_target(
     session: &Session<'_>,
     target: Target,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     listings: &mut Listings,
 ) -> Vec<Utf8PathBuf> {
     let (db, system) = (session.db(), session.db().system());
@@ -114,7 +114,7 @@ fn of_target(
     };
     let mut programs = BTreeSet::new();
     for stem in stems {
-        programs.extend(listings.beginning((session, poster), &directory, stem).cloned());
+        programs.extend(listings.beginning((session, post_processor), &directory, stem).cloned());
     }
     programs.into_iter().filter(is_of_target).collect()
 }
@@ -124,10 +124,10 @@ fn of_joined(
     session: &Session<'_>,
     first: Target,
     name: &str,
-    poster: &PostProcessor,
+    post_processor: &PostProcessor,
 ) -> Option<Utf8PathBuf> {
     let directory = output_directory(session, first.file(session.db()));
-    let program = join(&directory, program_name(name, poster));
+    let program = join(&directory, program_name(name, post_processor));
     let head = session.db().system().head(&program, HEAD).unwrap_or_default();
     Provenance::of_head(&head).map(|_| program)
 }

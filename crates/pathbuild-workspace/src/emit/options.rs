@@ -7,7 +7,7 @@ use pathbuild_toolpath::{Correction, ZModel};
 
 use super::deliver::Task;
 use crate::config::types;
-use crate::session::{CheckedTarget, Writing};
+use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
 
 /// Reports missing values that an error-free path needs. This is an error in usage.
@@ -68,9 +68,9 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
 }
 
 /// Settings for writing files.
-pub fn writing(context: &Workspace) -> Writing {
+pub fn writing(context: &Workspace) -> WriteSettings {
     let limits = &context.settings.limits;
-    Writing {
+    WriteSettings {
         options: write_options(context),
         most_moves: limits.embedding_moves.value,
         most_bytes: limits.output_size(),

@@ -20,17 +20,17 @@ pub struct Provenances {
 
 impl Provenances {
     /// Provenance of programs written with these settings, natively or through a post-processor.
-    pub fn new(settings: &Settings, poster: Option<&PostProcessor>) -> Self {
+    pub fn new(settings: &Settings, post_processor: Option<&PostProcessor>) -> Self {
         let general = &settings.general;
         let mut options = Vec::new();
         let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
         add(&(general.rapid.value, general.compatible.value));
         add(&(general.z_model.value, settings.z_split()));
         add(&(settings.comment_lang(), general.charset.value));
-        options.extend(poster.map(PostProcessor::identity).unwrap_or_default());
-        let dialect = match poster {
+        options.extend(post_processor.map(PostProcessor::identity).unwrap_or_default());
+        let dialect = match post_processor {
             None => Some(Dialect::Native),
-            Some(poster) => poster.reader(),
+            Some(post_processor) => post_processor.reader(),
         };
         Self { options, dialect }
     }

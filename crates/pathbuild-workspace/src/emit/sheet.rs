@@ -16,11 +16,11 @@ use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, Scene, Sheet, SheetProbe, SheetTool};
 
 use super::deliver::{OutputSettings, Task, make};
-use super::job::{Job, Maker};
-use super::{making, options};
+use super::job::{Job, JobBuilder};
+use super::{generate, options};
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
-use crate::session::{OutputKind, Session, Writing, program_scene};
+use crate::session::{OutputKind, Session, WriteSettings, program_scene};
 use crate::{Inputs, config};
 
 /// Settings shared by all sheets of a run.
@@ -33,15 +33,19 @@ pub(super) struct SheetSettings {
 
 impl SheetSettings {
     /// Takes the settings from the configuration, for programs written natively or through a post-processor.
-    pub(super) fn new(settings: &config::Settings, tools: ToolTable, poster: Option<&PostProcessor>) -> Self {
-        let starts_spindle = poster.is_some_and(PostProcessor::starts_spindle);
+    pub(super) fn new(
+        settings: &config::Settings,
+        tools: ToolTable,
+        post_processor: Option<&PostProcessor>,
+    ) -> Self {
+        let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
         Self { lang: settings.comment_lang(), tools, starts_spindle }
     }
 }
 
 /// A sheet with the diagnostics of its path.
 #[derive(Debug)]
-pub struct SheetMade {
+pub struct SheetOutcome {
     /// `None` if the path has errors.
     pub sheet: Option<Sheet>,
     /// All diagnostics of the path.
@@ -54,23 +58,23 @@ pub struct SheetMade {
 /// Why the argument makes no sense, or which options are missing.
 pub fn sheet_of(
     session: &mut Session<'_>,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     what: &str,
-) -> Result<SheetMade, String> {
-    session.settled(|session| match wanted(session, what)? {
-        Ok(target) => of_target(session, poster, target),
-        Err(diagnostics) => Ok(SheetMade { sheet: None, diagnostics }),
+) -> Result<SheetOutcome, String> {
+    session.with_stable_files(|session| match resolve_target(session, what)? {
+        Ok(target) => of_target(session, post_processor, target),
+        Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics }),
     })
 }
 
 /// Resolves an argument to a path, or returns the diagnostics of its drawing.
-fn wanted(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
-    let wanted = session.wanted(&Inputs { inputs: vec![what.to_owned()] });
-    if !wanted.problems.is_empty() {
-        return Ok(Err(wanted.problems));
+fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
+    let selection = session.select(&Inputs { inputs: vec![what.to_owned()] });
+    if !selection.problems.is_empty() {
+        return Ok(Err(selection.problems));
     }
     let db = session.db();
-    match (&*wanted.directories, &*wanted.paths, &*wanted.named) {
+    match (&*selection.directories, &*selection.paths, &*selection.named) {
         ([], [path], []) => Ok(Ok(session.target_in(path.file, &path.name, Role::Emitted))),
         ([], [], [file]) => match path_names(db, *file) {
             [name] => Ok(Ok(session.target_in(*file, name, Role::Emitted))),
@@ -106,40 +110,40 @@ fn no_path(db: &Database, file: SourceFile) -> Vec<Diagnostic> {
 
 fn of_target(
     session: &Session<'_>,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     target: Target,
-) -> Result<SheetMade, String> {
+) -> Result<SheetOutcome, String> {
     let context = session.workspace();
     let checked = session.check(&[target]);
     let mut diagnostics: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| making::found(session, checked)).collect();
+        checked.iter().flat_map(|checked| generate::found(session, checked)).collect();
     if let Some(refusal) = options::missing(context, Task::Write { force: false }, &checked) {
         return Err(refusal);
     }
-    let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
-    let job = maker.job(&checked).unwrap_or_else(|problems| {
+    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
+    let job = builder.job(&checked).unwrap_or_else(|problems| {
         diagnostics.extend(problems);
         None
     });
-    let sheet = job.and_then(|job| of_job(session, &job, poster, &mut diagnostics));
-    Ok(SheetMade { sheet, diagnostics: session.with_hints(diagnostics) })
+    let sheet = job.and_then(|job| of_job(session, &job, post_processor, &mut diagnostics));
+    Ok(SheetOutcome { sheet, diagnostics: session.with_hints(diagnostics) })
 }
 
 /// Sheet of a job; `None` if its program would not be written.
 fn of_job(
     session: &Session<'_>,
     job: &Job,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Sheet> {
-    let means = OutputSettings::new(session.workspace(), poster);
+    let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &&Job| {
-        let made = make(db, job, &means);
-        let sheet = if made.delivered.is_refused { Ok(None) } else { sheet(db, job, &means) };
-        (made.delivered.problems, sheet)
+        let result = make(db, job, &settings);
+        let sheet = if result.delivered.is_refused { Ok(None) } else { sheet(db, job, &settings) };
+        (result.delivered.problems, sheet)
     };
-    let made = session.guarded(&[job], work).pop()?;
-    let sheet = made.and_then(|(problems, sheet)| {
+    let result = session.guarded(&[job], work).pop()?;
+    let sheet = result.and_then(|(problems, sheet)| {
         diagnostics.extend(problems);
         sheet
     });
@@ -157,10 +161,10 @@ pub(super) fn bytes(
     db: &Database,
     job: &Job,
     format: SheetFormat,
-    means: &OutputSettings<'_>,
+    settings: &OutputSettings<'_>,
 ) -> Result<Option<Vec<u8>>, Box<Diagnostic>> {
-    let Some(sheet) = sheet(db, job, means)? else { return Ok(None) };
-    sheet_bytes(&sheet, format, means.sheets.lang)
+    let Some(sheet) = sheet(db, job, settings)? else { return Ok(None) };
+    sheet_bytes(&sheet, format, settings.sheets.lang)
         .map(Some)
         .map_err(|reason| Box::new(super::deliver::cannot_write(&job.path, reason)))
 }
@@ -179,16 +183,16 @@ pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec
 }
 
 /// Collects the data of a job's sheet.
-fn sheet(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Option<Sheet>, Box<Diagnostic>> {
+fn sheet(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Option<Sheet>, Box<Diagnostic>> {
     let mut scene = Scene::new(&job.path);
     let mut programs: Vec<Arc<Program>> = Vec::new();
     for target in &job.targets {
         let Some(traced) = traced_program(db, *target) else { return Ok(None) };
-        let Some(program) = add(db, &mut scene, *target, traced, &means.writing)? else { return Ok(None) };
+        let Some(program) = add(db, &mut scene, *target, traced, &settings.writing)? else { return Ok(None) };
         programs.push(program);
     }
-    let provenance = means.provenances.of(&programs);
-    let total = super::deliver::total(&programs, means.writing.options.rapid);
+    let provenance = settings.provenances.of(&programs);
+    let total = super::deliver::total(&programs, settings.writing.options.rapid);
     let drawings = job.targets.iter().map(|target| file_name(db, target.file(db)));
     let mut drawings: Vec<String> = drawings.collect();
     drawings.dedup();
@@ -203,14 +207,17 @@ fn sheet(db: &Database, job: &Job, means: &OutputSettings<'_>) -> Result<Option<
         values: names(|kind| kind == OutputKind::Values).next(),
         hashes: hashes(&provenance),
         head: [provenance.to_string(), job.title.clone()],
-        tools: tools(&programs, &means.sheets.tools),
-        starts_spindle: means.sheets.starts_spindle,
+        tools: tools(&programs, &settings.sheets.tools),
+        starts_spindle: settings.sheets.starts_spindle,
         cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], joined),
         length: total.length,
         minutes: Some(total.minutes()).filter(|minutes| minutes.is_finite()),
-        rapid: Some(means.writing.options.rapid).filter(|rapid| *rapid > 0.0),
+        rapid: Some(settings.writing.options.rapid).filter(|rapid| *rapid > 0.0),
         probes: programs.iter().flat_map(|program| probes(program)).collect(),
-        left_out: programs.iter().flat_map(|it| native::left_out_lines(it, means.sheets.lang)).collect(),
+        left_out: programs
+            .iter()
+            .flat_map(|program| native::left_out_lines(program, settings.sheets.lang))
+            .collect(),
         scene,
     }))
 }
@@ -221,7 +228,7 @@ fn add(
     scene: &mut Scene,
     target: Target,
     traced: &pathbuild_db::TracedProgram,
-    writing: &Writing,
+    writing: &WriteSettings,
 ) -> Result<Option<Arc<Program>>, Box<Diagnostic>> {
     let Some(mut path) = program_scene(db, traced, writing, None)? else { return Ok(None) };
     let [x, y] = path.zero;

@@ -16,15 +16,15 @@ use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
-use super::deliver::Delivered;
+use super::deliver::ProgramOutcome;
 use super::job::Job;
-use super::targets::Selection;
+use super::targets::TargetSelection;
 use crate::posting::PostProcessor;
 use crate::session::{Drawing, OutputKind, Session};
 
 /// A program that must not be taken to the machine.
 #[derive(Debug)]
-pub(super) struct Stale {
+pub(super) struct StaleProgram {
     path: Utf8PathBuf,
     reason: Reason,
 }
@@ -44,7 +44,7 @@ enum Reason {
     OtherMoves { program: Utf8PathBuf },
 }
 
-impl Stale {
+impl StaleProgram {
     fn diagnostic(&self) -> Diagnostic {
         let name = |path: &Utf8Path| path.file_name().unwrap_or_default().to_owned();
         let problem = match &self.reason {
@@ -71,20 +71,20 @@ impl Stale {
 
 /// The outcome of handling stale programs.
 #[derive(Debug, Default)]
-pub(super) struct Dealt {
+pub(super) struct StaleOutcome {
     pub(super) removed: Vec<Utf8PathBuf>,
     /// Programs whose paths have other moves now.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
 /// Reports stale programs, or removes them.
-pub(super) fn deal_with(
+pub(super) fn settle(
     session: &Session<'_>,
-    stale: Vec<Stale>,
+    stale: Vec<StaleProgram>,
     is_removed: bool,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Dealt {
-    let mut dealt = Dealt::default();
+) -> StaleOutcome {
+    let mut dealt = StaleOutcome::default();
     for stale in stale {
         if !is_removed {
             diagnostics.push(stale.diagnostic());
@@ -106,30 +106,30 @@ pub(super) fn deal_with(
 /// Finds the stale programs. `delivered` has the outcome of each job.
 pub(super) fn stale(
     session: &Session<'_>,
-    asked: &Selection,
+    selection: &TargetSelection,
     jobs: &[Job],
-    delivered: &[Delivered],
-    poster: Option<&PostProcessor>,
+    delivered: &[ProgramOutcome],
+    post_processor: Option<&PostProcessor>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Stale> {
+) -> Vec<StaleProgram> {
     let settings = &session.workspace().settings;
     let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
-    let is_wide = asked.covered.iter().len() > 0 || !asked.directories.is_empty();
+    let is_wide = selection.covered.iter().len() > 0 || !selection.directories.is_empty();
     let directories: &[Utf8PathBuf] = match &out_dir {
         _ if !is_wide => &[],
         Some(directory) => std::slice::from_ref(directory),
-        None => &asked.directories,
+        None => &selection.directories,
     };
-    let finding = Finding {
+    let finding = StaleSearch {
         session,
-        poster,
+        post_processor,
         jobs,
         outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
         delivered,
         by_stem: LazyCell::new(Box::new(|| {
             jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
         })),
-        writers: LazyCell::new(Box::new(|| Writers::new(session, asked, jobs))),
+        writers: LazyCell::new(Box::new(|| Writers::new(session, selection, jobs))),
     };
     let mut stale = Vec::new();
     for directory in directories {
@@ -144,7 +144,7 @@ pub(super) fn stale(
 
 /// A former file of a job's path, or one adjusted from it: `_Milling` beside `_Clean`, or `_Clean` and `_Probing` from when the path had
 /// probes.
-struct Own<'a> {
+struct FormerFile<'a> {
     job: &'a Job,
     kind: OutputKind,
     /// Provenance of the current program.
@@ -154,21 +154,21 @@ struct Own<'a> {
 /// A value computed on first use.
 type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 
-struct Finding<'a> {
+struct StaleSearch<'a> {
     session: &'a Session<'a>,
-    poster: Option<&'a PostProcessor>,
+    post_processor: Option<&'a PostProcessor>,
     jobs: &'a [Job],
     outputs: HashSet<&'a Utf8Path>,
-    delivered: &'a [Delivered],
+    delivered: &'a [ProgramOutcome],
     /// Index of each job by the stem of its file names.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
     writers: Lazy<'a, Writers>,
 }
 
-impl<'a> Finding<'a> {
-    fn in_directory(&self, directory: &Utf8Path) -> Result<Vec<Stale>, Box<Diagnostic>> {
-        let names = self.session.names_in(directory)?;
-        let programs = names.iter().filter(|name| is_gcode(name, self.poster) || is_sheet(name));
+impl<'a> StaleSearch<'a> {
+    fn in_directory(&self, directory: &Utf8Path) -> Result<Vec<StaleProgram>, Box<Diagnostic>> {
+        let names = self.session.file_names_in(directory)?;
+        let programs = names.iter().filter(|name| is_gcode(name, self.post_processor) || is_sheet(name));
         let programs = programs.map(|name| join(directory, name));
         let mut programs: Vec<Utf8PathBuf> =
             programs.filter(|path| !self.outputs.contains(&**path)).collect();
@@ -179,7 +179,7 @@ impl<'a> Finding<'a> {
                 Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
                 _ => self.of_other_post(&path, &found, &title).or_else(|| {
                     let is_left = self.writers.have_left(directory, &title, names.iter());
-                    is_left.then_some(Stale { path, reason: Reason::Left })
+                    is_left.then_some(StaleProgram { path, reason: Reason::Left })
                 }),
             }
         };
@@ -187,7 +187,7 @@ impl<'a> Finding<'a> {
     }
 
     /// Checks paths that were named individually: only the names that their own files would have.
-    fn elsewhere(&self, directories: &[Utf8PathBuf]) -> Vec<Stale> {
+    fn elsewhere(&self, directories: &[Utf8PathBuf]) -> Vec<StaleProgram> {
         let looked_at: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !looked_at.contains(parent));
         let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
@@ -210,19 +210,19 @@ impl<'a> Finding<'a> {
     }
 
     /// A program of one of the run's paths that was written through another post-processor, or natively, if the path has other moves now.
-    fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<Stale> {
+    fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
         let name = path.with_extension("");
         let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
         let (job, now) = (&self.jobs[number], self.delivered[number].provenance.as_ref()?);
         let is_meant = is_of(job, self.session, title) && now.moves != found.moves;
         let program = job.files.first()?.1.clone();
-        is_meant.then(|| Stale { path: path.to_owned(), reason: Reason::OtherMoves { program } })
+        is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
 
     /// The native job whose path may have produced this file earlier.
-    fn own(&self, path: &Utf8Path) -> Option<Own<'a>> {
-        if self.poster.is_some() {
+    fn own(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
+        if self.post_processor.is_some() {
             return None;
         }
         let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
@@ -230,7 +230,7 @@ impl<'a> Finding<'a> {
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
         let job = &self.jobs[number];
         let provenance = self.delivered[number].provenance.as_ref()?;
-        job.files.iter().all(|(present, _)| *present != kind).then_some(Own { job, kind, provenance })
+        job.files.iter().all(|(present, _)| *present != kind).then_some(FormerFile { job, kind, provenance })
     }
 
     /// Provenance and title from the head of a program.
@@ -239,11 +239,11 @@ impl<'a> Finding<'a> {
     }
 }
 
-impl Own<'_> {
+impl FormerFile<'_> {
     /// Whether a former file is stale: always, unless it was adjusted from the current program.
-    fn stale(&self, session: &Session<'_>, path: Utf8PathBuf, found: &Provenance) -> Option<Stale> {
+    fn stale(&self, session: &Session<'_>, path: Utf8PathBuf, found: &Provenance) -> Option<StaleProgram> {
         if self.kind != OutputKind::Milling {
-            return Some(Stale { path, reason: Reason::Left });
+            return Some(StaleProgram { path, reason: Reason::Left });
         }
         let reason = match self.file(OutputKind::Clean) {
             None if self.provenance.is_same(found) => return None,
@@ -251,7 +251,7 @@ impl Own<'_> {
             Some(clean) if !self.provenance.is_same(found) => Reason::Adjusted { clean: clean.to_owned() },
             Some(clean) => self.edited(session, &path, clean)?,
         };
-        Some(Stale { path, reason })
+        Some(StaleProgram { path, reason })
     }
 
     fn file(&self, kind: OutputKind) -> Option<&Utf8Path> {
@@ -288,11 +288,11 @@ const EXTENSIONS: [&str; 4] = ["gcode", "nc", "ngc", "tap"];
 /// Endings of program names, without extension.
 const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
-pub(super) fn is_gcode(name: &str, poster: Option<&PostProcessor>) -> bool {
+pub(super) fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
     let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
     Utf8Path::new(name).extension().is_some_and(|extension| {
         EXTENSIONS.iter().any(|known| is_like(extension, known))
-            || poster.is_some_and(|poster| is_like(extension, poster.extension()))
+            || post_processor.is_some_and(|post_processor| is_like(extension, post_processor.extension()))
     })
 }
 
@@ -327,7 +327,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(session: &Session<'_>, asked: &Selection, jobs: &[Job]) -> Self {
+    fn new(session: &Session<'_>, selection: &TargetSelection, jobs: &[Job]) -> Self {
         let db = session.db();
         let out_dir = session.workspace().settings.general.out_dir.value.as_ref();
         let out_dir = out_dir.map(|directory| session.normal(directory));
@@ -337,23 +337,23 @@ impl Writers {
         };
         let written = |drawing: &Utf8Path| (place(drawing), plain_title(file_name(drawing)));
         let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
-        let made: BTreeSet<Title> =
+        let generated: BTreeSet<Title> =
             jobs.iter().map(|job| path(job.drawing(db).path(db), &job.path)).collect();
-        let of_covered = asked
+        let of_covered = selection
             .covered
             .iter()
-            .flat_map(|drawing| drawing.said.names.iter().map(|name| path(&drawing.path, name.as_str())));
-        let (broken, sound): (Vec<&Drawing>, Vec<&Drawing>) = asked
+            .flat_map(|drawing| drawing.result.names.iter().map(|name| path(&drawing.path, name.as_str())));
+        let (broken, sound): (Vec<&Drawing>, Vec<&Drawing>) = selection
             .covered
             .iter()
-            .partition(|drawing| drawing.said.diagnostics.iter().any(Diagnostic::is_error));
+            .partition(|drawing| drawing.result.diagnostics.iter().any(Diagnostic::is_error));
         let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| &*drawing.path).collect();
         let has_library = session.has_library();
         let (library, problems) = if has_library { session.library() } else { Default::default() };
         let others = library.iter().filter(|drawing| !covered.contains(&***drawing));
         let others = others.map(|drawing| &**drawing).chain(broken.iter().map(|drawing| &*drawing.path));
         Self {
-            idle: of_covered.filter(|title| !made.contains(title)).collect(),
+            idle: of_covered.filter(|title| !generated.contains(title)).collect(),
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
             others: others.map(written).collect(),
             knows_all: if has_library { problems.is_empty() } else { out_dir.is_none() },

@@ -4,10 +4,10 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
-use crate::config::Concerns;
+use crate::config::ResultKind;
 use crate::session::{
-    Drawing, DrawingResult, FreshResult, FurtherFile, MadeOutput, OutputKind, OutputState, Question,
-    ResultStore, Scope, Session, is_passing,
+    CacheQuery, Drawing, DrawingResult, ExtraInput, FreshResult, GeneratedFile, OutputKind, OutputState,
+    ResultStore, Scope, Session, is_transient,
 };
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listings, decode, encode};
@@ -16,11 +16,11 @@ use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::provenance::Provenance;
 use serde::{Deserialize, Serialize};
 
-use super::Answer;
-use super::deliver::{Delivered, State, Task, is_of_other_version};
+use super::CheckedProgram;
+use super::deliver::{ProgramOutcome, State, Task, is_of_other_version};
 use super::job::Job;
-use super::targets::Selection;
-use crate::posting::{Inserted, PostProcessor};
+use super::targets::TargetSelection;
+use crate::posting::{InsertedFile, PostProcessor};
 use crate::workspace::Workspace;
 
 /// The cached results of earlier runs with the same settings.
@@ -28,16 +28,16 @@ pub(super) struct Store(ResultStore);
 
 /// The cached result of the paths of one program.
 #[derive(Serialize, Deserialize)]
-pub(super) struct KnownPaths {
+pub(super) struct CachedPaths {
     /// Diagnostics of the paths and of what they embed, and reasons why no program is generated.
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The job; `None` if no program is generated.
-    pub(super) job: Option<KnownJob>,
+    pub(super) job: Option<CachedJob>,
 }
 
 /// The cached part of a job.
 #[derive(Serialize, Deserialize)]
-pub(super) struct KnownJob {
+pub(super) struct CachedJob {
     /// Name of the path, as the drawing spells it.
     pub(super) path: Box<str>,
     /// Output directory and common stem of the file names.
@@ -45,12 +45,12 @@ pub(super) struct KnownJob {
     /// The files, with their kinds.
     pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
     /// The outcome; `None` if the job was dropped.
-    pub(super) program: Option<KnownProgram>,
+    pub(super) program: Option<CachedProgram>,
 }
 
 /// The cached outcome of a program.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct KnownProgram {
+pub(super) struct CachedProgram {
     /// Current state of each file on disk; empty if the program has errors.
     #[serde(skip)]
     files: Vec<(OutputKind, Utf8PathBuf, OutputState)>,
@@ -67,13 +67,13 @@ impl Store {
     /// Loads the cached results of these drawings; `None` if nothing can be cached.
     pub(super) fn open(
         workspace: &Workspace,
-        poster: Option<&PostProcessor>,
+        post_processor: Option<&PostProcessor>,
         scope: Scope,
         listings: Listings,
     ) -> Option<Self> {
-        let text = question(poster);
-        let question = Question { whose: Concerns::Emit, text: &text, scope, listings };
-        ResultStore::open(workspace, question).map(Self)
+        let text = query(post_processor);
+        let query = CacheQuery { result_kind: ResultKind::Emit, text: &text, scope, listings };
+        ResultStore::open(workspace, query).map(Self)
     }
 
     /// The cached paths of a drawing.
@@ -83,9 +83,9 @@ impl Store {
 
     /// The cached result of the paths of one program, if it suffices for the task. Before writing, a program is regenerated if one of its
     /// files has changed.
-    pub(super) fn paths(&self, system: &dyn System, subject: &str, task: Task) -> Option<KnownPaths> {
-        let mut known: KnownPaths = decode(self.0.payload(subject)?).ok()?;
-        if let Some(KnownJob { files, program: Some(program), .. }) = &mut known.job
+    pub(super) fn paths(&self, system: &dyn System, subject: &str, task: Task) -> Option<CachedPaths> {
+        let mut known: CachedPaths = decode(self.0.payload(subject)?).ok()?;
+        if let Some(CachedJob { files, program: Some(program), .. }) = &mut known.job
             && !program.is_wrong()
         {
             let states = self.0.outputs(subject);
@@ -97,7 +97,7 @@ impl Store {
             let is_enough = match task {
                 // The file may contain the same program written by another version.
                 Task::Compare { moves_only: false } => {
-                    program.outdated().all(|it| !is_of_other_version(system, it))
+                    program.outdated().all(|path| !is_of_other_version(system, path))
                 }
                 _ => program.is_current(task),
             };
@@ -109,45 +109,45 @@ impl Store {
     }
 
     /// Stores the results computed in this run.
-    pub(super) fn keep(&self, session: &Session<'_>, run: &Run<'_>) {
-        let drawing = |Drawing { path, said, .. }: &Drawing| FreshResult {
+    pub(super) fn keep(&self, session: &Session<'_>, run: &RunRecord<'_>) {
+        let drawing = |Drawing { path, result, .. }: &Drawing| FreshResult {
             subject: path.as_str().into(),
             traces: vec![Trace { files: vec![session.file(path)], lookups: Vec::new() }],
-            payload: said.encode(),
+            payload: result.encode(),
             ..FreshResult::default()
         };
-        let mut made: Vec<FreshResult> =
-            run.asked.drawings().filter(|drawing| drawing.is_read).map(drawing).collect();
+        let mut fresh: Vec<FreshResult> =
+            run.selection.drawings().filter(|drawing| drawing.is_read).map(drawing).collect();
         let done = run.jobs.iter().zip(run.delivered).map(|(job, delivered)| (job, Some(delivered)));
         let all = done.chain(run.refused.iter().map(|job| (job, None)));
-        let jobs: HashMap<&[Target], (&Job, Option<&Delivered>)> =
+        let jobs: HashMap<&[Target], (&Job, Option<&ProgramOutcome>)> =
             all.map(|(job, delivered)| (&*job.targets, (job, delivered))).collect();
-        made.extend(run.answers.iter().map(|answer| run.made(session, answer, &jobs)));
-        self.0.keep(session, &made);
+        fresh.extend(run.answers.iter().map(|answer| run.fresh_result(session, answer, &jobs)));
+        self.0.keep(session, &fresh);
     }
 }
 
 /// The outcome of a run, to be cached.
-pub(super) struct Run<'a> {
+pub(super) struct RunRecord<'a> {
     pub(super) task: Task,
     pub(super) join: Option<&'a str>,
-    pub(super) poster: Option<&'a PostProcessor>,
-    pub(super) asked: &'a Selection,
+    pub(super) post_processor: Option<&'a PostProcessor>,
+    pub(super) selection: &'a TargetSelection,
     /// Results that were not cached.
-    pub(super) answers: &'a [Answer],
+    pub(super) answers: &'a [CheckedProgram],
     pub(super) jobs: &'a [Job],
     /// The outcome of each job.
-    pub(super) delivered: &'a [Delivered],
+    pub(super) delivered: &'a [ProgramOutcome],
     /// Jobs that were dropped.
     pub(super) refused: &'a [Job],
 }
 
-impl Run<'_> {
-    fn made(
+impl RunRecord<'_> {
+    fn fresh_result(
         &self,
         session: &Session<'_>,
-        answer: &Answer,
-        jobs: &HashMap<&[Target], (&Job, Option<&Delivered>)>,
+        answer: &CheckedProgram,
+        jobs: &HashMap<&[Target], (&Job, Option<&ProgramOutcome>)>,
     ) -> FreshResult {
         let targets: Vec<Target> = answer.checked.iter().map(|checked| checked.target).collect();
         let subject = subject(session.db(), &targets, self.join).into();
@@ -155,8 +155,10 @@ impl Run<'_> {
         let mut diagnostics = answer.found(session);
         diagnostics.extend_from_slice(&answer.refusals);
         let job = jobs.get(&*targets).copied();
-        let problems = job.and_then(|(_, delivered)| delivered).into_iter().flat_map(|it| &it.problems);
-        let is_lasting = traces.len() == targets.len() && !diagnostics.iter().chain(problems).any(is_passing);
+        let problems =
+            job.and_then(|(_, delivered)| delivered).into_iter().flat_map(|outcome| &outcome.problems);
+        let is_lasting =
+            traces.len() == targets.len() && !diagnostics.iter().chain(problems).any(is_transient);
         let (further, outputs) = match job {
             _ if !is_lasting => return FreshResult { subject, ..FreshResult::default() },
             Some((job, Some(delivered))) if is_complete(job, delivered) => {
@@ -172,15 +174,16 @@ impl Run<'_> {
             }
             _ => Default::default(),
         };
-        let known = KnownPaths { diagnostics, job: job.map(|(job, delivered)| KnownJob::of(job, delivered)) };
+        let known =
+            CachedPaths { diagnostics, job: job.map(|(job, delivered)| CachedJob::of(job, delivered)) };
         FreshResult { subject, traces, further, outputs, payload: encode(&known) }
     }
 
     /// The files that the post-processor inserted or failed to insert, with their hashes.
-    fn inserted(&self, session: &Session<'_>, delivered: &Delivered) -> Vec<FurtherFile> {
-        let Some(post) = self.poster.and_then(PostProcessor::file) else { return Vec::new() };
+    fn inserted(&self, session: &Session<'_>, delivered: &ProgramOutcome) -> Vec<ExtraInput> {
+        let Some(post) = self.post_processor.and_then(PostProcessor::file) else { return Vec::new() };
         let beside = post.parent().unwrap_or(Utf8Path::new(""));
-        let file = |Inserted { name, hash }: &Inserted| FurtherFile {
+        let file = |InsertedFile { name, hash }: &InsertedFile| ExtraInput {
             path: session.normal(&beside.join(name)),
             hash: *hash,
         };
@@ -189,17 +192,17 @@ impl Run<'_> {
 }
 
 /// Whether all files of a program were written or compared, and no error occurred that may not recur.
-fn is_complete(job: &Job, delivered: &Delivered) -> bool {
+fn is_complete(job: &Job, delivered: &ProgramOutcome) -> bool {
     delivered.files.len() == job.files.len()
         && delivered.hashes.len() == job.files.len()
         && !delivered.problems.iter().any(Diagnostic::is_error)
 }
 
-fn outputs(delivered: &Delivered, task: Task) -> Vec<MadeOutput> {
+fn outputs(delivered: &ProgramOutcome, task: Task) -> Vec<GeneratedFile> {
     // Programs with the same moves need not be equal byte for byte.
     let is_compared_whole = task != Task::Compare { moves_only: true };
     let is_there = |state: &State| matches!(state, State::Written | State::Unchanged | State::Current);
-    let output = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| MadeOutput {
+    let output = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| GeneratedFile {
         path: path.clone(),
         hash: *hash,
         is_there: is_compared_whole && is_there(state),
@@ -207,19 +210,19 @@ fn outputs(delivered: &Delivered, task: Task) -> Vec<MadeOutput> {
     delivered.files.iter().zip(&delivered.hashes).map(output).collect()
 }
 
-impl KnownJob {
-    fn of(job: &Job, delivered: Option<&Delivered>) -> Self {
+impl CachedJob {
+    fn of(job: &Job, delivered: Option<&ProgramOutcome>) -> Self {
         Self {
             path: job.path.clone(),
             stem: job.stem.clone(),
             files: job.files.clone(),
-            program: delivered.map(KnownProgram::of),
+            program: delivered.map(CachedProgram::of),
         }
     }
 }
 
-impl KnownProgram {
-    fn of(delivered: &Delivered) -> Self {
+impl CachedProgram {
+    fn of(delivered: &ProgramOutcome) -> Self {
         Self {
             files: Vec::new(),
             length: delivered.length,
@@ -246,7 +249,7 @@ impl KnownProgram {
     }
 
     /// The outcome for its files without writing any: unchanged, or the result of the comparison.
-    pub(super) fn delivered(&self, task: Task) -> Delivered {
+    pub(super) fn delivered(&self, task: Task) -> ProgramOutcome {
         let is_written = matches!(task, Task::Write { .. });
         let state = |state: OutputState| match state {
             OutputState::Current if is_written => State::Unchanged,
@@ -255,23 +258,28 @@ impl KnownProgram {
             OutputState::Missing => State::Missing,
         };
         let files = self.files.iter().filter(|(kind, ..)| task.compares(*kind));
-        Delivered {
+        ProgramOutcome {
             files: files.map(|(_, path, found)| (path.clone(), state(*found))).collect(),
             length: self.length,
             minutes: self.minutes,
             problems: self.problems.clone(),
             notes: self.notes.clone(),
             provenance: self.provenance.clone(),
-            ..Delivered::default()
+            ..ProgramOutcome::default()
         }
     }
 }
 
 /// Everything that a program depends on besides drawings and settings.
-fn question(poster: Option<&PostProcessor>) -> String {
+fn query(post_processor: Option<&PostProcessor>) -> String {
     let mut text = "emit".to_owned();
-    if let Some(poster) = poster {
-        _ = write!(text, " {:?} {}", poster.file(), blake3::hash(&poster.identity()).to_hex());
+    if let Some(post_processor) = post_processor {
+        _ = write!(
+            text,
+            " {:?} {}",
+            post_processor.file(),
+            blake3::hash(&post_processor.identity()).to_hex()
+        );
     }
     text
 }

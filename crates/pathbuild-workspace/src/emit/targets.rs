@@ -8,13 +8,13 @@ use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
-use super::Making;
-use super::configured::Configured;
-use crate::session::{Argument, Drawing, Drawings, Session, Wanted};
+use super::EmitContext;
+use super::target_patterns::TargetPatterns;
+use crate::session::{Argument, Drawing, Drawings, Selection, Session};
 
 /// The paths to emit, and the drawings that were considered.
 #[derive(Debug, Default)]
-pub(super) struct Selection {
+pub(super) struct TargetSelection {
     /// Each path; joined paths are listed as often as they were named.
     pub(super) targets: Vec<Target>,
     /// Drawings of which all paths were considered.
@@ -25,15 +25,15 @@ pub(super) struct Selection {
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
-impl Selection {
+impl TargetSelection {
     /// Resolves the arguments; `None` if there are none and the configuration names no targets. Paths to be joined keep the order of the
     /// arguments, which is the milling order.
     pub(super) fn new(
         session: &Session<'_>,
-        making: &Making<'_>,
+        context: &EmitContext<'_>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
-        let Making { request, store, found } = making;
+        let EmitContext { request, store, found } = context;
         let has_targets = !session.workspace().settings.emit.targets.value.is_empty();
         if found.is_library && (!has_targets || !session.has_library()) {
             return None;
@@ -44,34 +44,34 @@ impl Selection {
         named.dedup();
         let named = Drawings::new(session, named, known);
         let names = |file: SourceFile| {
-            named.get(file.path(session.db())).map_or(&[][..], |drawing| &drawing.said.names)
+            named.get(file.path(session.db())).map_or(&[][..], |drawing| &drawing.result.names)
         };
-        let mut asked = Self::default();
+        let mut selection = Self::default();
         let is_in_order = request.join.is_some() && !found.is_library;
         let groups: Vec<&[Argument]> =
             if is_in_order { found.arguments.chunks(1).collect() } else { vec![&found.arguments] };
         for group in groups {
-            let wanted = session.meant(found, group, &names);
-            diagnostics.extend_from_slice(&wanted.problems);
-            let covered = Drawings::new(session, wanted.drawings.clone(), known);
-            let mut asking = Asking {
+            let resolved = session.select_arguments(found, group, &names);
+            diagnostics.extend_from_slice(&resolved.problems);
+            let covered = Drawings::new(session, resolved.drawings.clone(), known);
+            let mut collector = TargetCollector {
                 session,
                 diagnostics: &mut *diagnostics,
                 targets: Vec::new(),
                 known: HashSet::new(),
             };
             if found.is_library {
-                asking.configured(&covered);
+                collector.configured(&covered);
             } else {
-                asking.wanted(&wanted, &covered, &named);
+                collector.add_selected(&resolved, &covered, &named);
             }
-            asked.targets.extend(asking.targets);
+            selection.targets.extend(collector.targets);
             if !is_in_order {
-                (asked.covered, asked.directories) = (covered, wanted.below);
+                (selection.covered, selection.directories) = (covered, resolved.below);
             }
         }
-        asked.named = named;
-        Some(asked)
+        selection.named = named;
+        Some(selection)
     }
 
     /// All drawings that were considered.
@@ -80,52 +80,52 @@ impl Selection {
     }
 }
 
-struct Asking<'a> {
+struct TargetCollector<'a> {
     session: &'a Session<'a>,
     diagnostics: &'a mut Vec<Diagnostic>,
     targets: Vec<Target>,
     known: HashSet<(SourceFile, PathName)>,
 }
 
-impl Asking<'_> {
+impl TargetCollector<'_> {
     /// Adds the paths matched by the configured patterns.
     fn configured(&mut self, library: &Drawings) {
-        let mut configured = Configured::new(&self.session.workspace().settings);
-        for Drawing { path, said, .. } in library.iter() {
+        let mut configured = TargetPatterns::new(&self.session.workspace().settings);
+        for Drawing { path, result, .. } in library.iter() {
             // An unreadable drawing may contain a target, so its errors matter.
-            self.diagnostics.extend(said.diagnostics.iter().filter(|found| found.is_error()).cloned());
-            for name in &said.names {
-                if configured.means(name.as_str()) {
+            self.diagnostics.extend(result.diagnostics.iter().filter(|found| found.is_error()).cloned());
+            for name in &result.names {
+                if configured.matches(name.as_str()) {
                     self.add(path, name);
                 }
             }
         }
-        self.diagnostics.extend(configured.unmet());
+        self.diagnostics.extend(configured.unmatched());
     }
 
     /// Adds the paths of the arguments. A drawing that is named itself must contain exactly one path.
-    fn wanted(&mut self, wanted: &Wanted, covered: &Drawings, named: &Drawings) {
-        for Drawing { path, said, .. } in covered.iter() {
-            self.diagnostics.extend_from_slice(&said.diagnostics);
-            said.names.iter().for_each(|name| self.add(path, name));
+    fn add_selected(&mut self, resolved: &Selection, covered: &Drawings, named: &Drawings) {
+        for Drawing { path, result, .. } in covered.iter() {
+            self.diagnostics.extend_from_slice(&result.diagnostics);
+            result.names.iter().for_each(|name| self.add(path, name));
         }
         let db = self.session.db();
         let get = |file: SourceFile| named.get(file.path(db));
-        for Drawing { path, said, .. } in wanted.named.iter().filter_map(|file| get(*file)) {
-            self.diagnostics.extend_from_slice(&said.diagnostics);
-            match said.names.as_slice() {
-                [] => self.diagnostics.extend(self.session.no_path(path, said)),
+        for Drawing { path, result, .. } in resolved.named.iter().filter_map(|file| get(*file)) {
+            self.diagnostics.extend_from_slice(&result.diagnostics);
+            match result.names.as_slice() {
+                [] => self.diagnostics.extend(self.session.no_path(path, result)),
                 [name] => self.add(path, name),
                 names => self.refuse_several(path, names),
             }
         }
-        for wanted in &wanted.paths {
-            let Some(Drawing { path, said, .. }) = get(wanted.file) else { continue };
-            self.diagnostics.extend_from_slice(&said.diagnostics);
-            self.add(path, &wanted.name);
+        for resolved in &resolved.paths {
+            let Some(Drawing { path, result, .. }) = get(resolved.file) else { continue };
+            self.diagnostics.extend_from_slice(&result.diagnostics);
+            self.add(path, &resolved.name);
         }
         if self.targets.is_empty() && !self.diagnostics.iter().any(Diagnostic::is_error) {
-            let parts = covered.iter().map(|drawing| drawing.said.parts());
+            let parts = covered.iter().map(|drawing| drawing.result.parts());
             self.diagnostics.extend(self.session.no_path_anywhere(parts));
         }
     }

@@ -7,7 +7,7 @@ use std::thread::{self, Builder};
 use pathbuild_db::Database;
 use pathbuild_diagnostic::Diagnostic;
 
-use super::deliver::{Delivered, JobFiles, Output, OutputSettings, Task, finish, make};
+use super::deliver::{JobFiles, Output, OutputSettings, ProgramOutcome, Task, finish, make};
 use super::job::Job;
 use crate::session::Session;
 
@@ -16,23 +16,23 @@ pub(super) fn deliver_all(
     session: &mut Session<'_>,
     jobs: &[&Job],
     task: Task,
-    means: &OutputSettings<'_>,
-) -> Vec<Delivered> {
+    settings: &OutputSettings<'_>,
+) -> Vec<ProgramOutcome> {
     let system = session.db().shared_system();
     let finished = |outputs| {
-        let mut delivered = Delivered::default();
-        finish(&*system, outputs, task, means, &mut delivered);
+        let mut delivered = ProgramOutcome::default();
+        finish(&*system, outputs, task, settings, &mut delivered);
         delivered
     };
-    let write = |made: Receiver<Numbered>| -> Vec<(usize, Delivered)> {
-        made.into_iter().map(|(index, outputs)| (index, finished(outputs))).collect()
+    let write = |generated: Receiver<NumberedOutputs>| -> Vec<(usize, ProgramOutcome)> {
+        generated.into_iter().map(|(index, outputs)| (index, finished(outputs))).collect()
     };
-    let (sender, receiver) = sync_channel(BEHIND);
+    let (sender, receiver) = sync_channel(QUEUE_LENGTH);
     let numbered: Vec<(usize, &Job)> = jobs.iter().copied().enumerate().collect();
-    let (mut made, written) = thread::scope(|scope| {
+    let (mut generated, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
-        let made = |db: &Database, (index, job): &(usize, &Job)| {
-            let JobFiles { mut delivered, outputs } = make(db, job, means);
+        let generated = |db: &Database, (index, job): &(usize, &Job)| {
+            let JobFiles { mut delivered, outputs } = make(db, job, settings);
             // Last point to give up: after this, all files of the job are written.
             db.check_time_limit();
             // Without a receiver (the system had no thread left), write here.
@@ -41,24 +41,25 @@ pub(super) fn deliver_all(
             }
             delivered
         };
-        let made = session.in_batches_of_programs(&numbered, |session, jobs| session.guarded(jobs, made));
+        let generated =
+            session.in_batches_of_programs(&numbered, |session, jobs| session.guarded(jobs, generated));
         drop(sender);
         let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        (made, written.unwrap_or_default())
+        (generated, written.unwrap_or_default())
     });
     for (index, written) in written {
-        if let Ok(made) = &mut made[index] {
-            made.add(written);
+        if let Ok(generated) = &mut generated[index] {
+            generated.add(written);
         }
     }
-    let given_up = |(delivered, job): (Result<Delivered, Box<Diagnostic>>, &&Job)| {
+    let given_up = |(delivered, job): (Result<ProgramOutcome, Box<Diagnostic>>, &&Job)| {
         delivered.unwrap_or_else(|problem| job.given_up(session, *problem))
     };
-    made.into_iter().zip(jobs).map(given_up).collect()
+    generated.into_iter().zip(jobs).map(given_up).collect()
 }
 
 /// Number of jobs that may wait to be written. Their files are held in memory.
-const BEHIND: usize = 32;
+const QUEUE_LENGTH: usize = 32;
 
 /// The generated files of a job, with its index.
-type Numbered = (usize, Vec<Output>);
+type NumberedOutputs = (usize, Vec<Output>);

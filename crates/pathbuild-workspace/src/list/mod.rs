@@ -13,7 +13,7 @@ use pathbuild_gcode::summary::{Extent, cutting_box};
 use pathbuild_path::{PathName, PathSignature};
 
 use crate::Inputs;
-use crate::check::kept_results;
+use crate::check::cached_results;
 use crate::config::types::Pattern;
 use crate::emit;
 use crate::inputs::Input;
@@ -30,12 +30,12 @@ pub struct Request<'a> {
     /// Drawings, directories, and patterns for path names; without drawings or directories, all known paths.
     pub inputs: &'a Inputs,
     /// The post-processor that programs are written through; `None` means native programs.
-    pub poster: Option<&'a PostProcessor>,
+    pub post_processor: Option<&'a PostProcessor>,
 }
 
 /// The listed paths.
 #[derive(Clone, Debug, Default)]
-pub struct Listed {
+pub struct PathListing {
     /// Sorted by drawing, then in file order.
     pub paths: Vec<ListedPath>,
     /// Number of drawings that were searched.
@@ -112,8 +112,8 @@ impl Session<'_> {
     /// The same with the drawings that define them. Drawings known from the last `check` are not read again; of the others, only a limited
     /// number is read.
     pub(crate) fn paths_of_library(&self) -> Vec<(PathName, SourceFile)> {
-        let (files, _) = self.everything();
-        let result_store = kept_results(self.workspace());
+        let (files, _) = self.all_drawings();
+        let result_store = cached_results(self.workspace());
         let kept = |file: &SourceFile| {
             let payload = result_store.as_ref()?.payload(file.path(self.db()).as_str())?;
             Some(DrawingResult::decode(payload).ok()?.names)
@@ -126,7 +126,7 @@ impl Session<'_> {
             }
         }
         open.truncate(MOST_UNKNOWN);
-        self.read_ahead(&open);
+        self.parse_ahead(&open);
         for file in open {
             paths.extend(path_names(self.db(), file).iter().map(|name| (name.clone(), file)));
         }
@@ -145,30 +145,30 @@ impl Request<'_> {
     ///
     /// # Errors
     /// Why a pattern is invalid.
-    pub fn run(&self, session: &mut Session<'_>) -> Result<Listed, String> {
-        let asked = Asked::new(session, self.inputs)?;
-        Ok(session.settled(|session| self.list(session, &asked)))
+    pub fn run(&self, session: &mut Session<'_>) -> Result<PathListing, String> {
+        let arguments = ListArguments::new(session, self.inputs)?;
+        Ok(session.with_stable_files(|session| self.list(session, &arguments)))
     }
 
-    fn list(&self, session: &mut Session<'_>, asked: &Asked) -> Listed {
-        let mut listed = Listed::default();
-        let files = asked.files(session, &mut listed.diagnostics);
-        session.read_ahead(&files);
+    fn list(&self, session: &mut Session<'_>, arguments: &ListArguments) -> PathListing {
+        let mut listed = PathListing::default();
+        let files = arguments.files(session, &mut listed.diagnostics);
+        session.parse_ahead(&files);
         let mut paths: Vec<(SourceFile, PathName)> = Vec::new();
         for file in &files {
             let found = check_file(session.db(), *file);
             listed.diagnostics.extend(found.iter().filter(|found| found.is_error()).cloned());
-            let names = path_names(session.db(), *file).iter().filter(|name| asked.means(name));
+            let names = path_names(session.db(), *file).iter().filter(|name| arguments.matches(name));
             paths.extend(names.map(|name| (*file, name.clone())));
         }
         listed.drawings = files.len();
         let unmade;
-        (listed.paths, unmade) = list_paths(session, &paths, self.poster);
+        (listed.paths, unmade) = list_paths(session, &paths, self.post_processor);
         listed.diagnostics.extend(unmade);
-        let unmet = asked
-            .unmet(&listed.paths)
+        let unmatched = arguments
+            .unmatched(&listed.paths)
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).with("name", text));
-        listed.diagnostics.extend(unmet);
+        listed.diagnostics.extend(unmatched);
         listed.diagnostics = session.with_hints(std::mem::take(&mut listed.diagnostics));
         listed
     }
@@ -179,47 +179,47 @@ pub fn of_path(
     session: &mut Session<'_>,
     file: SourceFile,
     name: &PathName,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
 ) -> Vec<ListedPath> {
     let path = [(file, name.clone())];
-    session.settled(|session| list_paths(session, &path, poster).0)
+    session.with_stable_files(|session| list_paths(session, &path, post_processor).0)
 }
 
 /// Lists all paths of some drawings.
 pub fn of_drawings(
     session: &mut Session<'_>,
     files: &[SourceFile],
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
 ) -> Vec<ListedPath> {
-    session.settled(|session| {
+    session.with_stable_files(|session| {
         let names = files.iter().map(|file| (*file, path_names(session.db(), *file)));
         let paths = names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone())));
         let paths: Vec<(SourceFile, PathName)> = paths.collect();
-        list_paths(session, &paths, poster).0
+        list_paths(session, &paths, post_processor).0
     })
 }
 
 fn list_paths(
     session: &mut Session<'_>,
     paths: &[(SourceFile, PathName)],
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
 ) -> (Vec<ListedPath>, Vec<Diagnostic>) {
     let mut listed = session.in_batches_of_programs(paths, known);
-    let unmade = compare(session, poster, paths, &mut listed);
+    let unmade = compare(session, post_processor, paths, &mut listed);
     (listed, unmade)
 }
 
 /// Compares the programs on disk with the paths. Returns errors that kept programs from being generated, which no check reports.
 fn compare(
     session: &mut Session<'_>,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     paths: &[(SourceFile, PathName)],
     listed: &mut [ListedPath],
 ) -> Vec<Diagnostic> {
     let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
     let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
     let targets: Vec<Target> = targets.collect();
-    let states = emit::on_disk(session, poster, &targets);
+    let states = emit::on_disk(session, post_processor, &targets);
     let mut problems = Vec::new();
     for ((file, name), listed) in paths.iter().zip(listed) {
         let target = session.target_in(*file, name, Role::Emitted);
@@ -244,12 +244,12 @@ fn not_a_pattern(session: &Session<'_>, name: &str, reason: &str) -> String {
 }
 
 /// The resolved arguments.
-struct Asked {
+struct ListArguments {
     places: Inputs,
     patterns: Vec<Pattern>,
 }
 
-impl Asked {
+impl ListArguments {
     fn new(session: &Session<'_>, inputs: &Inputs) -> Result<Self, String> {
         let (mut places, mut patterns) = (Inputs::default(), Vec::new());
         for (input, text) in inputs.iter().zip(&inputs.inputs) {
@@ -268,32 +268,32 @@ impl Asked {
     /// The drawings in the given directories; without any, those of the library, or below the working directory if there is no library.
     fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
         if self.places.inputs.is_empty() {
-            let (files, found) = session.everything();
+            let (files, found) = session.all_drawings();
             problems.extend(found);
             return files;
         }
-        let wanted = session.wanted(&self.places);
-        problems.extend_from_slice(&wanted.problems);
-        wanted.whole(session)
+        let selection = session.select(&self.places);
+        problems.extend_from_slice(&selection.problems);
+        selection.whole(session)
     }
 
     /// The patterns that match no path.
-    fn unmet<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
+    fn unmatched<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {
         let is_unmet = |pattern: &&Pattern| !paths.iter().any(|path| pattern.matches(path.name.as_str()));
         self.patterns.iter().filter(is_unmet).map(Pattern::text)
     }
 
-    fn means(&self, name: &PathName) -> bool {
+    fn matches(&self, name: &PathName) -> bool {
         self.patterns.is_empty() || self.patterns.iter().any(|pattern| pattern.matches(name.as_str()))
     }
 }
 
 /// Lists paths without the state of their programs on disk.
 fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedPath> {
-    let checked = session.each(paths, |asking, (file, name)| asking.check_as_known(*file, name));
+    let checked = session.each(paths, |checker, (file, name)| checker.check_leniently(*file, name));
     let rapid = session.workspace().settings.general.rapid.value;
     let figures = session.guarded(&checked, |db, checked| Figures::of(db, checked, rapid));
-    let listed = |((checked, figures), (file, name)): (Known, &(SourceFile, PathName))| {
+    let listed = |((checked, figures), (file, name)): (CheckedFigures, &(SourceFile, PathName))| {
         let db = session.db();
         let mut diagnostics = checked.diagnostics;
         let figures = figures.unwrap_or_else(|problem| {
@@ -317,7 +317,7 @@ fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedP
 }
 
 /// A checked path with its figures, or the error that kept them from being computed.
-type Known = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
+type CheckedFigures = (CheckedTarget, Result<Figures, Box<Diagnostic>>);
 
 /// Figures from a path's parameters and from its program.
 #[derive(Default)]

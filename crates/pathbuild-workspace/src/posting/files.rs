@@ -11,32 +11,32 @@ use pathbuild_post::PostFiles;
 
 /// Access to a directory and everything below it.
 #[derive(Debug)]
-pub(super) struct Below<'a> {
+pub(super) struct DirectoryFiles<'a> {
     pub(super) directory: &'a Utf8Path,
     pub(super) system: &'a dyn System,
 }
 
 /// A file that a definition inserts.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Inserted {
+pub struct InsertedFile {
     /// Path relative to the definition's directory.
     pub name: Utf8PathBuf,
     /// Hash of the content; `None` if it could not be read.
     pub hash: Option<[u8; 32]>,
 }
 
-/// Like [`Below`], and records the files that were read.
+/// Like [`DirectoryFiles`], and records the files that were read.
 #[derive(Debug)]
-pub(super) struct Noted<'a> {
-    pub(super) below: Below<'a>,
-    pub(super) read: RefCell<Vec<Inserted>>,
+pub(super) struct RecordedFiles<'a> {
+    pub(super) below: DirectoryFiles<'a>,
+    pub(super) read: RefCell<Vec<InsertedFile>>,
 }
 
-impl PostFiles for Noted<'_> {
+impl PostFiles for RecordedFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
         let read = self.below.read(path);
         let hash = read.as_ref().ok().map(|bytes| *blake3::hash(bytes).as_bytes());
-        self.read.borrow_mut().push(Inserted { name: path.to_owned(), hash });
+        self.read.borrow_mut().push(InsertedFile { name: path.to_owned(), hash });
         read
     }
 }
@@ -44,7 +44,7 @@ impl PostFiles for Noted<'_> {
 /// Upper bound on the size of an inserted file in bytes.
 const LARGEST: u64 = 1 << 24;
 
-impl PostFiles for Below<'_> {
+impl PostFiles for DirectoryFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
         let Self { directory, system } = self;
         let base =

@@ -23,10 +23,10 @@ use crate::machine::machine;
 use crate::workspace::Workspace;
 
 pub use build::run_post_build;
-pub use tools::{furnish, tool_table};
+pub use tools::{complete_tools, tool_table};
 
-pub use files::Inserted;
-use files::{Below, Noted};
+pub use files::InsertedFile;
+use files::{DirectoryFiles, RecordedFiles};
 
 /// A post definition with everything that its output depends on besides the program.
 #[derive(Debug)]
@@ -47,7 +47,7 @@ pub struct PostProcessor {
     feed: Option<f64>,
     charset: Charset,
     most_bytes: usize,
-    wishes: PostArguments,
+    arguments: PostArguments,
     manner: Manner,
     machine: Option<Machine>,
     system: Arc<dyn System>,
@@ -55,7 +55,7 @@ pub struct PostProcessor {
     runs_no_command: bool,
 }
 
-/// Configured details of how programs are written.
+/// Configured details of how programs are written. The name is part of [`PostProcessor::identity`].
 #[derive(Clone, Copy, Debug)]
 struct Manner {
     unchecked: bool,
@@ -90,7 +90,7 @@ impl PostProcessor {
     pub fn of_run(
         context: &Workspace,
         named: Option<&str>,
-        wishes: PostArguments,
+        arguments: PostArguments,
     ) -> Result<Option<Self>, Vec<Diagnostic>> {
         let configured = &context.settings.general.post;
         let (name, base) = match (named, configured.origin, context.settings.directory()) {
@@ -101,14 +101,14 @@ impl PostProcessor {
         if name == NATIVE {
             return Ok(None);
         }
-        Self::load(context, name, base, wishes).map(Some)
+        Self::load(context, name, base, arguments).map(Some)
     }
 
     fn load(
         context: &Workspace,
         name: &str,
         base: &Utf8Path,
-        wishes: PostArguments,
+        arguments: PostArguments,
     ) -> Result<Self, Vec<Diagnostic>> {
         let general = &context.settings.general;
         let (post, definition, file) = if is_file_name(name) {
@@ -129,7 +129,7 @@ impl PostProcessor {
         let system = &*context.system;
         let insertions: Vec<Utf8PathBuf> = post.insertions(&macros).into_iter().collect();
         let inserted = |directory| {
-            let files = Below { directory, system };
+            let files = DirectoryFiles { directory, system };
             let hash = |file: &Utf8PathBuf| blake3::hash(&files.read(file).unwrap_or_default());
             // Files that are unreadable or too many are reported when a program is written.
             insertions.iter().take(MOST_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
@@ -150,7 +150,7 @@ impl PostProcessor {
                 types::Charset::Ascii => Charset::Ascii,
                 types::Charset::Utf8 => Charset::Utf8,
             },
-            wishes,
+            arguments,
             machine: machine(context),
             system: Arc::clone(&context.system),
             runs_no_command: context.settings.confined.is_some(),
@@ -184,12 +184,12 @@ impl PostProcessor {
 
     /// Dialect for reading its output back, if known.
     pub fn reader(&self) -> Option<Dialect> {
-        self.post.reader(self.wishes.dialect.as_deref())
+        self.post.reader(self.arguments.dialect.as_deref())
     }
 
     /// Whether the command that it requests is run.
     pub fn runs_post_build(&self) -> bool {
-        self.wishes.run_post_build
+        self.arguments.run_post_build
     }
 
     /// Whether programs start the spindle.
@@ -221,7 +221,7 @@ impl PostProcessor {
         &self,
         job: &Job,
         output: Option<&Utf8Path>,
-        inserted: &mut Vec<Inserted>,
+        inserted: &mut Vec<InsertedFile>,
     ) -> Result<Output, Vec<Diagnostic>> {
         self.write_with(job, output, self.manner.unchecked, inserted)
     }
@@ -240,20 +240,20 @@ impl PostProcessor {
         job: &Job,
         output: Option<&Utf8Path>,
         unchecked: bool,
-        inserted: &mut Vec<Inserted>,
+        inserted: &mut Vec<InsertedFile>,
     ) -> Result<Output, Vec<Diagnostic>> {
         let system = &*self.system;
-        let below = self.directory.as_deref().map(|directory| Below { directory, system });
-        let noted = below.map(|below| Noted { below, read: RefCell::default() });
+        let below = self.directory.as_deref().map(|directory| DirectoryFiles { directory, system });
+        let noted = below.map(|below| RecordedFiles { below, read: RefCell::default() });
         let mut options = PostOptions {
-            date: self.wishes.date.clone(),
+            date: self.arguments.date.clone(),
             macros: self.macros.clone(),
             cycles: self.cycles,
             output: output.map(|output| output.as_str().into()),
-            run_post_build: self.wishes.run_post_build,
+            run_post_build: self.arguments.run_post_build,
             charset: self.charset,
             most_bytes: self.most_bytes,
-            dialect: self.wishes.dialect.clone(),
+            dialect: self.arguments.dialect.clone(),
             unchecked,
             program_number: self.manner.program_number,
             manual_spindle: self.manner.manual_spindle,
@@ -280,10 +280,11 @@ impl PostProcessor {
 
     /// Everything that a program's text depends on besides drawings and general options, for its provenance.
     pub fn identity(&self) -> Vec<u8> {
-        let Self { definition, tools, macros, wishes, cycles, manner, .. } = self;
+        let Self { definition, tools, macros, arguments, cycles, manner, .. } = self;
         let mut identity = definition.clone();
         identity.extend(
-            format!("{:?}", (tools, macros, cycles, &wishes.date, &wishes.dialect, manner)).into_bytes(),
+            format!("{:?}", (tools, macros, cycles, &arguments.date, &arguments.dialect, manner))
+                .into_bytes(),
         );
         identity
     }
@@ -292,13 +293,14 @@ impl PostProcessor {
 /// The words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else of the configured one, if
 /// it writes this dialect; else of the built-in post for the dialect.
 pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: Dialect) -> PostWords {
-    if let Some(poster) = wrote {
-        return poster.words(dialect);
+    if let Some(post_processor) = wrote {
+        return post_processor.words(dialect);
     }
     let of_run = |name| PostProcessor::of_run(context, name, PostArguments::default()).ok().flatten();
-    let writes_it = |poster: &PostProcessor| poster.reader().is_none_or(|reader| reader == dialect);
-    let poster = of_run(None).filter(writes_it).or_else(|| of_run(Some(dialect.name())));
-    poster.map_or_else(|| PostWords::native(dialect), |poster| poster.words(dialect))
+    let writes_it =
+        |post_processor: &PostProcessor| post_processor.reader().is_none_or(|reader| reader == dialect);
+    let post_processor = of_run(None).filter(writes_it).or_else(|| of_run(Some(dialect.name())));
+    post_processor.map_or_else(|| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
 }
 
 /// Whether the name of a post is a file name: it has an extension or a directory.

@@ -36,7 +36,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 
 /// Completes the operations of a program that was read with the table's data about their tools, unless the program itself has them. Warns
 /// about unknown tool numbers. The spindle stands still while probing, and in a program that cuts nothing.
-pub fn furnish(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
+pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut known: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
     for entry in &table.entries {

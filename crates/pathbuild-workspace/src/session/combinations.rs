@@ -7,12 +7,12 @@ use pathbuild_diagnostic::messages::variables as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault};
 use pathbuild_path::{Bindings, PathName};
 
-use super::{Asking, CheckedTarget};
+use super::{CheckedTarget, Checker};
 
 /// Upper bound on the combinations of values that are checked per path.
 const MOST_COMBINATIONS: usize = 1000;
 
-impl Asking<'_> {
+impl Checker<'_> {
     /// One target per combination of values, and a warning if there are too many combinations. A path without variables has a single
     /// target.
     pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
@@ -28,7 +28,7 @@ impl Asking<'_> {
 
     /// Merges the results of all combinations of a path. Each fault is reported once, with values that cause it unless all of them do.
     pub fn merged(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
-        let mut merged: Vec<Merged<'_>> = Vec::new();
+        let mut merged: Vec<MergedFault<'_>> = Vec::new();
         let mut known: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
         for result in results {
             for diagnostic in &result.diagnostics {
@@ -40,14 +40,14 @@ impl Asking<'_> {
                         known.count += 1;
                         known.last = result;
                     }
-                    None => merged.push(Merged { diagnostic, first: result, last: result, count: 1 }),
+                    None => merged.push(MergedFault { diagnostic, first: result, last: result, count: 1 }),
                 }
             }
         }
         merged.iter().map(|merged| self.with_values(merged, results.len())).collect()
     }
 
-    fn with_values(&self, merged: &Merged<'_>, all: usize) -> Diagnostic {
+    fn with_values(&self, merged: &MergedFault<'_>, all: usize) -> Diagnostic {
         let diagnostic = merged.diagnostic.clone();
         let target = merged.first.target;
         let Role::CheckedWith(values) = target.role(self.db()) else { return diagnostic };
@@ -64,7 +64,7 @@ impl Asking<'_> {
 }
 
 /// A fault, and the combinations in which it occurs.
-struct Merged<'a> {
+struct MergedFault<'a> {
     diagnostic: &'a Diagnostic,
     first: &'a CheckedTarget,
     last: &'a CheckedTarget,

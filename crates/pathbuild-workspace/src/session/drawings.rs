@@ -13,7 +13,7 @@ pub(crate) struct Drawings(Vec<Drawing>);
 #[derive(Debug)]
 pub(crate) struct Drawing {
     pub(crate) path: Utf8PathBuf,
-    pub(crate) said: DrawingResult,
+    pub(crate) result: DrawingResult,
     /// Whether this run read it instead of taking it from the cache.
     pub(crate) is_read: bool,
 }
@@ -29,7 +29,7 @@ impl Drawings {
         let known: Vec<Option<DrawingResult>> = paths.iter().map(|path| known(path)).collect();
         let open = || paths.iter().zip(&known).filter(|(_, known)| known.is_none()).map(|(path, _)| path);
         let files: Vec<SourceFile> = db.files(open().cloned().collect());
-        session.read_ahead(&files);
+        session.parse_ahead(&files);
         let read = |path: &Utf8Path| {
             let file = db.file(path);
             let (names, diagnostics) = (path_names(db, file).to_vec(), check_file(db, file).to_vec());
@@ -37,7 +37,7 @@ impl Drawings {
         };
         let drawing = |(path, known): (Utf8PathBuf, Option<DrawingResult>)| {
             let is_read = known.is_none();
-            Drawing { said: known.unwrap_or_else(|| read(&path)), path, is_read }
+            Drawing { result: known.unwrap_or_else(|| read(&path)), path, is_read }
         };
         Self(paths.into_iter().zip(known).map(drawing).collect())
     }

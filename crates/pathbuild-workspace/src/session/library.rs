@@ -13,11 +13,11 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
 
-use super::ignoring::{self, Budget, Rules};
+use super::ignore_rules::{self, Budget, Rules};
 
 /// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
-pub(super) struct Walked {
+pub(super) struct WalkResult {
     /// All drawings, sorted by place.
     pub(super) drawings: Vec<Utf8PathBuf>,
     /// The directory itself and all directories below it, sorted by place.
@@ -49,13 +49,16 @@ impl Walk<'_> {
     /// Finds all drawings in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to directories are
     /// not followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if `root`
     /// is.
-    pub(super) fn through(self, root: &Utf8Path) -> Walked {
+    pub(super) fn through(self, root: &Utf8Path) -> WalkResult {
         let (mut walked, count) = match self.levels(root) {
             Ok(walked) => walked,
-            Err(problem) => return Walked { problems: vec![*problem], ..Walked::default() },
+            Err(problem) => return WalkResult { problems: vec![*problem], ..WalkResult::default() },
         };
         if count > self.limit.saturating_add(1) {
-            return Walked { problems: vec![too_many(readable(root), self.limit)], ..Walked::default() };
+            return WalkResult {
+                problems: vec![too_many(readable(root), self.limit)],
+                ..WalkResult::default()
+            };
         }
         // The drawings of each directory are sorted already, so this is fast.
         walked.drawings.sort_by(|a, b| by_place(a, b));
@@ -64,8 +67,8 @@ impl Walk<'_> {
     }
 
     /// Collects the contents unsorted, together with their number. Stops once the limit is exceeded.
-    fn levels(self, root: &Utf8Path) -> Result<(Walked, u64), Box<Diagnostic>> {
-        let mut walked = Walked::default();
+    fn levels(self, root: &Utf8Path) -> Result<(WalkResult, u64), Box<Diagnostic>> {
+        let mut walked = WalkResult::default();
         let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
         let mut count = 1;
         let budget = Budget::new(self.rules_limit);
@@ -152,7 +155,7 @@ impl Directory {
         let mut found = Self { rules: above.clone(), ..Self::default() };
         let mut has_own = false;
         let mut listed = walk.system.each_entry(directory, &mut |entry| {
-            has_own = entry.is_exact && ignoring::changes_rules(entry.name, above.is_some());
+            has_own = entry.is_exact && ignore_rules::changes_rules(entry.name, above.is_some());
             found.add(directory, entry);
             if has_own || found.count > walk.limit {
                 ControlFlow::Break(())

@@ -1,15 +1,14 @@
 //! The interface between commands and the database: resolves arguments, and checks paths and builds programs on all cores.
 
-mod caught;
+mod argument_matches;
 mod combinations;
+mod directory_queries;
 mod drawings;
-mod elsewhere;
-mod found;
+mod empty_input;
 mod graph;
-mod ignoring;
+mod ignore_rules;
 mod library;
-mod near;
-mod nothing;
+mod library_hints;
 mod outputs;
 mod prefetch;
 mod q_projects;
@@ -17,6 +16,7 @@ mod resolve;
 mod result_store;
 mod scene;
 mod settings;
+mod suggestions;
 pub mod timings;
 mod watchdog;
 mod work;
@@ -35,21 +35,21 @@ use self::workers::Workers;
 use crate::reporter::Advance;
 use crate::workspace::Workspace;
 
+pub use argument_matches::{Argument, ArgumentMatches};
 pub(crate) use drawings::{Drawing, Drawings};
-pub(crate) use elsewhere::relative;
-pub use found::{Argument, Found};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use library::{by_name, by_place};
-pub use outputs::{OutputKind, Writing, stem_fault, without_places, without_values};
+pub(crate) use library_hints::relative;
+pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
 pub use q_projects::{Pair, pairs as q_project_pairs};
-pub use resolve::{NamesOf, Wanted, WantedPath};
+pub use resolve::{NamesOf, SelectedPath, Selection};
 pub use result_store::{
-    BUILD, Coverage, Dependencies, DrawingResult, FreshResult, FurtherFile, Held, MadeOutput, OutputState,
-    Question, ResultStore, Scope, hash_output, is_passing,
+    BUILD, CacheQuery, Coverage, CoveredPaths, Dependencies, DrawingResult, ExtraInput, FreshResult,
+    GeneratedFile, OutputState, ResultStore, Scope, hash_output, is_transient,
 };
 pub(crate) use scene::program_scene;
-pub use scene::{Seen, ShownText};
-pub use work::{Asking, CheckedTarget, Emitted};
+pub use scene::{SceneReport, ShownText};
+pub use work::{CheckedTarget, Checker, Emitted};
 
 /// A database with the settings of a run.
 #[derive(Debug)]
@@ -97,7 +97,7 @@ impl<'a> Session<'a> {
     }
 
     /// Runs some work on a consistent state of the drawings: repeats it if a drawing changes while the work reads it twice.
-    pub fn settled<R>(&mut self, mut work: impl FnMut(&mut Self) -> R) -> R {
+    pub fn with_stable_files<R>(&mut self, mut work: impl FnMut(&mut Self) -> R) -> R {
         let mut rounds = 0;
         loop {
             let result = catch_unwind(AssertUnwindSafe(|| work(self)));

@@ -27,7 +27,7 @@ pub enum OutputKind {
 
 /// Settings for writing files, whatever their contents.
 #[derive(Clone, Copy, Debug)]
-pub struct Writing {
+pub struct WriteSettings {
     /// Language, character set, rapid feed, and correction.
     pub options: WriteOptions,
     /// Upper bound on a program's moves, after cutting them into pieces.
@@ -113,7 +113,7 @@ impl OutputKind {
         self,
         program: &Program,
         provenance: &str,
-        writing: &Writing,
+        writing: &WriteSettings,
     ) -> Result<Option<String>, Box<Diagnostic>> {
         let header = Header { provenance: provenance.to_owned() };
         match self {
@@ -125,7 +125,7 @@ impl OutputKind {
     }
 }
 
-impl Writing {
+impl WriteSettings {
     /// Generates the text of a native program.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use super::Session;
 
 impl Session<'_> {
     /// For each pair, the discrepancies between the drawing and its Q-project.
-    pub fn judge_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
+    pub fn compare_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
         let judge = |db: &Database, [drawing, q_project]: &Pair| {
             let found = q_project_findings(db, *drawing, *q_project).iter().cloned();
             found.map(|problem| pathbuild_db::locate(db, problem)).collect::<Vec<_>>()

@@ -7,19 +7,19 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 use rustc_hash::FxHashSet;
 
-use super::found::{Argument, Found, FoundDirectory};
+use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
 use super::{Session, by_place};
 use crate::inputs::Inputs;
 
 /// The drawings and paths that arguments resolve to.
 #[derive(Debug, Default)]
-pub struct Wanted {
+pub struct Selection {
     /// Drawings in named directories, sorted by place, without those that were named themselves.
     pub drawings: Vec<Utf8PathBuf>,
     /// Drawings that were named.
     pub named: Vec<SourceFile>,
     /// Paths that were named.
-    pub paths: Vec<WantedPath>,
+    pub paths: Vec<SelectedPath>,
     /// Directories that were named; without arguments, those of the library.
     pub directories: Vec<Utf8PathBuf>,
     /// These directories and all below them.
@@ -30,7 +30,7 @@ pub struct Wanted {
 
 /// A path that was named.
 #[derive(Clone, Debug)]
-pub struct WantedPath {
+pub struct SelectedPath {
     /// The drawing that defines it.
     pub file: SourceFile,
     /// Its name as the drawing spells it.
@@ -42,75 +42,81 @@ pub type NamesOf<'a> = &'a dyn Fn(SourceFile) -> &'a [PathName];
 
 impl Session<'_> {
     /// Resolves the arguments; without any, selects the library.
-    pub fn wanted(&self, inputs: &Inputs) -> Wanted {
-        let found = self.found(inputs);
-        let mut wanted = self.meant(&found, &found.arguments, &|file| path_names(&self.db, file));
-        wanted.problems.splice(..0, found.problems);
-        wanted
+    pub fn select(&self, inputs: &Inputs) -> Selection {
+        let found = self.match_arguments(inputs);
+        let mut selection =
+            self.select_arguments(&found, &found.arguments, &|file| path_names(&self.db, file));
+        selection.problems.splice(..0, found.problems);
+        selection
     }
 
     /// Resolves some of the arguments.
-    pub fn meant(&self, found: &Found, arguments: &[Argument], names: NamesOf<'_>) -> Wanted {
-        let mut wanted = Wanted::default();
+    pub fn select_arguments(
+        &self,
+        found: &ArgumentMatches,
+        arguments: &[Argument],
+        names: NamesOf<'_>,
+    ) -> Selection {
+        let mut selection = Selection::default();
         let mut walked = Vec::new();
         for argument in arguments {
-            walked.extend(self.add(argument, found, names, &mut wanted));
+            walked.extend(self.add(argument, found, names, &mut selection));
         }
         let is_wrong = |problems: &[Diagnostic]| problems.iter().any(Diagnostic::is_error);
-        if !is_wrong(&wanted.problems) && !is_wrong(&found.problems) {
-            wanted.problems.extend(Self::without_drawings(found.is_library, &walked));
+        if !is_wrong(&selection.problems) && !is_wrong(&found.problems) {
+            selection.problems.extend(Self::without_drawings(found.is_library, &walked));
         }
-        let named: FxHashSet<&Utf8PathBuf> = wanted.named.iter().map(|file| file.path(&self.db)).collect();
-        wanted.drawings.retain(|drawing| !named.contains(drawing));
-        wanted.drawings.sort_by(|a, b| by_place(a, b));
-        wanted.drawings.dedup();
-        wanted.below.sort_by(|a, b| by_place(a, b));
-        wanted.below.dedup();
-        wanted
+        let named: FxHashSet<&Utf8PathBuf> = selection.named.iter().map(|file| file.path(&self.db)).collect();
+        selection.drawings.retain(|drawing| !named.contains(drawing));
+        selection.drawings.sort_by(|a, b| by_place(a, b));
+        selection.drawings.dedup();
+        selection.below.sort_by(|a, b| by_place(a, b));
+        selection.below.dedup();
+        selection
     }
 
     /// Adds the drawings and paths of an argument. Returns the directory if the argument is one.
     fn add<'f>(
         &self,
         argument: &'f Argument,
-        found: &Found,
+        found: &ArgumentMatches,
         names: NamesOf<'_>,
-        wanted: &mut Wanted,
-    ) -> Option<&'f FoundDirectory> {
+        selection: &mut Selection,
+    ) -> Option<&'f SearchedDirectory> {
         match argument {
             Argument::Directory(directory) => {
-                wanted.add(directory);
+                selection.add(directory);
                 return Some(directory);
             }
-            Argument::Drawing(file) => wanted.name(*file),
+            Argument::Drawing(file) => selection.name(*file),
             Argument::Name { name, candidates, drawing, directory } => {
                 let defines = |file: &SourceFile| names(*file).contains(name);
-                let files = self.different(candidates.iter().copied().filter(defines));
+                let files = self.distinct(candidates.iter().copied().filter(defines));
                 if !files.is_empty() {
                     // Another definition may have been missed.
-                    wanted.problems.extend_from_slice(&found.name_problems);
+                    selection.problems.extend_from_slice(&found.name_problems);
                 }
                 match (files.as_slice(), drawing, directory) {
                     ([file], ..) => {
-                        let spelt = names(*file).iter().find(|known| *known == name).unwrap_or(name);
-                        wanted.paths.push(WantedPath { file: *file, name: spelt.clone() });
+                        let spelled = names(*file).iter().find(|known| *known == name).unwrap_or(name);
+                        selection.paths.push(SelectedPath { file: *file, name: spelled.clone() });
                     }
                     ([first, second, ..], ..) => {
-                        wanted.problems.push(self.defined_twice(name, *first, *second));
+                        selection.problems.push(self.defined_twice(name, *first, *second));
                     }
-                    ([], Some(drawing), _) => wanted.name(*drawing),
+                    ([], Some(drawing), _) => selection.name(*drawing),
                     // Users type `check components`; nothing else has that name.
                     ([], None, Some(directory)) => {
-                        wanted.add(directory);
+                        selection.add(directory);
                         return Some(directory);
                     }
                     ([], None, None) => {
-                        wanted.problems.extend(self.name_problems(found));
+                        selection.problems.extend(self.name_problems(found));
                         let unread = self.unread(candidates, names);
                         if unread.is_empty() {
-                            wanted.problems.push(nowhere(name, &found.name_directories));
+                            selection.problems.push(nowhere(name, &found.name_directories));
                         }
-                        wanted.problems.extend(unread);
+                        selection.problems.extend(unread);
                     }
                 }
             }
@@ -122,27 +128,27 @@ impl Session<'_> {
     /// them.
     fn unread(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
-        let files = self.different(candidates.iter().copied().filter(is_unread));
+        let files = self.distinct(candidates.iter().copied().filter(is_unread));
         let problems = files.iter().flat_map(|file| check_file(&self.db, *file));
         problems.filter(|problem| problem.is_error()).cloned().collect()
     }
 
     /// Errors that may have kept a name from being found.
-    fn name_problems(&self, found: &Found) -> Vec<Diagnostic> {
-        if self.has_library() { found.name_problems.clone() } else { self.everything().1 }
+    fn name_problems(&self, found: &ArgumentMatches) -> Vec<Diagnostic> {
+        if self.has_library() { found.name_problems.clone() } else { self.all_drawings().1 }
     }
 
     /// The distinct drawings in these directories that define a path. Directories that cause an internal error are skipped: for arguments
     /// the error was already reported, and hints can do without.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
         let holders = |directory: &Utf8PathBuf| {
-            self.of_directory(directory, |directory| holders(&self.db, directory, name))
+            self.query_directory(directory, |directory| holders(&self.db, directory, name))
         };
-        self.different(directories.iter().flat_map(holders).flatten())
+        self.distinct(directories.iter().flat_map(holders).flatten())
     }
 
     /// Removes drawings that are reached under a second name.
-    fn different(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
+    fn distinct(&self, files: impl Iterator<Item = SourceFile>) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         files.filter(|file| seen.insert(self.db.system().canonical(file.path(&self.db)))).collect()
     }
@@ -157,7 +163,7 @@ impl Session<'_> {
     }
 }
 
-impl Wanted {
+impl Selection {
     /// All drawings that are selected as a whole.
     pub fn whole(&self, session: &Session<'_>) -> Vec<SourceFile> {
         let mut files = session.db().files(self.drawings.clone());
@@ -165,7 +171,7 @@ impl Wanted {
         files
     }
 
-    fn add(&mut self, directory: &FoundDirectory) {
+    fn add(&mut self, directory: &SearchedDirectory) {
         self.problems.extend_from_slice(&directory.problems);
         self.drawings.extend_from_slice(&directory.drawings);
         self.directories.push(directory.path.clone());

@@ -17,7 +17,7 @@ use pathbuild_view::{
 };
 
 use super::work::about;
-use super::{CheckedTarget, Session, Writing};
+use super::{CheckedTarget, Session, WriteSettings};
 use crate::emit::{program_text, writing};
 use crate::findings::Findings;
 use crate::posting::PostProcessor;
@@ -25,7 +25,7 @@ use crate::workspace::Workspace;
 
 /// A scene, with the diagnostics of its paths.
 #[derive(Debug)]
-pub struct Seen {
+pub struct SceneReport {
     /// The scene. Its findings are empty until severities are applied.
     pub scene: Scene,
     /// Diagnostics with their locations.
@@ -54,9 +54,9 @@ pub struct HashedPath {
     pub problems: Vec<Diagnostic>,
 }
 
-impl Seen {
+impl SceneReport {
     /// Completes the scene with its findings, according to the configured severities. `file` is the drawing that is shown.
-    pub fn judged(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
+    pub fn with_findings(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
         let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
         scene.findings = view::findings(&findings.diagnostics, file);
         (scene, findings)
@@ -66,7 +66,7 @@ impl Seen {
 impl Session<'_> {
     /// The scene of some paths of a drawing, with their texts. If options are missing, or if a path has variables, its program is that of a
     /// check: with example values, and with S as if it were embedded.
-    pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> Seen {
+    pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> SceneReport {
         let name = file.path(&self.db).as_str();
         let title = match names {
             [path] => path.as_str(),
@@ -85,7 +85,7 @@ impl Session<'_> {
             diagnostics.extend(found);
         }
         scene.other_layers = view::other_layers(other_layers(&self.db, file));
-        Seen { scene, diagnostics }
+        SceneReport { scene, diagnostics }
     }
 
     /// Scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.
@@ -104,7 +104,7 @@ impl Session<'_> {
         text: ShownText<'_>,
     ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
         let checked =
-            self.each(slice::from_ref(name), |asking, name| asking.check_as_known(file, name)).pop();
+            self.each(slice::from_ref(name), |checker, name| checker.check_leniently(file, name)).pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
         let writing = &writing(self.context);
         // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
@@ -112,10 +112,10 @@ impl Session<'_> {
             && self.context.settings.general.rapid.value.is_some();
         let (emitted, refusal) = match text {
             ShownText::Native => (None, None),
-            ShownText::Emitted(poster) => match program_text(self, poster, &checked) {
+            ShownText::Emitted(post_processor) => match program_text(self, post_processor, &checked) {
                 Ok(emitted) => (emitted, None),
                 Err(problems) => {
-                    (None, problems.iter().find(|problem| problem.is_error() && is_written).map(said))
+                    (None, problems.iter().find(|problem| problem.is_error() && is_written).map(bilingual))
                 }
             },
         };
@@ -137,8 +137,8 @@ impl Session<'_> {
         };
         let mut diagnostics = checked.diagnostics;
         let at = |problem: Diagnostic| problem.in_file(file.path(&self.db)).in_path(name.as_str());
-        let made = self.guarded(slice::from_ref(&checked.target), work).pop();
-        match made {
+        let result = self.guarded(slice::from_ref(&checked.target), work).pop();
+        match result {
             Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),
             Some(Err(problem) | Ok(Err(problem))) => diagnostics.push(at(*problem)),
             Some(Ok(Ok(None))) | None => {}
@@ -153,9 +153,9 @@ impl Session<'_> {
     /// Hashes the moves of each path in some drawings. The programs are those that [`scene`](Self::scene) shows.
     pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<HashedPath> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
-        let wanted: Vec<(SourceFile, PathName)> =
+        let paths: Vec<(SourceFile, PathName)> =
             names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
-        let checked = self.each(&wanted, |asking, (file, name)| asking.check_as_known(*file, name));
+        let checked = self.each(&paths, |checker, (file, name)| checker.check_leniently(*file, name));
         let hash = |db: &pathbuild_db::Database, checked: &CheckedTarget| {
             program(db, checked.target)
                 .as_deref()
@@ -173,7 +173,7 @@ impl Session<'_> {
             });
             HashedPath { file, name, moves, problems }
         };
-        wanted.into_iter().zip(checked).zip(hashes).map(hashed).collect()
+        paths.into_iter().zip(checked).zip(hashes).map(hashed).collect()
     }
 }
 
@@ -183,7 +183,7 @@ fn stops_making(problem: &Diagnostic) -> bool {
 }
 
 /// The message of a diagnostic in both languages.
-fn said(problem: &Diagnostic) -> BilingualText {
+fn bilingual(problem: &Diagnostic) -> BilingualText {
     BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
 }
 
@@ -191,7 +191,7 @@ fn said(problem: &Diagnostic) -> BilingualText {
 fn examples(
     db: &dyn Db,
     TracedProgram { program, parts, .. }: &TracedProgram,
-    writing: &Writing,
+    writing: &WriteSettings,
 ) -> Vec<Example> {
     let Some(root) = parts.first() else { return Vec::new() };
     let example = |name: String, value: Option<&str>| Example { name, value: value.map(str::to_owned) };
@@ -231,7 +231,7 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
 pub(crate) fn program_scene(
     db: &dyn Db,
     traced: &TracedProgram,
-    writing: &Writing,
+    writing: &WriteSettings,
     emitted: Option<EmittedText<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let TracedProgram { program, trace, parts } = traced;
@@ -249,7 +249,7 @@ pub(crate) fn program_scene(
     // Disable z-split: each line of the text must correspond to one move.
     let correction = Correction { longest: 0.0, ..writing.options.correction };
     let options = WriteOptions { correction, ..writing.options };
-    let text = Writing { options, ..*writing }.text(program, &Header::default())?;
+    let text = WriteSettings { options, ..*writing }.text(program, &Header::default())?;
     let rapid = (options.rapid > 0.0).then_some(options.rapid);
     Ok(Some(view::program_path(&ProgramSource {
         program,

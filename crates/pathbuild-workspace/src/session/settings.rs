@@ -74,7 +74,7 @@ fn doubts(settings: &crate::config::Settings) -> DoubtThresholds {
 fn aliases(context: &Workspace) -> LineTypeAliases {
     let mut aliases = LineTypeAliases::default();
     for alias in &context.settings.tables.line_types.value {
-        aliases.insert(&alias.name, alias.means);
+        aliases.insert(&alias.name, alias.line_type);
     }
     aliases
 }

@@ -24,7 +24,7 @@ struct State {
 }
 
 /// Work item being watched; dropping it ends the watch.
-pub(super) struct Watched<'a> {
+pub(super) struct WatchGuard<'a> {
     watchdog: &'a Watchdog,
     db: &'a Database,
     place: usize,
@@ -39,7 +39,7 @@ impl Watchdog {
         Self(shared)
     }
 
-    pub(super) fn begin<'a>(&'a self, db: &'a Database) -> Watched<'a> {
+    pub(super) fn begin<'a>(&'a self, db: &'a Database) -> WatchGuard<'a> {
         let mut state = self.0.state();
         let free = state.underway.iter().position(Option::is_none);
         let place = free.unwrap_or_else(|| {
@@ -47,7 +47,7 @@ impl Watchdog {
             state.underway.len() - 1
         });
         state.underway[place] = Some(db.underway());
-        Watched { watchdog: self, db, place }
+        WatchGuard { watchdog: self, db, place }
     }
 }
 
@@ -58,7 +58,7 @@ impl Drop for Watchdog {
     }
 }
 
-impl Drop for Watched<'_> {
+impl Drop for WatchGuard<'_> {
     fn drop(&mut self) {
         self.watchdog.0.state().underway[self.place] = None;
         // The work may have been cancelled at the very moment when it ended.

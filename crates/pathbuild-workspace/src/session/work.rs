@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::timings::{CHECKING, READING, Timings};
 use super::watchdog::Watchdog;
 use super::workers::Workers;
-use super::{Session, WantedPath};
+use super::{SelectedPath, Session};
 
 /// The outcome of checking a target.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ pub struct Emitted {
 
 /// Checks targets one by one on a worker thread.
 #[derive(Debug)]
-pub struct Asking<'a> {
+pub struct Checker<'a> {
     db: &'a Database,
     is_traced: bool,
     limit: Duration,
@@ -69,7 +69,7 @@ impl Session<'_> {
     }
 
     /// The target of a path that was named.
-    pub fn target(&self, path: &WantedPath, role: Role) -> Target {
+    pub fn target(&self, path: &SelectedPath, role: Role) -> Target {
         self.target_in(path.file, &path.name, role)
     }
 
@@ -84,7 +84,7 @@ impl Session<'_> {
     }
 
     /// Parses drawings on all cores.
-    pub fn read_ahead(&self, files: &[SourceFile]) {
+    pub fn parse_ahead(&self, files: &[SourceFile]) {
         let read = |db: &Database, file: &SourceFile| _ = file_index(db, *file);
         self.timings.measure(&READING, || self.spread(files, read));
     }
@@ -122,14 +122,14 @@ impl Session<'_> {
 
     /// Checks targets. The results are in the order of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        self.each(targets, |asking, target| asking.check(*target))
+        self.each(targets, |checker, target| checker.check(*target))
     }
 
     /// Processes items on all cores. The results are in the order of the items.
-    pub fn each<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Asking<'_>, &T) -> R + Sync) -> Vec<R> {
+    pub fn each<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Checker<'_>, &T) -> R + Sync) -> Vec<R> {
         let (is_traced, limit, watchdog) = (self.is_traced, self.limit(), &self.watchdog);
         let timings = &self.timings;
-        let work = |db: &Database, item: &T| work(&Asking { db, is_traced, limit, watchdog, timings }, item);
+        let work = |db: &Database, item: &T| work(&Checker { db, is_traced, limit, watchdog, timings }, item);
         self.timings.measure(&CHECKING, || self.spread(items, work))
     }
 
@@ -137,11 +137,15 @@ impl Session<'_> {
     ///
     /// # Errors
     /// PB005 if it takes too long, PB001 if a drawing changed in the meantime, PB006 if it triggers a bug.
-    pub fn of_target<R>(&self, target: Target, ask: impl Fn(&Database) -> R) -> Result<R, Box<Diagnostic>> {
+    pub fn query_target<R>(
+        &self,
+        target: Target,
+        ask: impl Fn(&Database) -> R,
+    ) -> Result<R, Box<Diagnostic>> {
         let limit = self.limit();
         let _watched = self.watchdog.get_or_init(|| Watchdog::start(limit)).begin(&self.db);
-        let asked = self.db.guarded(limit, || ask(&self.db));
-        asked.map_err(|problem| Box::new(about(&self.db, target, *problem)))
+        let answer = self.db.guarded(limit, || ask(&self.db));
+        answer.map_err(|problem| Box::new(about(&self.db, target, *problem)))
     }
 
     pub(super) fn limit(&self) -> Duration {
@@ -201,7 +205,7 @@ impl Session<'_> {
     }
 
     /// Starts the worker threads early, while other work remains to be done before they are needed.
-    pub(super) fn rouse_workers(&self) {
+    pub(super) fn start_workers(&self) {
         if self.context.jobs != Some(1) {
             self.workers();
         }
@@ -219,7 +223,7 @@ impl Session<'_> {
     }
 }
 
-impl Asking<'_> {
+impl Checker<'_> {
     /// This thread's clone of the database.
     pub fn db(&self) -> &Database {
         self.db
@@ -232,7 +236,7 @@ impl Asking<'_> {
 
     /// Checks a path as it is emitted. A path with variables or missing options is checked as if it were embedded: with example values, and
     /// with S above what it embeds.
-    pub fn check_as_known(&self, file: SourceFile, name: &PathName) -> CheckedTarget {
+    pub fn check_leniently(&self, file: SourceFile, name: &PathName) -> CheckedTarget {
         let target = |role| self.db.target(file, name.as_str(), role);
         let index = file_index(self.db, file).path(name);
         if index.is_some_and(|path| path.header.definitions.is_empty()) {
@@ -251,12 +255,12 @@ impl Asking<'_> {
         let work = || self.db.guarded(self.limit, || check(self.db, target, self.is_traced));
         let name = || format!("{} ({})", target.name(self.db), target.file(self.db).path(self.db));
         let checked = self.timings.measure_path(name, work);
-        checked.unwrap_or_else(|problem| given_up(self.db, target, *problem))
+        checked.unwrap_or_else(|problem| aborted_target(self.db, target, *problem))
     }
 }
 
 /// The outcome of a target whose check was aborted.
-fn given_up(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
+fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,
         diagnostics: vec![about(db, target, problem)],

@@ -11,8 +11,8 @@ use notify::{Config, Event, PollWatcher, RecommendedWatcher, Watcher as _};
 use pathbuild_db::System;
 
 use super::Request;
+use super::directories::{WatchedDirectories, event_path};
 use super::library::Library;
-use super::places::{Places, as_told};
 use crate::session::Session;
 
 /// Watches the directories of a library.
@@ -24,7 +24,7 @@ pub(super) struct Watcher {
     debounce: Duration,
     /// The configuration and the files of the post-processor, as named in events.
     configuration: BTreeSet<Utf8PathBuf>,
-    places: Places,
+    places: WatchedDirectories,
     system: Arc<dyn System>,
     /// Changes that arrived while a batch was processed.
     news: Changes,
@@ -66,7 +66,7 @@ pub(super) enum Batch {
     /// Files have changed.
     Changes(Changes),
     /// Everything must be restarted.
-    Anew(Anew),
+    Restart(Restart),
     /// A wake-up was requested through the `Bell`.
     Rung,
     /// Watching is to end.
@@ -75,7 +75,7 @@ pub(super) enum Batch {
 
 /// Why everything must be restarted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Anew {
+pub(super) enum Restart {
     /// A watched directory, or one on the way to it, appeared, disappeared or was replaced.
     Directories,
     /// The configuration or a file of the post-processor changed.
@@ -89,7 +89,7 @@ pub(super) struct Changes {
     /// Whether events were lost, so that more may have changed.
     pub(super) is_incomplete: bool,
     /// Why everything must be restarted, if it must.
-    anew: Option<Anew>,
+    restart: Option<Restart>,
 }
 
 /// Interval at which network drives are polled.
@@ -119,7 +119,7 @@ impl Watcher {
         } else {
             Box::new(RecommendedWatcher::new(tell, Config::default())?)
         };
-        let mut places = Places::new(session, request, post);
+        let mut places = WatchedDirectories::new(session, request, post);
         places.watch(&mut *watcher, &*workspace.system)?;
         let configuration = settings.file.iter().chain(post);
         Ok(Self {
@@ -127,7 +127,7 @@ impl Watcher {
             bell,
             _source: watcher,
             debounce: settings.watch.debounce.value,
-            configuration: configuration.map(|file| as_told(session, file)).collect(),
+            configuration: configuration.map(|file| event_path(session, file)).collect(),
             places,
             news: Changes::default(),
             due: Instant::now(),
@@ -178,8 +178,8 @@ impl Watcher {
     /// Takes the changes that are due, except for incomplete drawings, which are checked again soon.
     fn take_due(&mut self, library: &Library<'_>) -> Option<Batch> {
         let mut changes = std::mem::take(&mut self.news);
-        if let Some(anew) = changes.anew {
-            return Some(Batch::Anew(anew));
+        if let Some(restart) = changes.restart {
+            return Some(Batch::Restart(restart));
         }
         self.hold_back(&mut changes);
         self.due = Instant::now() + GLANCE;
@@ -191,7 +191,7 @@ impl Watcher {
         self.look(session);
         let news = &self.news;
         let has_drawings = news.paths.iter().any(|path| Session::is_drawing(path));
-        self.is_over || news.is_incomplete || news.anew.is_some() || has_drawings
+        self.is_over || news.is_incomplete || news.restart.is_some() || has_drawings
     }
 
     /// Whether watching is to end.
@@ -245,23 +245,23 @@ impl Watcher {
         };
         for path in event.paths.into_iter().filter(|_| is_change) {
             if let Ok(path) = Utf8PathBuf::from_path_buf(path) {
-                self.add_path(event.kind, &as_told(session, &path));
+                self.add_path(event.kind, &event_path(session, &path));
             }
         }
     }
 
     fn add_path(&mut self, kind: EventKind, path: &Utf8Path) {
-        let anew = if self.configuration.contains(path) {
-            Some(Anew::Configuration)
+        let restart = if self.configuration.contains(path) {
+            Some(Restart::Configuration)
         } else {
-            self.places.are_changed(kind, path, &*self.system).then_some(Anew::Directories)
+            self.places.are_changed(kind, path, &*self.system).then_some(Restart::Directories)
         };
         let is_change = matters(path) && self.places.regard(path);
         if is_change {
             self.news.paths.extend(self.places.own_names(path));
         }
-        if anew.is_some() || is_change {
-            self.news.anew = self.news.anew.max(anew);
+        if restart.is_some() || is_change {
+            self.news.restart = self.news.restart.max(restart);
             self.rest();
         }
     }
@@ -286,7 +286,7 @@ impl Watcher {
 
 impl Changes {
     fn is_empty(&self) -> bool {
-        self.paths.is_empty() && !self.is_incomplete && self.anew.is_none()
+        self.paths.is_empty() && !self.is_incomplete && self.restart.is_none()
     }
 }
 

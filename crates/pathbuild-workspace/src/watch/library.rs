@@ -9,10 +9,10 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::changes::Changes;
 use super::names::NameSnapshots;
-use super::reverse::Reverse;
+use super::reverse::ReverseIndex;
 use crate::Inputs;
 use crate::check::check_drawings;
-use crate::session::{Coverage, DrawingResult, Pair, Session, is_passing, q_project_pairs};
+use crate::session::{Coverage, DrawingResult, Pair, Session, is_transient, q_project_pairs};
 
 /// The watched drawings with their results.
 pub(super) struct Library<'a> {
@@ -25,7 +25,7 @@ pub(super) struct Library<'a> {
     q_projects: BTreeMap<[Utf8PathBuf; 2], Vec<Diagnostic>>,
     /// Each drawing that has a Q-project, paired with it; computed on demand.
     pairs: Option<BTreeSet<[Utf8PathBuf; 2]>>,
-    reverse: Reverse,
+    reverse: ReverseIndex,
     names: NameSnapshots,
     /// Drawings that are still to be checked, sorted by path.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
@@ -39,7 +39,7 @@ pub(super) struct Batch {
     /// Files that changed.
     pub(super) changed: BTreeSet<Utf8PathBuf>,
     /// Drawings that were checked.
-    pub(super) asked: Vec<SourceFile>,
+    pub(super) checked_files: Vec<SourceFile>,
     /// Number of drawings still to be checked, because more changes arrived.
     pub(super) open: usize,
     /// Drawings that no longer exist.
@@ -72,7 +72,7 @@ impl<'a> Library<'a> {
             problems: Vec::new(),
             q_projects: BTreeMap::new(),
             pairs: None,
-            reverse: Reverse::default(),
+            reverse: ReverseIndex::default(),
             names: NameSnapshots::default(),
             open: BTreeMap::new(),
             late: BTreeSet::new(),
@@ -96,10 +96,10 @@ impl<'a> Library<'a> {
 
     /// Finds and reads the drawings, and marks all of them to be checked. Returns diagnostics of arguments and directories.
     pub(super) fn find(&mut self) -> Batch {
-        let selection = self.session.wanted(self.inputs);
+        let selection = self.session.select(self.inputs);
         let mut drawings = selection.whole(&self.session);
         drawings.extend(selection.paths.iter().map(|path| path.file));
-        self.session.read_ahead(&drawings);
+        self.session.parse_ahead(&drawings);
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
         self.problems.clone_from(&selection.problems);
@@ -136,20 +136,24 @@ impl<'a> Library<'a> {
 
     /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again.
     /// `further` names drawings whose programs could not be written.
-    pub(super) fn try_again(&mut self, further: &BTreeSet<Utf8PathBuf>, asked: &[SourceFile]) -> Batch {
+    pub(super) fn try_again(
+        &mut self,
+        further: &BTreeSet<Utf8PathBuf>,
+        checked_files: &[SourceFile],
+    ) -> Batch {
         let (mut update, mut concerned) = (Batch::default(), HashSet::new());
-        if self.problems.iter().any(is_passing) {
+        if self.problems.iter().any(is_transient) {
             self.find_drawings(&mut concerned, &mut update);
         }
         let db = self.session.db();
-        let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_passing);
+        let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_transient);
         let unsure = self.drawings.iter().filter(|(_, result)| is_passed(result));
         let unsure: Vec<SourceFile> = unsure.map(|(path, _)| db.file(path)).collect();
         let found = self.drawings.values().flat_map(|result| &result.diagnostics);
-        let found = found.filter(|found| is_passing(found)).filter_map(|found| found.file.as_ref());
+        let found = found.filter(|found| is_transient(found)).filter_map(|found| found.file.as_ref());
         let files: BTreeSet<Utf8PathBuf> = found.chain(further).cloned().collect();
         concerned.extend(files.iter().flat_map(|path| self.reverse.of_file(db.file(path))).chain(unsure));
-        concerned.retain(|drawing| !asked.contains(drawing));
+        concerned.retain(|drawing| !checked_files.contains(drawing));
         if !concerned.is_empty() {
             // A diagnostic about a directory says that it could not be listed.
             for path in &files {
@@ -257,7 +261,7 @@ impl<'a> Library<'a> {
 
     /// Searches for drawings again: new ones are to be checked, missing ones are dropped.
     fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
-        let selection = self.session.wanted(self.inputs);
+        let selection = self.session.select(self.inputs);
         let db = self.session.db();
         let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
         let named = named.map(|file| file.path(db));
@@ -272,7 +276,7 @@ impl<'a> Library<'a> {
         let unlisted: Vec<&Utf8PathBuf> = selection
             .problems
             .iter()
-            .filter(|problem| is_passing(problem))
+            .filter(|problem| is_transient(problem))
             .filter_map(|problem| problem.file.as_ref())
             .collect();
         let is_unsure =
@@ -295,9 +299,10 @@ impl<'a> Library<'a> {
     }
 
     /// Checks drawings and records their inputs.
-    fn ask(&mut self, asked: Vec<SourceFile>, update: &mut Batch) {
-        let results = self.session.settled(|session| check_drawings(session, &asked, false));
-        for (file, (result, traces)) in asked.iter().zip(results) {
+    fn ask(&mut self, checked_files: Vec<SourceFile>, update: &mut Batch) {
+        let results =
+            self.session.with_stable_files(|session| check_drawings(session, &checked_files, false));
+        for (file, (result, traces)) in checked_files.iter().zip(results) {
             for directory in searched(&traces) {
                 self.names.take(&self.session, directory);
             }
@@ -309,22 +314,22 @@ impl<'a> Library<'a> {
             }
             update.before.extend(before.into_iter().flat_map(|result| result.diagnostics));
         }
-        self.ask_q_projects(&asked, update);
-        update.asked.extend(asked);
+        self.ask_q_projects(&checked_files, update);
+        update.checked_files.extend(checked_files);
     }
 
     /// Compares the Q-projects and drawings of which either was checked.
-    fn ask_q_projects(&mut self, asked: &[SourceFile], update: &mut Batch) {
+    fn ask_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Batch) {
         if self.pairs.is_none() {
             self.find_pairs(update);
         }
         let Some(pairs) = self.pairs.as_ref().filter(|pairs| !pairs.is_empty()) else { return };
         let db = self.session.db();
-        let asked: HashSet<&Utf8PathBuf> = asked.iter().map(|file| file.path(db)).collect();
-        let open = pairs.iter().filter(|pair| pair.iter().any(|path| asked.contains(path)));
+        let checked_files: HashSet<&Utf8PathBuf> = checked_files.iter().map(|file| file.path(db)).collect();
+        let open = pairs.iter().filter(|pair| pair.iter().any(|path| checked_files.contains(path)));
         let open: Vec<[Utf8PathBuf; 2]> = open.cloned().collect();
         let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
-        let found = self.session.settled(|session| session.judge_q_projects(&files));
+        let found = self.session.with_stable_files(|session| session.compare_q_projects(&files));
         for (pair, found) in open.into_iter().zip(found) {
             update.now.extend_from_slice(&found);
             update.before.extend(self.q_projects.insert(pair, found).into_iter().flatten());

@@ -5,9 +5,9 @@
 //! the remaining drawings are checked together with those that the new changes affect.
 
 mod changes;
+mod directories;
 mod library;
 mod names;
-mod places;
 mod reverse;
 mod writing;
 
@@ -19,13 +19,13 @@ use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
-use crate::emit::Delivered;
+use crate::emit::ProgramOutcome;
 use crate::posting::PostProcessor;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
 pub use changes::Bell;
-use changes::{Anew, Batch, Watcher};
+use changes::{Batch, Restart, Watcher};
 use library::Library;
 use writing::Writer;
 
@@ -53,18 +53,18 @@ pub trait Listener {
     /// A wake-up was requested through the [`Bell`].
     fn rung(&self, _: &mut Session<'_>) {}
     /// All drawings were checked for the first time.
-    fn begun(&self, _: &Beginning) {}
+    fn begun(&self, _: &FirstCheck) {}
     /// A batch of changes was processed.
     fn updated(&self, _: &Update) {}
     /// Programs were written.
-    fn written(&self, _: &[Delivered]) {}
+    fn written(&self, _: &[ProgramOutcome]) {}
     /// Programs cannot be written because options are missing; the text says which.
     fn refused(&self, _: &str) {}
 }
 
 /// The result of the first check.
 #[derive(Debug)]
-pub struct Beginning {
+pub struct FirstCheck {
     /// Number of drawings.
     pub drawings: usize,
     /// Number of their paths.
@@ -102,7 +102,7 @@ pub struct Update {
 
 /// Why watching ended.
 #[derive(Debug)]
-pub enum Ended {
+pub enum WatchEnd {
     /// No more changes will arrive, or the end was requested.
     Over,
     /// The configuration, or a file of the configured post-processor, changed: everything must be restarted.
@@ -121,31 +121,31 @@ pub enum Ended {
 
 impl Request<'_> {
     /// Watches until it is told to end, or until everything must be restarted.
-    pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> Ended {
+    pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> WatchEnd {
         let session = Session::traced(workspace);
         if self.inputs.inputs.is_empty() && !session.has_library() {
-            return Ended::NothingNamed;
+            return WatchEnd::NothingNamed;
         }
         let writer = match Writer::new(workspace, listener, self) {
             Ok(writer) => writer,
-            Err(problems) => return Ended::BadPost(problems),
+            Err(problems) => return WatchEnd::BadPost(problems),
         };
         if self.emits && workspace.settings.emit.targets.value.is_empty() {
-            return Ended::NoTargets;
+            return WatchEnd::NoTargets;
         }
         // Start before anything is read, so that no change is missed.
         match Watcher::new(&session, self, &writer.sources()) {
             Ok(watcher) => {
                 let library = Library::new(session, self.inputs);
-                Watching { listener, library, writer, watcher, revision: 0 }.run()
+                WatchLoop { listener, library, writer, watcher, revision: 0 }.run()
             }
-            Err(reason) => Ended::CannotWatch(reason.to_string()),
+            Err(reason) => WatchEnd::CannotWatch(reason.to_string()),
         }
     }
 }
 
 /// State of a watched library.
-struct Watching<'a> {
+struct WatchLoop<'a> {
     listener: &'a dyn Listener,
     library: Library<'a>,
     writer: Writer<'a>,
@@ -159,15 +159,15 @@ const FIRST_PORTION: usize = 512;
 /// Number of drawings checked between polls for new changes.
 const PORTION: usize = 64;
 
-impl Watching<'_> {
-    fn run(mut self) -> Ended {
+impl WatchLoop<'_> {
+    fn run(mut self) -> WatchEnd {
         self.listener.bell(self.watcher.bell());
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
-                Batch::Anew(Anew::Configuration) => return Ended::ConfigurationChanged,
-                Batch::Anew(Anew::Directories) => return Ended::DirectoriesChanged,
-                Batch::Over => return Ended::Over,
+                Batch::Restart(Restart::Configuration) => return WatchEnd::ConfigurationChanged,
+                Batch::Restart(Restart::Directories) => return WatchEnd::DirectoriesChanged,
+                Batch::Over => return WatchEnd::Over,
                 Batch::Rung => self.listener.rung(self.library.session_mut()),
                 Batch::Changes(changes) => self.update(&changes),
             }
@@ -183,15 +183,15 @@ impl Watching<'_> {
             let portion = self.library.ask_portion(FIRST_PORTION, &mut found);
             self.tell(&portion);
         }
-        let written = self.writer.begin(self.library.session_mut(), &found.asked);
-        let programs = self.writer.written(self.library.session(), &found.asked);
+        let written = self.writer.begin(self.library.session_mut(), &found.checked_files);
+        let programs = self.writer.written(self.library.session(), &found.checked_files);
         if !programs.is_empty() {
             self.tell(&programs);
         }
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
         let diagnostics = self.library.session().with_hints([found.now, written].concat());
-        self.listener.begun(&Beginning { drawings, paths, diagnostics, time });
+        self.listener.begun(&FirstCheck { drawings, paths, diagnostics, time });
     }
 
     fn update(&mut self, changes: &changes::Changes) {
@@ -200,10 +200,10 @@ impl Watching<'_> {
             return;
         }
         self.revision += 1;
-        let asked = self.work_on(found);
+        let checked_files = self.work_on(found);
         // This may take as long as the time limit allows, so it must not delay the results of the change itself.
         if !self.library.is_behind() && !self.watcher.has_news(self.library.session()) {
-            let again = self.library.try_again(&self.writer.passing(), &asked);
+            let again = self.library.try_again(&self.writer.passing(), &checked_files);
             if self.library.is_behind() || again.has_news() {
                 self.work_on(again);
             }
@@ -228,7 +228,8 @@ impl Watching<'_> {
         }
         self.library.leave(&mut found);
         let time = begun.elapsed();
-        let library::Batch { changed, asked, open, removed, tried_again, before, now, problems } = found;
+        let library::Batch { changed, checked_files, open, removed, tried_again, before, now, problems } =
+            found;
         let session = self.library.session();
         self.listener.updated(&Update {
             revision: self.revision,
@@ -236,19 +237,19 @@ impl Watching<'_> {
             removed,
             problems,
             tried_again,
-            checked: asked.len(),
+            checked: checked_files.len(),
             open,
             before: session.with_hints(before),
             now: session.with_hints([now, written].concat()),
             time,
         });
-        asked
+        checked_files
     }
 
     /// Reports checked drawings, and handles a pending wake-up.
     fn tell(&mut self, checked: &[SourceFile]) {
         let session = self.library.session_mut();
-        self.listener.checked(session, checked, self.writer.poster());
+        self.listener.checked(session, checked, self.writer.post_processor());
         _ = self.watcher.is_over(session);
         if self.watcher.has_been_rung() {
             self.listener.rung(session);

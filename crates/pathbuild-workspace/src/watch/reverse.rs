@@ -10,14 +10,14 @@ use crate::session::Coverage;
 
 /// The reverse index of all traces.
 #[derive(Default)]
-pub(super) struct Reverse {
+pub(super) struct ReverseIndex {
     by_file: HashMap<SourceFile, HashSet<SourceFile>>,
     by_lookup: HashMap<Utf8PathBuf, BTreeMap<PathName, HashSet<SourceFile>>>,
     /// The traces of each drawing, needed to remove it.
     traces: HashMap<SourceFile, Vec<Trace>>,
 }
 
-impl Reverse {
+impl ReverseIndex {
     /// Records the inputs of a drawing's results, replacing earlier ones.
     pub(super) fn set(&mut self, drawing: SourceFile, traces: Vec<Trace>) {
         // Most edits change geometry but not what is embedded.

@@ -7,9 +7,9 @@ use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 
 use super::{Listener, Request};
-use crate::emit::{self, Configured, Owners};
+use crate::emit::{self, Owners, TargetPatterns};
 use crate::posting::{PostArguments, PostProcessor};
-use crate::session::{Session, is_passing};
+use crate::session::{Session, is_transient};
 use crate::workspace::Workspace;
 
 /// Writes programs, if `--emit` is given.
@@ -17,7 +17,7 @@ pub(super) struct Writer<'a> {
     workspace: &'a Workspace,
     listener: &'a dyn Listener,
     is_on: bool,
-    poster: Option<PostProcessor>,
+    post_processor: Option<PostProcessor>,
     owners: Owners,
     /// Diagnostics of writing the programs of each drawing, if there are any.
     found: BTreeMap<Utf8PathBuf, Vec<Diagnostic>>,
@@ -25,7 +25,7 @@ pub(super) struct Writer<'a> {
 
 /// The outcome of writing the programs of some drawings.
 #[derive(Default)]
-pub(super) struct Writing {
+pub(super) struct WriteOutcome {
     /// Diagnostics of the previous time.
     pub(super) before: Vec<Diagnostic>,
     /// Current diagnostics.
@@ -43,35 +43,36 @@ impl<'a> Writer<'a> {
         request: &Request<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let is_needed = request.emits || request.lists;
-        let poster =
+        let post_processor =
             if is_needed { PostProcessor::of_run(workspace, None, PostArguments::default())? } else { None };
         let (owners, found) = (Owners::default(), BTreeMap::new());
-        Ok(Self { workspace, listener, is_on: request.emits, poster, owners, found })
+        Ok(Self { workspace, listener, is_on: request.emits, post_processor, owners, found })
     }
 
     /// The post-processor to write programs through; `None` for native programs, or if it is not needed.
-    pub(super) fn poster(&self) -> Option<&PostProcessor> {
-        self.poster.as_ref()
+    pub(super) fn post_processor(&self) -> Option<&PostProcessor> {
+        self.post_processor.as_ref()
     }
 
     /// The drawings with paths that are targets.
     pub(super) fn written(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
-        let mut configured = Configured::new(&self.workspace.settings);
+        let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {
-            path_names(session.db(), **file).iter().filter(|name| configured.means(name.as_str())).count() > 0
+            path_names(session.db(), **file).iter().filter(|name| configured.matches(name.as_str())).count()
+                > 0
         };
         if self.is_on { files.iter().filter(|file| is_written(file)).copied().collect() } else { Vec::new() }
     }
 
     /// The files that the post-processor is read from.
     pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
-        self.poster.as_ref().map(PostProcessor::sources).unwrap_or_default()
+        self.post_processor.as_ref().map(PostProcessor::sources).unwrap_or_default()
     }
 
     /// Drawings whose programs have transient diagnostics or could not be written. No event tells when that changes, so they are tried
     /// again.
     pub(super) fn passing(&self) -> BTreeSet<Utf8PathBuf> {
-        let may_pass = |found: &Diagnostic| is_passing(found) || found.code() == Code::CannotWrite;
+        let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;
         let passing = self.found.iter().filter(|(_, found)| found.iter().any(may_pass));
         passing.map(|(drawing, _)| drawing.clone()).collect()
     }
@@ -81,54 +82,55 @@ impl<'a> Writer<'a> {
     pub(super) fn release(
         &mut self,
         session: &Session<'_>,
-        asked: impl Iterator<Item = SourceFile>,
+        checked_files: impl Iterator<Item = SourceFile>,
         removed: &BTreeSet<Utf8PathBuf>,
     ) -> Vec<Diagnostic> {
         let db = session.db();
         let gone = removed.iter().filter_map(|drawing| self.found.remove(drawing)).flatten().collect();
         let removed = removed.iter().map(|drawing| db.file(drawing));
-        let released: HashSet<SourceFile> = asked.chain(removed).collect();
+        let released: HashSet<SourceFile> = checked_files.chain(removed).collect();
         self.owners.retain(|_, owner| !released.contains(&owner.file(db)));
         gone
     }
 
     /// Writes all targets. Returns diagnostics of the programs, and of targets that match no path.
     pub(super) fn begin(&mut self, session: &mut Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
-        let mut configured = Configured::new(&self.workspace.settings);
+        let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut problems = self.write_some(session, all, &mut configured).now;
-        problems.extend(configured.unmet().filter(|_| self.is_on));
+        problems.extend(configured.unmatched().filter(|_| self.is_on));
         problems
     }
 
     /// Writes the targets among the paths of drawings that were checked.
-    pub(super) fn write(&mut self, session: &mut Session<'_>, asked: &[SourceFile]) -> Writing {
-        self.write_some(session, asked, &mut Configured::new(&self.workspace.settings))
+    pub(super) fn write(&mut self, session: &mut Session<'_>, checked_files: &[SourceFile]) -> WriteOutcome {
+        self.write_some(session, checked_files, &mut TargetPatterns::new(&self.workspace.settings))
     }
 
     fn write_some(
         &mut self,
         session: &mut Session<'_>,
         files: &[SourceFile],
-        configured: &mut Configured<'_>,
-    ) -> Writing {
+        configured: &mut TargetPatterns<'_>,
+    ) -> WriteOutcome {
         if !self.is_on {
-            return Writing::default();
+            return WriteOutcome::default();
         }
         let (mut targets, mut before) = (Vec::new(), Vec::new());
         for file in files {
             before.extend(self.found.remove(file.path(session.db())).into_iter().flatten());
-            let names = path_names(session.db(), *file).iter().filter(|name| configured.means(name.as_str()));
+            let names =
+                path_names(session.db(), *file).iter().filter(|name| configured.matches(name.as_str()));
             targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
         }
-        match emit::write(session, self.poster.as_ref(), &targets, &mut self.owners) {
+        match emit::write(session, self.post_processor.as_ref(), &targets, &mut self.owners) {
             Ok(emission) => {
                 self.listener.written(&emission.delivered);
                 self.keep(session, &emission.diagnostics);
-                Writing { before, now: emission.diagnostics }
+                WriteOutcome { before, now: emission.diagnostics }
             }
             Err(refusal) => {
                 self.listener.refused(&refusal);
-                Writing { before, now: Vec::new() }
+                WriteOutcome { before, now: Vec::new() }
             }
         }
     }

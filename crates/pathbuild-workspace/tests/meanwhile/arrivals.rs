@@ -10,7 +10,7 @@ use std::time::Duration;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_testkit::{Workshop, sheet};
-use pathbuild_workspace::watch::{Beginning, Bell, Ended, Listener, Request, Update};
+use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
 use pathbuild_workspace::{Inputs, check};
 
 use crate::Chance;
@@ -83,7 +83,7 @@ impl Listener for Driver<'_> {
         });
     }
 
-    fn begun(&self, beginning: &Beginning) {
+    fn begun(&self, beginning: &FirstCheck) {
         self.told.borrow_mut().extend(beginning.diagnostics.iter().map(shown));
         self.settle();
     }
@@ -116,7 +116,7 @@ fn drive(name: String, place: OnDisk, step: Step<'_>) -> u32 {
     workspace.settings.watch.debounce.value = Duration::from_millis(10);
     let request = Request { inputs: &inputs, emits: false, lists: false, polls: false };
     let ended = request.run(&workspace, &driver);
-    assert!(matches!(ended, Ended::Over), "{ended:?}");
+    assert!(matches!(ended, WatchEnd::Over), "{ended:?}");
     driver.ticks.get()
 }
 

@@ -83,7 +83,7 @@ fn paths(place: &OnDisk) -> Vec<(String, String)> {
     let inputs = Inputs::default();
     let workspace = place.workspace(&inputs, Arc::new(OsSystem), false);
     let mut session = Session::new(&workspace);
-    let listed = list::Request { inputs: &inputs, poster: None }.run(&mut session).unwrap();
+    let listed = list::Request { inputs: &inputs, post_processor: None }.run(&mut session).unwrap();
     listed.paths.into_iter().map(|path| (path.name.as_str().to_owned(), path.drawing.into_string())).collect()
 }
 
@@ -99,13 +99,14 @@ const COMMANDS: [Finding; 5] = [
     ("emit", |workspace, inputs| emitted(workspace, inputs, Task::Print)),
     ("emit --check", |workspace, inputs| emitted(workspace, inputs, Task::Compare { moves_only: false })),
     ("list", |workspace, inputs| {
-        let listed = list::Request { inputs, poster: None }.run(&mut Session::new(workspace)).unwrap();
+        let listed =
+            list::Request { inputs, post_processor: None }.run(&mut Session::new(workspace)).unwrap();
         let of_paths = listed.paths.into_iter().flat_map(|path| path.diagnostics);
         of_paths.chain(listed.diagnostics).collect()
     }),
     ("graph", |workspace, inputs| {
         let session = Session::new(workspace);
-        let wanted = session.wanted(inputs);
+        let wanted = session.select(inputs);
         let files = wanted.whole(&session);
         let mut targets: Vec<_> =
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
@@ -116,7 +117,8 @@ const COMMANDS: [Finding; 5] = [
 ];
 
 fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic> {
-    let request = emit::Request { inputs, task, poster: None, join: None, deps: None, removes_stale: false };
+    let request =
+        emit::Request { inputs, task, post_processor: None, join: None, deps: None, removes_stale: false };
     request.run(&mut request.session(workspace)).map(|made| made.diagnostics).unwrap_or_default()
 }
 

@@ -9,7 +9,7 @@ use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_workspace::Inputs;
-use pathbuild_workspace::emit::{Current, current};
+use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
 use pathbuild_workspace::session::Session;
 
 use crate::mischief::{Event, Mischief};
@@ -131,9 +131,11 @@ fn no_program_is_held_against_what_took_too_long() {
     let is_given_up = |time: &i64| {
         let workspace = place.workspace(&Inputs::default(), busy(*time), false);
         let beside = place.path().join("lib");
-        match current(&mut Session::new(&workspace), &program, &beside, None) {
-            Current::Same => false,
-            Current::Wrong(found) if matches!(&*found, [one] if one.code() == Code::LimitReached) => true,
+        match compare_with_drawing(&mut Session::new(&workspace), &program, &beside, None) {
+            DrawingComparison::Same => false,
+            DrawingComparison::Wrong(found) if matches!(&*found, [one] if one.code() == Code::LimitReached) => {
+                true
+            }
             other => panic!("the clock is looked at for the {time}th time: {other:?}"),
         }
     };

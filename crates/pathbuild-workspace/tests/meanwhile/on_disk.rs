@@ -119,7 +119,7 @@ impl OnDisk {
         let request = emit::Request {
             inputs: &inputs,
             task: Task::Write { force: false },
-            poster: None,
+            post_processor: None,
             join: None,
             deps: None,
             removes_stale,
@@ -131,11 +131,11 @@ impl OnDisk {
     pub(crate) fn emit_posted(&self, system: Arc<dyn System>, is_kept: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
-        let poster = PostProcessor::of_run(&workspace, None, PostArguments::default()).unwrap();
+        let post_processor = PostProcessor::of_run(&workspace, None, PostArguments::default()).unwrap();
         let request = emit::Request {
             inputs: &inputs,
             task: Task::Write { force: false },
-            poster: poster.as_ref(),
+            post_processor: post_processor.as_ref(),
             join: None,
             deps: None,
             removes_stale: false,

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_workspace::watch::{Beginning, Bell, Ended, Listener, Request, Update};
+use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
 use pathbuild_workspace::{Inputs, Workspace};
 
 use crate::mischief::{Event, Mischief};
@@ -51,7 +51,7 @@ impl Listener for Editor {
         self.end_after(Duration::from_secs(20));
     }
 
-    fn begun(&self, beginning: &Beginning) {
+    fn begun(&self, beginning: &FirstCheck) {
         self.found.replace(beginning.diagnostics.iter().map(Diagnostic::code).collect());
         self.is_written.set(self.has_program());
         if beginning.diagnostics.is_empty() {
@@ -117,7 +117,7 @@ fn watch_place(
     let workspace = editor.place.workspace(&inputs, Arc::<Mischief>::clone(&editor.mischief), false);
     let workspace = Workspace { jobs: Some(1), ..workspace };
     let request = Request { inputs: &inputs, emits, lists: false, polls: false };
-    assert!(matches!(request.run(&workspace, &editor), Ended::Over));
+    assert!(matches!(request.run(&workspace, &editor), WatchEnd::Over));
     editor
 }
 
@@ -197,7 +197,7 @@ impl Listener for Adder {
         self.bell.replace(Some(bell));
     }
 
-    fn begun(&self, beginning: &Beginning) {
+    fn begun(&self, beginning: &FirstCheck) {
         assert!(beginning.diagnostics.is_empty() && beginning.drawings == 2, "{beginning:#?}");
         self.place.draw("lib/1002.1P.dxf", &OTHER.1.replace("1001", "1002"));
     }
@@ -228,7 +228,7 @@ fn a_directory_that_cannot_be_listed_for_a_moment_loses_no_drawing() {
     let inputs = Inputs::default();
     let workspace = adder.place.workspace(&inputs, mischief, false);
     let request = Request { inputs: &inputs, emits: false, lists: false, polls: false };
-    assert!(matches!(request.run(&workspace, &adder), Ended::Over));
+    assert!(matches!(request.run(&workspace, &adder), WatchEnd::Over));
     let told = adder.told.borrow();
     let [failed, again] = &**told else { panic!("{told:#?}") };
     let codes = |found: &[Diagnostic]| found.iter().map(Diagnostic::code).collect::<Vec<_>>();

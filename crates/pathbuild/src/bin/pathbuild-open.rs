@@ -14,7 +14,7 @@ fn main() -> ExitCode {
     let own = env::current_exe().ok().and_then(|program| program.parent().map(Path::to_owned));
     match run(&dropped, own.as_deref()) {
         Ok(None) => ExitCode::SUCCESS,
-        Ok(Some(said)) => show(&said),
+        Ok(Some(message)) => show(&message),
         Err(error) => show(&format!("{MISSING}\n{error}\n")),
     }
 }
@@ -37,10 +37,10 @@ fn run(dropped: &[PathBuf], own: Option<&Path>) -> io::Result<Option<String>> {
         _ => _ = command.arg("--").args(dropped),
     }
     let output = command.spawn()?.wait_with_output()?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     // A program with errors is displayed together with them.
-    let is_shown = said.lines().any(|line| ends_in(Path::new(line), "html"));
-    Ok(if output.status.success() || is_shown { None } else { Some(said) })
+    let is_shown = message.lines().any(|line| ends_in(Path::new(line), "html"));
+    Ok(if output.status.success() || is_shown { None } else { Some(message) })
 }
 
 /// The program beside this one, or else the one on the search path.

@@ -18,7 +18,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::Findings;
 use pathbuild_workspace::config::{positive, regex};
-use pathbuild_workspace::emit::{Current, current};
+use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
 use pathbuild_workspace::files::{cannot_write, unreadable};
 use pathbuild_workspace::session::Session;
 
@@ -191,7 +191,7 @@ impl<'a> Adjustment<'a> {
         }
         let written = self.context.system.write(&job.milling, &adjusted.program);
         let written = written.map_err(|reason| vec![cannot_write(&job.milling, reason)])?;
-        self.say_written(&job.milling, written, &adjusted);
+        self.report_written(&job.milling, written, &adjusted);
         self.warnings.extend(adjusted.warnings);
         Ok(())
     }
@@ -203,22 +203,25 @@ impl<'a> Adjustment<'a> {
             context.choose("not compared with its drawing", "nicht mit der Zeichnung verglichen");
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
         let mut session = Session::new(context);
-        let found = current(&mut session, clean, beside, job.drawing.as_deref());
-        let is_other = matches!(found, Current::Other { .. } | Current::Edited { .. } | Current::Wrong(_));
+        let found = compare_with_drawing(&mut session, clean, beside, job.drawing.as_deref());
+        let is_other = matches!(
+            found,
+            DrawingComparison::Other { .. } | DrawingComparison::Edited { .. } | DrawingComparison::Wrong(_)
+        );
         if is_other && let Some(problem) = self.other_mode(job, clean) {
             return Err(vec![problem]);
         }
         match found {
-            Current::Same => return Ok(true),
-            Current::Unknown => {}
-            Current::Wrong(problems) => return Err(problems),
-            Current::Other { drawing } => {
+            DrawingComparison::Same => return Ok(true),
+            DrawingComparison::Unknown => {}
+            DrawingComparison::Wrong(problems) => return Err(problems),
+            DrawingComparison::Other { drawing } => {
                 let problem = Diagnostic::new(&probes::OLD_PROGRAM)
                     .with("name", job.clean.file_name().unwrap_or_default())
                     .with("drawing", drawing.as_str());
                 return Err(vec![problem.in_file(&job.clean)]);
             }
-            Current::Edited { drawing, other } => {
+            DrawingComparison::Edited { drawing, other } => {
                 let problem = Diagnostic::new(&probes::EDITED_PROGRAM)
                     .with("name", job.clean.file_name().unwrap_or_default())
                     .with("drawing", drawing.as_str());
@@ -226,11 +229,11 @@ impl<'a> Adjustment<'a> {
                 quote([&mut problem], clean);
                 return Err(vec![problem.in_file(&job.clean)]);
             }
-            Current::NoDrawing { drawing } => {
+            DrawingComparison::NoDrawing { drawing } => {
                 let is_missing = context.choose("is not found", "wird nicht gefunden");
                 context.printer.status(format_args!("{}: {not_compared}: {drawing} {is_missing}", job.clean));
             }
-            Current::NeedsOptions(missing) => {
+            DrawingComparison::NeedsOptions(missing) => {
                 let options: Vec<&str> = missing.iter().map(|option| option.name()).collect();
                 let give = context.choose("give", "es fehlt");
                 let options = options.join(" --");
@@ -245,12 +248,13 @@ impl<'a> Adjustment<'a> {
         let is_compatible = self.context.settings.general.compatible.value;
         let workspace = self.context.in_mode(!is_compatible);
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
-        let found = current(&mut Session::new(&workspace), clean, beside, job.drawing.as_deref());
+        let found =
+            compare_with_drawing(&mut Session::new(&workspace), clean, beside, job.drawing.as_deref());
         let message =
             if is_compatible { &probes::NOT_COMPATIBLE_PROGRAM } else { &probes::COMPATIBLE_PROGRAM };
         let name = job.clean.file_name().unwrap_or_default();
         let problem = || Diagnostic::new(message).with("name", name).in_file(&job.clean);
-        matches!(found, Current::Same).then(problem)
+        matches!(found, DrawingComparison::Same).then(problem)
     }
 
     /// Reads program, values and log. Reports every file that cannot be read.
@@ -276,7 +280,7 @@ impl<'a> Adjustment<'a> {
         }
     }
 
-    fn say_written(&self, file: &Utf8Path, written: WriteOutcome, adjusted: &Adjusted) {
+    fn report_written(&self, file: &Utf8Path, written: WriteOutcome, adjusted: &Adjusted) {
         self.context.row_of_json(|| {
             let (kind, mut row) = output_row(self.context, file, written);
             row["heights"] = adjusted.heights.into();

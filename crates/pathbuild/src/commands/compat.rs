@@ -12,7 +12,6 @@
 //! Programs are written with `--compatible`. A value may follow its option or be attached to it, optionally with `=` or `:` between (except
 //! for regular expressions, which may begin with these characters). Case is ignored, and `-` may replace `/`. Options with two hyphens are
 //! those of pathbuild. On systems other than Windows, `\` in file names is read as `/`.
-//! expressions, which may begin so), or follow it. Case does not count, and `-` stands for `/` as well. Options with two hyphens are ours. Elsewhere than on Windows, `\` in names of files is read as `/`.
 
 use std::ffi::OsString;
 
@@ -88,18 +87,18 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
         let phrase = if lang == Lang::De { de } else { en };
         phrase.replace("{}", argument)
     };
-    let mut read = Read::default();
+    let mut parsed = CompatArguments::default();
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match option(argument) {
             None if argument.starts_with("--") => {
-                read.own.push(argument.clone());
+                parsed.own.push(argument.clone());
                 let value = takes_value(argument).then(|| rest.next()).flatten();
-                read.own.extend(value.cloned());
+                parsed.own.extend(value.cloned());
             }
-            None => read.files.push(file_name(argument)),
+            None => parsed.files.push(file_name(argument)),
             Some(('h' | '?', _)) => return Ok(Translated::Help(named_lang_in(arguments))),
-            Some(('c', "")) => read.check = true,
+            Some(('c', "")) => parsed.check = true,
             Some((letter, glued)) => {
                 let value = if glued.is_empty() {
                     rest.next().map(String::as_str)
@@ -109,24 +108,24 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
                 let value = value
                     .filter(|value| !value.is_empty())
                     .ok_or_else(|| say("{} needs a value", "zu {} fehlt der Wert", argument))?;
-                if !read.take(letter, value) {
+                if !parsed.take(letter, value) {
                     return Err(say("unknown option {}", "unbekannte Option {}", argument));
                 }
             }
         }
     }
     // Without arguments, pathbuild would process the whole library.
-    if read.files.is_empty() {
+    if parsed.files.is_empty() {
         return Err(say("no file is named", "es ist keine Datei genannt", ""));
     }
-    if read.lacks_correction() {
+    if parsed.lacks_correction() {
         return Err(say(
             "{} is missing: the largest allowed difference between a measured and a drawn height in mm, as in /m0.5",
             "{} fehlt: die größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe in mm, etwa /m0,5",
             "/m",
         ));
     }
-    Ok(Translated::Commands(read.commands()))
+    Ok(Translated::Commands(parsed.commands()))
 }
 
 /// The language of the last `/l` in the command line.
@@ -177,7 +176,7 @@ pub(crate) fn spliced(arguments: &[OsString], given: usize, translated: &[String
 }
 
 #[derive(Default)]
-struct Read {
+struct CompatArguments {
     check: bool,
     options: Vec<String>,
     shown: Option<String>,
@@ -187,7 +186,7 @@ struct Read {
     files: Vec<String>,
 }
 
-impl Read {
+impl CompatArguments {
     /// Takes an option; returns whether it exists.
     fn take(&mut self, letter: char, value: &str) -> bool {
         match letter {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang, Note};
-use pathbuild_workspace::emit::{Delivered, Emission, Request, State, Task};
+use pathbuild_workspace::emit::{Emission, ProgramOutcome, Request, State, Task};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, run_post_build};
 
 use crate::args::{EmitArgs, Format};
@@ -15,24 +15,28 @@ use serde_json::{Value, json};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
-    let wishes = PostArguments {
+    let arguments = PostArguments {
         date: args.date.as_deref().map(Into::into),
         dialect: args.dialect.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };
-    match PostProcessor::of_run(context, args.post.as_deref(), wishes) {
-        Ok(poster) => match refusal(context, args, poster.as_ref()) {
+    match PostProcessor::of_run(context, args.post.as_deref(), arguments) {
+        Ok(post_processor) => match refusal(context, args, post_processor.as_ref()) {
             Some(refusal) => context.usage(refusal),
-            None => emit(context, args, poster.as_ref()),
+            None => emit(context, args, post_processor.as_ref()),
         },
         Err(problems) => context.fail(problems),
     }
 }
 
 /// Refuses options that require a post-processor.
-fn refusal<'a>(context: &'a Context, args: &EmitArgs, poster: Option<&PostProcessor>) -> Option<&'a str> {
+fn refusal<'a>(
+    context: &'a Context,
+    args: &EmitArgs,
+    post_processor: Option<&PostProcessor>,
+) -> Option<&'a str> {
     let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
-    match poster {
+    match post_processor {
         None if args.join.is_some() => Some(context.choose(
             "--join needs --post (or `post` in pathbuild.toml): the native program has one path and no tool changes",
             "--join braucht --post (oder `post` in pathbuild.toml): das eigene Programm hat einen Pfad und keine Werkzeugwechsel",
@@ -45,11 +49,11 @@ fn refusal<'a>(context: &'a Context, args: &EmitArgs, poster: Option<&PostProces
     }
 }
 
-fn emit(context: &Context, args: &EmitArgs, poster: Option<&PostProcessor>) -> ExitStatus {
+fn emit(context: &Context, args: &EmitArgs, post_processor: Option<&PostProcessor>) -> ExitStatus {
     let request = Request {
         inputs: &args.inputs,
         task: task(args),
-        poster,
+        post_processor,
         join: args.join.as_deref(),
         deps: args.deps.as_deref(),
         removes_stale: args.remove_stale,
@@ -120,7 +124,7 @@ fn left_out(diagnostics: &[Diagnostic]) -> Vec<String> {
 }
 
 /// Shows the outcome of all files, and the notes of post-processors. Returns whether all files are up to date.
-pub(super) fn show_all(context: &Context, delivered: &[Delivered]) -> bool {
+pub(super) fn show_all(context: &Context, delivered: &[ProgramOutcome]) -> bool {
     let mut is_current = true;
     let mut notes: Vec<&Note> = Vec::new();
     for delivered in delivered {
@@ -134,15 +138,18 @@ pub(super) fn show_all(context: &Context, delivered: &[Delivered]) -> bool {
 }
 
 /// Runs the commands that post-processors request for their output, and returns errors.
-fn post_builds(delivered: &[Delivered]) -> Vec<Diagnostic> {
-    let wanted = delivered.iter().filter_map(|delivered| {
+fn post_builds(delivered: &[ProgramOutcome]) -> Vec<Diagnostic> {
+    let commands = delivered.iter().filter_map(|delivered| {
         delivered.post_build.as_ref().filter(|(_, file)| delivered.has_written(file))
     });
-    wanted.filter_map(|(command, file)| run_post_build(command, file).err()).map(|failure| *failure).collect()
+    commands
+        .filter_map(|(command, file)| run_post_build(command, file).err())
+        .map(|failure| *failure)
+        .collect()
 }
 
 /// Shows the outcome of a program's files. Returns whether all of them are up to date.
-fn show(context: &Context, delivered: &Delivered) -> bool {
+fn show(context: &Context, delivered: &ProgramOutcome) -> bool {
     let mut is_current = true;
     for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
@@ -172,7 +179,7 @@ fn show(context: &Context, delivered: &Delivered) -> bool {
 }
 
 /// Shows how many files are up to date.
-fn count_current(context: &Context, delivered: &[Delivered], outdated: usize) {
+fn count_current(context: &Context, delivered: &[ProgramOutcome], outdated: usize) {
     let states = || delivered.iter().flat_map(|delivered| &delivered.files);
     let current = states().filter(|(_, state)| matches!(state, State::Current)).count();
     let (all, lang) = (states().count() + outdated, context.lang());
@@ -190,7 +197,7 @@ fn row(
     context: &Context,
     path: &Utf8Path,
     state: &State,
-    delivered: Option<&Delivered>,
+    delivered: Option<&ProgramOutcome>,
     is_program: bool,
 ) -> (&'static str, Value) {
     let state = match state {

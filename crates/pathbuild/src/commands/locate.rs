@@ -13,7 +13,7 @@ use pathbuild_workspace::Input;
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::session::{Session, Wanted};
+use pathbuild_workspace::session::{Selection, Session};
 
 /// Runs the command. Prints one line per definition: `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
@@ -21,10 +21,10 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named();
     }
-    let (found, problems) = session.settled(|session| {
-        let wanted = session.wanted(&args.inputs);
-        let mut problems = wanted.problems.clone();
-        let found = definitions(session, args, &wanted, &mut problems);
+    let (found, problems) = session.with_stable_files(|session| {
+        let selection = session.select(&args.inputs);
+        let mut problems = selection.problems.clone();
+        let found = definitions(session, args, &selection, &mut problems);
         (found, session.with_hints(problems))
     });
     for (file, place) in found {
@@ -43,7 +43,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
 fn definitions(
     session: &Session<'_>,
     args: &GraphArgs,
-    wanted: &Wanted,
+    selection: &Selection,
     problems: &mut Vec<Diagnostic>,
 ) -> Vec<(SourceFile, PathPlace)> {
     let db = session.db();
@@ -57,8 +57,8 @@ fn definitions(
         let files = session.definitions(&name, &directories);
         found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, &name)?))));
     }
-    let files = wanted.whole(session);
-    session.read_ahead(&files);
+    let files = selection.whole(session);
+    session.parse_ahead(&files);
     for file in files {
         problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
         let names = path_names(db, file).iter();

@@ -16,7 +16,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::cannot_write;
-use pathbuild_workspace::posting::{PostArguments, PostProcessor, furnish, run_post_build};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};
 
 use super::output_row;
 use super::program::Program;
@@ -59,13 +59,13 @@ fn show(context: &Context, name: &str) -> ExitStatus {
 
 /// Rewrites a program through a post-processor.
 fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
-    let wishes = PostArguments {
+    let arguments = PostArguments {
         date: args.date.as_deref().map(Into::into),
         dialect: args.target.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };
-    let poster = match PostProcessor::of_run(context, args.post.as_deref(), wishes) {
-        Ok(Some(poster)) => poster,
+    let post_processor = match PostProcessor::of_run(context, args.post.as_deref(), arguments) {
+        Ok(Some(post_processor)) => post_processor,
         Ok(None) => {
             return context.usage(context.choose(
                 "the native program is written from drawings only: `pathbuild emit`",
@@ -75,7 +75,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         Err(problems) => return context.fail(problems),
     };
     let mut diagnostics = Vec::new();
-    if let Err(errors) = written(context, file, args, &poster, &mut diagnostics) {
+    if let Err(errors) = written(context, file, args, &post_processor, &mut diagnostics) {
         diagnostics.extend(errors);
         context.show(&context.findings(diagnostics));
         return ExitStatus::Errors;
@@ -90,7 +90,7 @@ fn written(
     context: &Context,
     file: &Utf8Path,
     args: &PostArgs,
-    poster: &PostProcessor,
+    post_processor: &PostProcessor,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(), Vec<Diagnostic>> {
     let mut program = Program::open(context, file, &args.reading).map_err(|problem| vec![*problem])?;
@@ -103,11 +103,12 @@ fn written(
     let given = args.surface.as_deref().map(|text| number("surface", text)).transpose();
     let of_header = || Provenance::of_head(&program.text).and_then(|(provenance, _)| provenance.thickness);
     let surface = given.map_err(|fault| vec![*fault])?.or_else(of_header);
-    let output =
-        output(&program, steps, poster, surface, args.output.as_deref()).map_err(|mut problems| {
+    let output = output(&program, steps, post_processor, surface, args.output.as_deref()).map_err(
+        |mut problems| {
             program.place_own(&mut problems);
             problems
-        })?;
+        },
+    )?;
     diagnostics.extend(output.warnings.iter().cloned());
     say(context, &output.notes);
     let Some(to) = &args.output else {
@@ -131,7 +132,7 @@ fn written(
 fn output(
     program: &Program,
     steps: Vec<Step>,
-    poster: &PostProcessor,
+    post_processor: &PostProcessor,
     surface: Option<f64>,
     to: Option<&Utf8Path>,
 ) -> Result<Output, Vec<Diagnostic>> {
@@ -149,17 +150,18 @@ fn output(
     drop(steps);
     if let Some((provenance, title)) = head {
         // The new program is the same one in another dialect.
-        job.remarks = vec![Provenance { dialect: poster.reader(), ..provenance }.to_string().into(), title];
+        job.remarks =
+            vec![Provenance { dialect: post_processor.reader(), ..provenance }.to_string().into(), title];
     }
     if let Some(surface) = surface {
         job.set_surface(surface);
     }
     job.centre_arcs();
-    if let Some(feed) = poster.feed() {
+    if let Some(feed) = post_processor.feed() {
         job.set_missing_feeds(feed);
     }
-    let unknown = furnish(&mut job, poster.tools());
-    let mut output = poster.write(&job, to, &mut Vec::new())?;
+    let unknown = complete_tools(&mut job, post_processor.tools());
+    let mut output = post_processor.write(&job, to, &mut Vec::new())?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
     Ok(output)
 }

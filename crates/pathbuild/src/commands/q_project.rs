@@ -25,7 +25,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     }
     let mut session = Session::new(context);
     let drawing = session.file(&args.drawing);
-    let name = session.settled(|session| path_name(session, drawing, args.path_name.as_deref()));
+    let name = session.with_stable_files(|session| path_name(session, drawing, args.path_name.as_deref()));
     let name = match name {
         Ok(name) => name,
         Err(reason) => return context.usage(&reason),
@@ -37,7 +37,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
             "das Q-Projekt würde seine eigene Zeichnung überschreiben",
         ));
     }
-    match session.settled(|session| drawn(context, session, drawing, &output, &name)) {
+    match session.with_stable_files(|session| drawn(context, session, drawing, &output, &name)) {
         Ok((bytes, count)) => write(context, &session, &output, &bytes, count),
         Err(problems) => {
             let findings = context.findings(session.with_hints(problems));
@@ -116,7 +116,7 @@ fn drawn(
     })?;
     let mut preview = Session::with_drawing(context, output, bytes.clone());
     let (original, written) = (preview.file(drawing.path(session.db())), preview.file(output));
-    let problems = preview.settled(|preview| {
+    let problems = preview.with_stable_files(|preview| {
         let mut problems = faults(preview, written);
         problems.extend_from_slice(pathbuild_db::q_project_findings(preview.db(), original, written));
         problems

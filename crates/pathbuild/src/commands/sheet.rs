@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::shown;
 use pathbuild_workspace::config::types::SheetFormat;
-use pathbuild_workspace::emit::{SheetMade, sheet_bytes, sheet_of};
+use pathbuild_workspace::emit::{SheetOutcome, sheet_bytes, sheet_of};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
@@ -29,16 +29,17 @@ pub fn run(context: &Context, args: &SheetArgs) -> ExitStatus {
             }
         },
     };
-    let poster = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default()) {
-        Ok(poster) => poster,
+    let post_processor = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default())
+    {
+        Ok(post_processor) => post_processor,
         Err(problems) => return context.fail(problems),
     };
     let mut session = Session::new(context);
-    let made = match sheet_of(&mut session, poster.as_ref(), &args.what) {
-        Ok(made) => made,
+    let outcome = match sheet_of(&mut session, post_processor.as_ref(), &args.what) {
+        Ok(outcome) => outcome,
         Err(refusal) => return context.usage(&refusal),
     };
-    let SheetMade { sheet, diagnostics } = made;
+    let SheetOutcome { sheet, diagnostics } = outcome;
     let findings = context.findings(diagnostics);
     context.show(&findings);
     let Some(sheet) = sheet else { return ExitStatus::Errors };

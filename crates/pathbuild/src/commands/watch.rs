@@ -5,10 +5,10 @@ use std::collections::HashSet;
 use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::{Diagnostic, Lang, in_prose};
 use pathbuild_workspace::Inputs;
-use pathbuild_workspace::emit::Delivered;
+use pathbuild_workspace::emit::ProgramOutcome;
 use pathbuild_workspace::posting::PostProcessor;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::watch::{Beginning, Bell, Ended, Listener, Request, Update};
+use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
 
 use super::emit::show_all;
 use crate::args::WatchArgs;
@@ -38,22 +38,22 @@ pub(crate) fn run(
     let here = Inputs { inputs: vec![".".to_owned()] };
     let inputs = if is_everything { &here } else { &*args.inputs };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
-    Ok(match request.run(context, &Shown { context, page }) {
-        Ended::ConfigurationChanged => {
+    Ok(match request.run(context, &WatchPrinter { context, page }) {
+        WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
                 "the configuration or its post changed",
                 "die Konfiguration oder ihr Postprozessor wurde geändert",
             ));
         }
-        Ended::DirectoriesChanged => {
+        WatchEnd::DirectoriesChanged => {
             return Err(context.choose(
                 "a directory that is watched came, went or was replaced",
                 "ein beobachtetes Verzeichnis kam, ging oder wurde ersetzt",
             ));
         }
-        Ended::Over => ExitStatus::Success,
-        Ended::NothingNamed => context.nothing_named(),
-        Ended::NoTargets => {
+        WatchEnd::Over => ExitStatus::Success,
+        WatchEnd::NothingNamed => context.nothing_named(),
+        WatchEnd::NoTargets => {
             let reason = context.choose(
                 "nothing to emit: set `[emit] targets` in pathbuild.toml",
                 "nichts zu schreiben: `[emit] targets` in pathbuild.toml setzen",
@@ -61,11 +61,11 @@ pub(crate) fn run(
             halt(&[], reason);
             context.usage(reason)
         }
-        Ended::BadPost(problems) => {
+        WatchEnd::BadPost(problems) => {
             halt(&problems, "");
             context.fail(problems)
         }
-        Ended::CannotWatch(reason) => {
+        WatchEnd::CannotWatch(reason) => {
             let advice = context.choose(
                 "--poll looks for changes from time to time",
                 "--poll sieht von Zeit zu Zeit nach Änderungen",
@@ -78,19 +78,19 @@ pub(crate) fn run(
 }
 
 /// Prints the first check like `check`, then one line per changed file. Forwards all events to the page, if one is served.
-struct Shown<'a> {
+struct WatchPrinter<'a> {
     context: &'a Context,
     page: Option<Box<dyn Listener + 'a>>,
 }
 
-impl Shown<'_> {
+impl WatchPrinter<'_> {
     fn counted(&self, number: usize, en: [&str; 2], de: [&str; 2]) -> String {
         let lang = self.context.lang();
         counted(number, lang, if lang == Lang::De { de } else { en })
     }
 }
 
-impl Listener for Shown<'_> {
+impl Listener for WatchPrinter<'_> {
     fn bell(&self, bell: Bell) {
         if let Some(page) = &self.page {
             page.bell(bell.clone());
@@ -103,9 +103,14 @@ impl Listener for Shown<'_> {
         }
     }
 
-    fn checked(&self, session: &mut Session<'_>, drawings: &[SourceFile], poster: Option<&PostProcessor>) {
+    fn checked(
+        &self,
+        session: &mut Session<'_>,
+        drawings: &[SourceFile],
+        post_processor: Option<&PostProcessor>,
+    ) {
         if let Some(page) = &self.page {
-            page.checked(session, drawings, poster);
+            page.checked(session, drawings, post_processor);
         }
     }
 
@@ -115,11 +120,11 @@ impl Listener for Shown<'_> {
         }
     }
 
-    fn begun(&self, beginning: &Beginning) {
+    fn begun(&self, beginning: &FirstCheck) {
         if let Some(page) = &self.page {
             page.begun(beginning);
         }
-        let Beginning { drawings, paths, diagnostics, time } = beginning;
+        let FirstCheck { drawings, paths, diagnostics, time } = beginning;
         let context = self.context;
         let findings = context.findings(diagnostics.clone());
         context.show(&findings);
@@ -175,7 +180,7 @@ impl Listener for Shown<'_> {
         }
     }
 
-    fn written(&self, delivered: &[Delivered]) {
+    fn written(&self, delivered: &[ProgramOutcome]) {
         show_all(self.context, delivered);
     }
 

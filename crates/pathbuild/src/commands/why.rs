@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::check::kept_results;
+use pathbuild_workspace::check::cached_results;
 use pathbuild_workspace::session::Session;
 
 /// Runs the command: for each drawing, shows whether the result of the last `check` of the library still holds, and otherwise which inputs
@@ -21,36 +21,36 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named();
     }
-    let Some(result_store) = kept_results(context) else {
+    let Some(result_store) = cached_results(context) else {
         return context.usage(context.choose(
             "why needs kept results: there are none without a pathbuild.toml, or with --no-cache",
             "why braucht aufgehobene Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
         ));
     };
-    let wanted = session.settled(|session| session.wanted(&args.inputs));
-    let named = wanted.named.iter().copied().chain(wanted.paths.iter().map(|path| path.file));
+    let selection = session.with_stable_files(|session| session.select(&args.inputs));
+    let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
     let mut known = HashSet::new();
-    let all = wanted.drawings.iter().chain(named.map(|file| file.path(session.db())));
+    let all = selection.drawings.iter().chain(named.map(|file| file.path(session.db())));
     for drawing in all.filter(|drawing| known.insert(*drawing)) {
-        let answer = Answer { drawing, reasons: result_store.why(drawing.as_str()) };
+        let answer = DrawingState { drawing, reasons: result_store.why(drawing.as_str()) };
         match context.format {
             Format::Json => context.row("result", answer.json(context)),
             _ => context.printer.result(answer.text(context)),
         }
     }
-    let findings = context.findings(session.with_hints(wanted.problems));
+    let findings = context.findings(session.with_hints(selection.problems));
     context.show(&findings);
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
 /// State of a drawing's cached result.
-struct Answer<'a> {
+struct DrawingState<'a> {
     drawing: &'a Utf8PathBuf,
     /// Why it no longer holds; `None` if nothing is cached.
     reasons: Option<Vec<Reason>>,
 }
 
-impl Answer<'_> {
+impl DrawingState<'_> {
     fn text(&self, context: &Context) -> String {
         let (lines, state) = match self.reasons.as_deref() {
             None => (
@@ -69,7 +69,7 @@ impl Answer<'_> {
             ),
             Some(reasons) => (reasons, context.choose("would be compiled again", "würde neu übersetzt")),
         };
-        let lines = lines.iter().map(|reason| format!("  {}\n", shown::line(&said(context, reason))));
+        let lines = lines.iter().map(|reason| format!("  {}\n", shown::line(&describe(context, reason))));
         format!("{}: {state}\n", shown::line(self.drawing.as_str())) + &lines.collect::<String>()
     }
 
@@ -88,7 +88,7 @@ impl Answer<'_> {
     }
 }
 
-fn said(context: &Context, reason: &Reason) -> String {
+fn describe(context: &Context, reason: &Reason) -> String {
     match reason {
         Reason::File { path, is_gone: false } => {
             format!("{path} {}", context.choose("has changed", "hat sich geändert"))

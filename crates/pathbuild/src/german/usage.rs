@@ -25,11 +25,11 @@ pub(crate) fn reason(error: &Error) -> String {
 }
 
 fn what(error: &Error) -> String {
-    let one = |kind| said(error, kind).join(", ");
+    let one = |kind| context_values(error, kind).join(", ");
     let argument = one(ContextKind::InvalidArg);
     let value = one(ContextKind::InvalidValue);
     match error.kind() {
-        ErrorKind::ArgumentConflict => conflict(&argument, &said(error, ContextKind::PriorArg)),
+        ErrorKind::ArgumentConflict => conflict(&argument, &context_values(error, ContextKind::PriorArg)),
         ErrorKind::InvalidValue if value.is_empty() => {
             format!("zu '{argument}' fehlt der Wert{}", values(error, "möglich", ContextKind::ValidValue))
         }
@@ -51,7 +51,7 @@ fn what(error: &Error) -> String {
             format!("zu '{}' fehlt der Befehl{values}", one(ContextKind::InvalidSubcommand))
         }
         ErrorKind::MissingRequiredArgument => {
-            format!("es fehlt:{}", lines(&said(error, ContextKind::InvalidArg)))
+            format!("es fehlt:{}", lines(&context_values(error, ContextKind::InvalidArg)))
         }
         ErrorKind::InvalidUtf8 => "ein Argument ist kein gültiger Text (UTF-8)".to_owned(),
         _ => "der Aufruf ist falsch".to_owned(),
@@ -69,7 +69,7 @@ fn conflict(argument: &str, prior: &[String]) -> String {
 
 fn tips(error: &Error) -> Vec<String> {
     let kinds = [ContextKind::SuggestedSubcommand, ContextKind::SuggestedArg, ContextKind::SuggestedValue];
-    let near = kinds.into_iter().map(|kind| said(error, kind)).filter(|near| !near.is_empty());
+    let near = kinds.into_iter().map(|kind| context_values(error, kind)).filter(|near| !near.is_empty());
     let near = near.map(|near| format!("ist '{}' gemeint?", near.join("' oder '")));
     let Some(ContextValue::StyledStrs(other)) = error.get(ContextKind::Suggested) else {
         return near.collect();
@@ -92,7 +92,7 @@ fn tip_of(english: &str) -> Option<String> {
 }
 
 fn values(error: &Error, heading: &str, kind: ContextKind) -> String {
-    let values = said(error, kind);
+    let values = context_values(error, kind);
     if values.is_empty() { String::new() } else { format!("\n  [{heading}: {}]", values.join(", ")) }
 }
 
@@ -101,7 +101,7 @@ fn lines(items: &[String]) -> String {
 }
 
 /// Values that a clap error has in a certain context.
-fn said(error: &Error, kind: ContextKind) -> Vec<String> {
+fn context_values(error: &Error, kind: ContextKind) -> Vec<String> {
     match error.get(kind) {
         Some(ContextValue::String(text)) => vec![text.clone()],
         Some(ContextValue::Strings(texts)) => texts.clone(),

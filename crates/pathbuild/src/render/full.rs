@@ -111,7 +111,7 @@ fn header(diagnostic: &Diagnostic, view: &View) -> String {
 /// Notes, then the embeddings of the path from the inside out.
 fn further(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
     let note = view.choose("note", "Hinweis");
-    let notes = diagnostic.notes.iter().map(|it| format!("{note}: {}", it.text(view.lang)));
+    let notes = diagnostic.notes.iter().map(|remark| format!("{note}: {}", remark.text(view.lang)));
     let trace = diagnostic.trace.iter().rev().map(|step| place::embedding(step, view));
     notes.chain(trace).collect()
 }

@@ -11,11 +11,14 @@ use crate::report::Findings;
 const SHOWN: usize = 10;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
-    let of = |severity| findings.diagnostics.iter().filter(move |it| it.severity == severity);
-    let annotations =
-        [Severity::Error, Severity::Warning].into_iter().flat_map(|severity| of(severity).take(SHOWN));
-    let lines =
-        [Severity::Error, Severity::Warning].into_iter().flat_map(|severity| of(severity).skip(SHOWN));
+    let of_severity =
+        |severity| findings.diagnostics.iter().filter(move |diagnostic| diagnostic.severity == severity);
+    let annotations = [Severity::Error, Severity::Warning]
+        .into_iter()
+        .flat_map(|severity| of_severity(severity).take(SHOWN));
+    let lines = [Severity::Error, Severity::Warning]
+        .into_iter()
+        .flat_map(|severity| of_severity(severity).skip(SHOWN));
     let annotations = annotations.map(|diagnostic| annotation(diagnostic, view));
     let lines = lines.map(|diagnostic| shown::lines(&concise::line(diagnostic, view)).into_owned());
     annotations.chain(lines).collect()

@@ -9,8 +9,11 @@ use crate::report::{Findings, Fingerprint};
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let fingerprints = Fingerprint::of(&findings.diagnostics);
-    let issues =
-        findings.diagnostics.iter().zip(fingerprints).map(|(diagnostic, it)| issue(diagnostic, it, view));
+    let issues = findings
+        .diagnostics
+        .iter()
+        .zip(fingerprints)
+        .map(|(diagnostic, fingerprint)| issue(diagnostic, fingerprint, view));
     format!("{:#}\n", issues.collect::<Json>())
 }
 

@@ -35,7 +35,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
             "automationDetails": { "id": "pathbuild/" },
             "columnKind": "unicodeCodePoints",
             "invocations": [invocation(left_out, view)],
-            "results": results.into_iter().map(|(diagnostic, it)| result(diagnostic, it, &rules, view)).collect::<Vec<_>>(),
+            "results": results.into_iter().map(|(diagnostic, fingerprint)| result(diagnostic, fingerprint, &rules, view)).collect::<Vec<_>>(),
         }],
     });
     format!("{log:#}\n")

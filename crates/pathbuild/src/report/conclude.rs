@@ -13,12 +13,12 @@ use crate::exit::ExitStatus;
 use crate::numbers::{count, counted};
 use crate::render::View;
 use crate::table::table;
-use pathbuild_workspace::check::Checked;
+use pathbuild_workspace::check::CheckOutcome;
 use pathbuild_workspace::files;
 
 /// Ends a check of the given duration: applies severities and baseline, shows findings, writes reports and the summary, and returns the
 /// exit status.
-pub fn conclude(context: &Context, args: &CheckArgs, checked: Checked, time: Duration) -> ExitStatus {
+pub fn conclude(context: &Context, args: &CheckArgs, checked: CheckOutcome, time: Duration) -> ExitStatus {
     let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
     match &args.baseline {
         Some(file) if args.update_baseline => {
@@ -81,15 +81,15 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
         errors <= most
     };
     let shown: Vec<Diagnostic> = findings.diagnostics.iter().take_while(is_shown).cloned().collect();
-    let left = findings.diagnostics.len() - shown.len();
+    let hidden = findings.diagnostics.len() - shown.len();
     context.show_some(findings, &Findings { diagnostics: shown, checked: Vec::new() });
-    if left > 0 {
+    if hidden > 0 {
         let findings = match context.lang() {
             Lang::En => ["finding", "findings"],
             Lang::De => ["Meldung", "Meldungen"],
         };
         let phrase = context.choose("not shown (--max-errors)", "nicht gezeigt (--max-errors)");
-        context.printer.status(format_args!("{} {phrase}", counted(left, context.lang(), findings)));
+        context.printer.status(format_args!("{} {phrase}", counted(hidden, context.lang(), findings)));
     }
 }
 

@@ -17,7 +17,8 @@ const MOST_BYTES: usize = 256 << 20;
 
 /// One picture per finding; `None` if the finding has no place in a drawing.
 pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
-    let mut files: Vec<&Utf8Path> = diagnostics.iter().take(MOST).filter_map(|it| drawing(it)).collect();
+    let mut files: Vec<&Utf8Path> =
+        diagnostics.iter().take(MOST).filter_map(|diagnostic| drawing(diagnostic)).collect();
     files.sort_unstable();
     files.dedup();
     let scenes = Session::new(&context.workspace).drawn_scenes(&files);
@@ -38,7 +39,7 @@ pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Opt
 fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     diagnostic.place.point?;
     let file = diagnostic.file.as_deref()?;
-    file.extension().is_some_and(|it| it.eq_ignore_ascii_case("dxf")).then_some(file)
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")).then_some(file)
 }
 
 /// The place of a finding, with further places named in its message and notes.
@@ -54,7 +55,7 @@ fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
     });
     let mut related: Vec<[f64; 2]> = points.filter(|point| *point != at).collect();
     related.dedup();
-    let argument = |wanted: &str| diagnostic.arguments.iter().find(|(name, _)| *name == wanted);
+    let argument = |key: &str| diagnostic.arguments.iter().find(|(name, _)| *name == key);
     let circle = match (argument("centre"), argument("diameter")) {
         (Some((_, Value::Point(centre))), Some((_, Value::Number(diameter)))) => {
             Some((pair(*centre), diameter.0 / 2.0))
@@ -68,10 +69,10 @@ fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
 /// run.
 pub(crate) fn write(context: &Context, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
     let directory = context.working_directory.join(directory);
-    let made = pictures(context, &findings.diagnostics);
+    let images = pictures(context, &findings.diagnostics);
     let names = Fingerprint::of(&findings.diagnostics).into_iter().zip(&findings.diagnostics);
     let mut problems = Vec::new();
-    for (picture, (fingerprint, diagnostic)) in made.into_iter().zip(names) {
+    for (picture, (fingerprint, diagnostic)) in images.into_iter().zip(names) {
         let Some(picture) = picture else { continue };
         let file = directory.join(name(diagnostic, fingerprint));
         if let Err(reason) = context.system.write(&file, picture.as_bytes()) {
@@ -89,7 +90,7 @@ const LONGEST_STEM: usize = 80;
 fn name(diagnostic: &Diagnostic, fingerprint: Fingerprint) -> Utf8PathBuf {
     let stem = diagnostic.file.as_deref().and_then(Utf8Path::file_stem).unwrap_or_default();
     let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | ' ' | '~');
-    let stem: String = stem.chars().map(|it| if is_plain(it) { it } else { '-' }).collect();
+    let stem: String = stem.chars().map(|letter| if is_plain(letter) { letter } else { '-' }).collect();
     let stem = &stem[..stem.floor_char_boundary(LONGEST_STEM)];
     format!("{stem}-{}-{}.svg", diagnostic.code(), &fingerprint.to_string()[..8]).into()
 }

@@ -184,12 +184,12 @@ impl State {
             or(&self.problems, "[]"),
             or(&self.statistics, "null"),
         );
-        let mut wanted = self.drawings.values().filter(|drawing| is_all || drawing.revision > since);
-        for (index, drawing) in wanted.by_ref().take(most).enumerate() {
+        let mut drawings = self.drawings.values().filter(|drawing| is_all || drawing.revision > since);
+        for (index, drawing) in drawings.by_ref().take(most).enumerate() {
             let comma = if index == 0 { "" } else { "," };
             _ = write!(text, "{comma}{}", drawing.text);
         }
-        let is_more = wanted.next().is_some();
+        let is_more = drawings.next().is_some();
         _ = write!(text, "],\"more\":{is_more}}}");
         text
     }

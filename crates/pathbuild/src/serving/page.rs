@@ -12,7 +12,7 @@ use pathbuild_view::VisibleParts;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::{Session, ShownText};
-use pathbuild_workspace::watch::{Beginning, Bell, Listener, Update};
+use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
 use serde_json::{Value, json};
 
 use super::hub::{Form, Hub, Question};
@@ -41,7 +41,7 @@ impl<'a> Page<'a> {
     /// The scene or picture of a listed drawing or path; others are not accessible.
     fn seen(&self, session: &mut Session<'_>, file: &str, path: Option<&str>, form: Form) -> Option<String> {
         let drawing = self.library.borrow().by_file.get(file)?.clone();
-        let scene = session.settled(|session| {
+        let scene = session.with_stable_files(|session| {
             let file = session.file(&drawing);
             let all = path_names(session.db(), file);
             let names: Vec<PathName> = match path {
@@ -49,11 +49,12 @@ impl<'a> Page<'a> {
                 Some(path) => vec![all.iter().find(|name| name.as_str() == path)?.clone()],
             };
             let file_name = file.path(session.db()).as_str();
-            let poster = PostProcessor::of_run(self.context, None, PostArguments::default());
+            let post_processor = PostProcessor::of_run(self.context, None, PostArguments::default());
             // A broken post is already reported for the whole library.
-            let text =
-                poster.as_ref().map_or(ShownText::Native, |poster| ShownText::Emitted(poster.as_ref()));
-            Some(session.scene(file, &names, text).judged(self.context, file_name).0)
+            let text = post_processor
+                .as_ref()
+                .map_or(ShownText::Native, |post_processor| ShownText::Emitted(post_processor.as_ref()));
+            Some(session.scene(file, &names, text).with_findings(self.context, file_name).0)
         })?;
         Some(match form {
             Form::Scene => scene.to_json(),
@@ -82,9 +83,14 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn checked(&self, session: &mut Session<'_>, drawings: &[SourceFile], poster: Option<&PostProcessor>) {
+    fn checked(
+        &self,
+        session: &mut Session<'_>,
+        drawings: &[SourceFile],
+        post_processor: Option<&PostProcessor>,
+    ) {
         let mut listed = BTreeMap::<Utf8PathBuf, Vec<Row>>::new();
-        for path in list::of_drawings(session, drawings, poster) {
+        for path in list::of_drawings(session, drawings, post_processor) {
             listed.entry(path.drawing.clone()).or_default().push(Row::new(self.context, path));
         }
         let mut library = self.library.borrow_mut();
@@ -104,7 +110,7 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn begun(&self, _: &Beginning) {
+    fn begun(&self, _: &FirstCheck) {
         self.hub.publish(|state, _| state.is_complete = true);
     }
 

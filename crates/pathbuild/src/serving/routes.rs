@@ -147,22 +147,27 @@ async fn library(State(routes): State<Arc<Routes>>, Query(News { since, most }):
 
 /// A path, or a whole drawing.
 #[derive(Deserialize)]
-struct Wanted {
+struct SceneQuery {
     file: String,
     path: Option<String>,
 }
 
 const JSON: &str = "application/json";
 
-async fn scene(State(routes): State<Arc<Routes>>, Query(wanted): Query<Wanted>) -> Response {
-    seen(&routes, wanted, Form::Scene, JSON).await
+async fn scene(State(routes): State<Arc<Routes>>, Query(query): Query<SceneQuery>) -> Response {
+    answer_with(&routes, query, Form::Scene, JSON).await
 }
 
-async fn picture(State(routes): State<Arc<Routes>>, Query(wanted): Query<Wanted>) -> Response {
-    seen(&routes, wanted, Form::Picture, "image/svg+xml").await
+async fn picture(State(routes): State<Arc<Routes>>, Query(query): Query<SceneQuery>) -> Response {
+    answer_with(&routes, query, Form::Picture, "image/svg+xml").await
 }
 
-async fn seen(routes: &Routes, Wanted { file, path }: Wanted, form: Form, kind: &'static str) -> Response {
+async fn answer_with(
+    routes: &Routes,
+    SceneQuery { file, path }: SceneQuery,
+    form: Form,
+    kind: &'static str,
+) -> Response {
     match routes.hub.ask(file, path, form).await {
         Ok(Some(text)) => ([(CONTENT_TYPE, kind)], text).into_response(),
         Ok(None) => StatusCode::NOT_FOUND.into_response(),
@@ -174,7 +179,7 @@ async fn seen(routes: &Routes, Wanted { file, path }: Wanted, form: Form, kind: 
 /// Stream of the numbers of changes, beginning with the last one.
 async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     let (news, run) = (routes.hub.news(), routes.run.clone());
-    let open = Open::new(routes.pages.clone());
+    let open = OpenPage::new(routes.pages.clone());
     let numbers = stream::unfold((news, true, open), move |(mut news, is_first, open)| {
         let run = run.clone();
         async move {
@@ -190,16 +195,16 @@ async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
 }
 
 /// Counts as an open page until dropped.
-struct Open(watch::Sender<usize>);
+struct OpenPage(watch::Sender<usize>);
 
-impl Open {
+impl OpenPage {
     fn new(pages: watch::Sender<usize>) -> Self {
         pages.send_modify(|open| *open += 1);
         Self(pages)
     }
 }
 
-impl Drop for Open {
+impl Drop for OpenPage {
     fn drop(&mut self) {
         self.0.send_modify(|open| *open -= 1);
     }

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::text::{is_literal, list, quoted, texts};
 use crate::config::kind::ValueType;
-use crate::config::reader::{Counted, TomlReader};
+use crate::config::reader::{LimitedKind, TomlReader};
 use crate::config::types::{Pattern, Restriction};
 
 /// A regular expression.
@@ -71,7 +71,7 @@ pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
 const REGEX_SIZE: usize = 1 << 19;
 
 fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
-    if !reader.counts(Counted::Regex, span.clone()) {
+    if !reader.counts(LimitedKind::Regex, span.clone()) {
         return false;
     }
     let Some(reason) = regex_fault(text) else { return true };
@@ -92,7 +92,7 @@ fn restriction(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> O
 }
 
 fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Pattern> {
-    if !reader.counts(Counted::Glob, span.clone()) {
+    if !reader.counts(LimitedKind::Glob, span.clone()) {
         return None;
     }
     match Pattern::new(text) {

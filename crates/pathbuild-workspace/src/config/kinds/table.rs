@@ -24,7 +24,7 @@ pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueTyp
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| alias(entry, reader)).collect())
     },
-    show: |aliases| inline(aliases.iter().map(|alias| (&*alias.name, name_of(alias.means).map(quoted)))),
+    show: |aliases| inline(aliases.iter().map(|alias| (&*alias.name, name_of(alias.line_type).map(quoted)))),
     schema: || json!({ "type": "object", "additionalProperties": choice_schema::<LineType>() }),
 };
 
@@ -88,7 +88,7 @@ const POST_NAME: ValueType<Box<str>> = ValueType {
 const UNCHECKED: ValueType<bool> = ValueType {
     read: |value, reader| {
         let is_unchecked = (SWITCH.read)(value, reader)?;
-        if is_unchecked && reader.is_strangers() {
+        if is_unchecked && reader.is_untrusted() {
             let fault = reader.fault(&messages::UNCHECKED_BY_STRANGER, value.span());
             reader.report(fault);
         }
@@ -187,8 +187,8 @@ fn entries<'v, 't>(
 }
 
 fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<LineTypeAlias> {
-    let means = reader.within(name.get_ref(), |reader| read_choice(value, reader))?;
-    Some(LineTypeAlias { name: (**name.get_ref()).into(), means })
+    let line_type = reader.within(name.get_ref(), |reader| read_choice(value, reader))?;
+    Some(LineTypeAlias { name: (**name.get_ref()).into(), line_type })
 }
 
 fn post_macro((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Macro> {

@@ -2,13 +2,13 @@
 
 use std::fmt::Debug;
 
-use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::pattern::PATTERNS;
 use crate::config::kinds::text::choice;
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
-use crate::config::show::Shown;
+use crate::config::result_kind::ResultKind;
+use crate::config::show::ShownSetting;
 use crate::config::types::{Pattern, SheetFormat};
 
 section! {

@@ -11,7 +11,6 @@ use crate::config::arguments::OptionValues::{
     Directories as SearchDirectories, Directory, Switch, Text, Texts,
 };
 use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
-use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
 use crate::config::kinds::pattern::{OPTIONAL_REGEX, REGEX, RESTRICTIONS};
@@ -19,7 +18,8 @@ use crate::config::kinds::table::POST;
 use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, choice};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
-use crate::config::show::Shown;
+use crate::config::result_kind::ResultKind;
+use crate::config::show::ShownSetting;
 use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
 
 /// Default regular expression for path names. (book: language/layers-and-names)

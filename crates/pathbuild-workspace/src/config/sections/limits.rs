@@ -3,28 +3,28 @@
 use std::fmt::Debug;
 use std::time::Duration;
 
-use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{COUNT, SECONDS, SIZE};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
-use crate::config::show::Shown;
+use crate::config::result_kind::ResultKind;
+use crate::config::show::ShownSetting;
 
 /// Like [`section!`], for values that an untrusted configuration may lower but not raise.
 macro_rules! limits {
     ($(
         $(#[doc = $meaning:literal])+
-        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident;
+        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $results:ident;
     )*) => {
         section! {
-            $($(#[doc = $meaning])+ $field: $type = $name, $kind, $default, $example, $concerns;)*
+            $($(#[doc = $meaning])+ $field: $type = $name, $kind, $default, $example, $results;)*
         }
 
         impl Options {
             /// Reads the limits. Reports those of an untrusted configuration that exceed their defaults.
             pub(in crate::config) fn read_lowered(table: &mut Table<'_, '_, '_>) -> Self {
                 let options = Self::read(table);
-                $(if table.is_strangers() && options.$field.as_ref().is_some_and(|limit| limit.value > $default) {
+                $(if table.is_untrusted() && options.$field.as_ref().is_some_and(|limit| limit.value > $default) {
                     table.report_raised($name, $example);
                 })*
                 options

@@ -1,13 +1,13 @@
 //! The keys of all tables, each with its type, default and description.
 
 /// Declares a table of the configuration. Each key has: a description and a field, its name in the file, its [`ValueType`], its default, a
-/// TOML value for the file that `init` writes, and the cached results that depend on it ([`Concerns`]).
+/// TOML value for the file that `init` writes, and the cached results that depend on it ([`ResultKind`]).
 ///
 /// [`ValueType`]: super::kind::Kind
 macro_rules! section {
     ($(
         $(#[doc = $meaning:literal])+
-        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $concerns:ident;
+        $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $results:ident;
     )*) => {
         /// The values that a source sets.
         #[derive(Clone, Debug, Default)]
@@ -37,15 +37,15 @@ macro_rules! section {
 
         impl Settings {
             /// The keys with their values as TOML.
-            pub(in crate::config) fn shown(&self) -> Vec<Shown> {
-                vec![$(Shown { name: $name, value: ($kind.show)(&self.$field.value), origin: self.$field.origin },)*]
+            pub(in crate::config) fn shown(&self) -> Vec<ShownSetting> {
+                vec![$(ShownSetting { name: $name, value: ($kind.show)(&self.$field.value), origin: self.$field.origin },)*]
             }
         }
 
         impl Settings {
-            /// Passes the values that cached results of the command `whose` depend on to `add`.
-            pub(in crate::config) fn concerning(&self, whose: Concerns, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
-                $(if Concerns::$concerns.is_part_of(whose) {
+            /// Passes the values that cached results of the command `result_kind` depend on to `add`.
+            pub(in crate::config) fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
+                $(if ResultKind::$results.is_part_of(result_kind) {
                     add($name, &self.$field.value);
                 })*
             }

@@ -4,12 +4,12 @@ use std::fmt::Debug;
 
 use pathbuild_diagnostic::Code;
 
-use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::table::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
-use crate::config::show::Shown;
+use crate::config::result_kind::ResultKind;
+use crate::config::show::ShownSetting;
 use crate::config::types::{Level, LineTypeAlias, Macro, SeveritiesIn, Tool};
 
 section! {

@@ -2,12 +2,12 @@
 
 use std::fmt::Debug;
 
-use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::NOT_NEGATIVE;
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
-use crate::config::show::Shown;
+use crate::config::result_kind::ResultKind;
+use crate::config::show::ShownSetting;
 
 section! {
     /// mm: how far B may be below the plate (PB211)

@@ -3,12 +3,12 @@
 use std::fmt::Debug;
 use std::time::Duration;
 
-use crate::config::concerns::Concerns;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{DURATION, SWITCH};
 use crate::config::origin::Sourced;
 use crate::config::reader::Table;
-use crate::config::show::Shown;
+use crate::config::result_kind::ResultKind;
+use crate::config::show::ShownSetting;
 
 section! {
     /// how long nothing must change before drawings are read again

@@ -17,34 +17,35 @@ use crate::session::work::about;
 impl Session<'_> {
     /// The graph of everything that these targets embed.
     pub fn graph(&self, targets: &[Target]) -> Graph {
-        let mut merged = Merged::default();
+        let mut builder = GraphBuilder::default();
         let mut parts = Vec::with_capacity(targets.len());
-        for (made, target) in self.guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets) {
-            match made {
+        for (result, target) in self.guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets)
+        {
+            match result {
                 Ok(part) => {
                     let located = part.problems.iter().map(|problem| locate(&self.db, problem.clone()));
-                    merged.graph.problems.extend(located);
+                    builder.graph.problems.extend(located);
                     parts.push(part);
                 }
-                Err(problem) => merged.graph.problems.push(about(&self.db, *target, *problem)),
+                Err(problem) => builder.graph.problems.push(about(&self.db, *target, *problem)),
             }
         }
         // Add the requested paths first, so that they come first even if another target embeds them.
         for part in &parts {
-            merged.asked(part);
+            builder.add_root(part);
         }
         for part in &parts {
-            merged.add(part, Reach::Whole);
+            builder.add(part, Reach::Whole);
         }
         for part in &parts {
-            merged.add(part, Reach::Cut);
+            builder.add(part, Reach::Cut);
         }
-        merged.graph
+        builder.graph
     }
 }
 
 /// What one target embeds.
-struct Part {
+struct TargetGraph {
     /// The first node is the target.
     nodes: Vec<Node>,
     embeddings: Vec<(usize, End)>,
@@ -52,7 +53,7 @@ struct Part {
     problems: Vec<Diagnostic>,
 }
 
-impl Part {
+impl TargetGraph {
     /// Nodes with missing embeddings, because the target embeds them too deep or embeds too many paths.
     fn cut(&self) -> HashSet<usize> {
         let cut = |(from, to): &(usize, End)| match to {
@@ -72,7 +73,7 @@ enum Reach {
     Cut,
 }
 
-fn part(db: &Database, target: Target) -> Part {
+fn part(db: &Database, target: Target) -> TargetGraph {
     let reached = closure(db, target);
     let is_asked_with_examples = *target.role(db) == Role::Checked;
     let mut nodes = Vec::new();
@@ -92,7 +93,7 @@ fn part(db: &Database, target: Target) -> Part {
         Destination::Nowhere { name, code } => End::Nowhere(name, code),
     };
     let embeddings = reached.edges(db).into_iter().map(|edge| (number[&edge.from], end(edge.to)));
-    Part { embeddings: embeddings.collect(), nodes, problems: crowded }
+    TargetGraph { embeddings: embeddings.collect(), nodes, problems: crowded }
 }
 
 /// PB005 if the target embeds more paths than the limit allows, so that some are missing.
@@ -119,15 +120,15 @@ fn node(db: &Database, instance: Instance<'_>) -> Node {
 
 /// A graph under construction. The maps are never iterated.
 #[derive(Default)]
-struct Merged {
+struct GraphBuilder {
     graph: Graph,
     nodes: HashMap<(PathName, Utf8PathBuf, Bindings), usize>,
     /// Nodes whose embeddings are complete. They are the same for every target that reaches the node.
     complete: HashSet<usize>,
 }
 
-impl Merged {
-    fn asked(&mut self, part: &Part) {
+impl GraphBuilder {
+    fn add_root(&mut self, part: &TargetGraph) {
         let Some(node) = part.nodes.first() else { return };
         let root = self.node(node.clone());
         // Nodes are numbered in order of appearance, so an existing root was requested before.
@@ -137,7 +138,7 @@ impl Merged {
     }
 
     /// Adds the embeddings of those nodes of a part that have the given reach.
-    fn add(&mut self, part: &Part, reach: Reach) {
+    fn add(&mut self, part: &TargetGraph, reach: Reach) {
         let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
         let cut = part.cut();
         let is_asked = |from: &usize| cut.contains(from) == (reach == Reach::Cut);

@@ -2,12 +2,12 @@
 //!
 //! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
 
+mod catalogue_builder;
 mod lookups;
 mod payload;
-mod question;
+mod query;
+mod run_facts;
 mod scope;
-mod seen;
-mod writing;
 
 use std::cell::Cell;
 use std::collections::HashSet;
@@ -23,14 +23,14 @@ use pathbuild_diagnostic::reasons::IN_STRANGERS_TREE;
 
 use super::Session;
 use super::outputs::{OutputKind, without_values};
-use crate::config::Concerns;
+use crate::config::ResultKind;
 use crate::workspace::Workspace;
 
-pub use payload::{DrawingResult, is_passing};
-use question::whole_question;
-pub use question::{BUILD, Coverage, Held};
+use catalogue_builder::CatalogueBuilder;
+pub use payload::{DrawingResult, is_transient};
+use query::query_text;
+pub use query::{BUILD, Coverage, CoveredPaths};
 pub use scope::Scope;
-use writing::Writing;
 
 /// The cached results of a query.
 #[derive(Debug)]
@@ -50,9 +50,9 @@ pub struct ResultStore {
 
 /// Identifies which cached results a run needs.
 #[derive(Debug)]
-pub struct Question<'a> {
+pub struct CacheQuery<'a> {
     /// Which command's results (`check` or `emit`).
-    pub whose: Concerns,
+    pub result_kind: ResultKind,
     /// What the results depend on besides settings and files.
     pub text: &'a str,
     /// The drawings that matter to the run.
@@ -69,16 +69,16 @@ pub struct FreshResult {
     /// The drawings and lookups that it depends on.
     pub traces: Vec<Trace>,
     /// Other files that it depends on.
-    pub further: Vec<FurtherFile>,
+    pub further: Vec<ExtraInput>,
     /// The files that were generated from it.
-    pub outputs: Vec<MadeOutput>,
+    pub outputs: Vec<GeneratedFile>,
     /// The encoded result; `None` if another run may get a different result although no input changes.
     pub payload: Option<Vec<u8>>,
 }
 
 /// A file other than a drawing that a result depends on.
 #[derive(Clone, Debug)]
-pub struct FurtherFile {
+pub struct ExtraInput {
     /// Its path.
     pub path: Utf8PathBuf,
     /// Hash of the bytes that were read; `None` if reading failed.
@@ -87,7 +87,7 @@ pub struct FurtherFile {
 
 /// A generated file.
 #[derive(Clone, Debug)]
-pub struct MadeOutput {
+pub struct GeneratedFile {
     /// Its path.
     pub path: Utf8PathBuf,
     /// Hash of its expected content, as computed by [`hash_output`].
@@ -118,13 +118,13 @@ pub struct Dependencies<'a> {
 
 impl ResultStore {
     /// Loads the cached results and verifies them against the files; `None` without a configuration, or if nothing is to be cached.
-    pub fn open(context: &Workspace, question: Question<'_>) -> Option<Self> {
-        let Question { whose, text, scope, listings } = question;
+    pub fn open(context: &Workspace, query: CacheQuery<'_>) -> Option<Self> {
+        let CacheQuery { result_kind, text, scope, listings } = query;
         let base = context.settings.directory()?.to_owned();
         let place = context.cache_place()?;
         let confined = context.settings.confined.as_ref();
-        let is_strangers = confined.is_some_and(|confined| confined.may_hold(place.directory()));
-        if let Some(reason) = is_strangers.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
+        let is_untrusted = confined.is_some_and(|confined| confined.may_hold(place.directory()));
+        if let Some(reason) = is_untrusted.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
             let phrase = context.choose("nothing is kept there", "dort wird nichts aufgehoben");
             let reason = context.choose(reason.en, reason.de);
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
@@ -132,20 +132,20 @@ impl ResultStore {
         }
         // Without write access, the run goes on without a cache.
         if place.make().is_ok_and(|is_new| is_new) {
-            note_old(context, &base);
+            report_old_cache(context, &base);
         }
-        let key = Key::new(BUILD, &whole_question(context, whose, text));
+        let key = Key::new(BUILD, &query_text(context, result_kind, text));
         // Taken before any file is examined, so that later changes are detected.
         let begun = place.clock().ok();
         let kept = match place.load(&key) {
             Ok(kept) => kept.unwrap_or_default(),
             Err(reason) => {
-                note(context, reason);
+                report_fault(context, reason);
                 Snapshot::default()
             }
         };
         let coverage = Coverage::new(context);
-        let verdict = look(context, &kept, &coverage, &scope, listings);
+        let verdict = verify_snapshot(context, &kept, &coverage, &scope, listings);
         Some(Self { place, key, base, coverage, scope, begun, kept, verdict, next: Cell::new(0) })
     }
 
@@ -174,12 +174,12 @@ impl ResultStore {
     pub fn facts(&self, subject: &str) -> Option<Dependencies<'_>> {
         let record = self.kept.record(self.record(subject)?);
         let files = record.files().map(|file| self.kept.file(file).path());
-        let sought = |lookup| {
+        let lookup = |lookup| {
             let (directories, name) = self.kept.lookup(lookup);
             let list = self.kept.directory_list(directories);
             list.map(move |directory| (self.kept.directory(directory).path(), name))
         };
-        Some(Dependencies { files: files.collect(), lookups: record.lookups().flat_map(sought).collect() })
+        Some(Dependencies { files: files.collect(), lookups: record.lookups().flat_map(lookup).collect() })
     }
 
     /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
@@ -196,27 +196,27 @@ impl ResultStore {
     }
 
     /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
-    pub fn keep(&self, session: &Session<'_>, made: &[FreshResult]) {
-        let is_as_it_was = made.is_empty() && self.verdict.is_current;
+    pub fn keep(&self, session: &Session<'_>, fresh: &[FreshResult]) {
+        let is_as_it_was = fresh.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
-        let made_now: HashSet<&str> = made.iter().map(|made| &*made.subject).collect();
-        let mut writing = Writing::new(self, session, begun, made);
+        let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| &*fresh.subject).collect();
+        let mut builder = CatalogueBuilder::new(self, session, begun, fresh);
         for number in (0..self.kept.records()).filter(|number| self.verdict.is_sound[*number]) {
             let subject = self.kept.record(number).subject();
-            if !made_now.contains(subject) && self.scope.may_return(subject, session.db().system()) {
-                writing.add_kept(number);
+            if !fresh_subjects.contains(subject) && self.scope.may_return(subject, session.db().system()) {
+                builder.add_kept(number);
             }
         }
-        for made in made {
-            writing.add_made(made);
+        for fresh in fresh {
+            builder.add_fresh(fresh);
         }
         // Without write access, the results are not cached.
-        _ = self.place.store(&self.key, &writing.finish());
+        _ = self.place.store(&self.key, &builder.finish());
     }
 }
 
 /// Verifies the cached results against the files.
-fn look(
+fn verify_snapshot(
     workspace: &Workspace,
     kept: &Snapshot,
     coverage: &Coverage,
@@ -256,7 +256,7 @@ pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
 }
 
 /// Tells users that the cache of earlier versions, beside the configuration, can be deleted.
-fn note_old(context: &Workspace, base: &Utf8Path) {
+fn report_old_cache(context: &Workspace, base: &Utf8Path) {
     if context.system.kind(&base.join(OLD)) == FileKind::Directory {
         context.reporter.status(context.choose(
             "results are kept in your cache directory now: .pathbuild beside the configuration is not used any more and can be deleted",
@@ -268,7 +268,7 @@ fn note_old(context: &Workspace, base: &Utf8Path) {
 /// Directory of that cache.
 const OLD: &str = ".pathbuild";
 
-fn note(context: &Workspace, reason: CacheFault) {
+fn report_fault(context: &Workspace, reason: CacheFault) {
     let phrase = match reason {
         CacheFault::Damaged => context
             .choose("the cache is damaged and made anew", "der Cache ist beschädigt und wird neu angelegt"),

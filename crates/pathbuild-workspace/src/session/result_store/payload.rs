@@ -21,7 +21,7 @@ impl DrawingResult {
 
     /// Encodes the result; `None` if another run may get a different result.
     pub fn encode(&self) -> Option<Vec<u8>> {
-        if self.diagnostics.iter().any(is_passing) {
+        if self.diagnostics.iter().any(is_transient) {
             return None;
         }
         let names: Vec<&str> = self.names.iter().map(PathName::as_str).collect();
@@ -39,7 +39,7 @@ impl DrawingResult {
 }
 
 /// Whether a diagnostic may disappear although no input changes: a file that another process had locked, a busy machine, a bug.
-pub fn is_passing(diagnostic: &Diagnostic) -> bool {
+pub fn is_transient(diagnostic: &Diagnostic) -> bool {
     match diagnostic.code() {
         Code::UnreadableFile | Code::InternalError => true,
         Code::LimitReached => {

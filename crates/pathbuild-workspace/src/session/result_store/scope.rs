@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use camino::Utf8Path;
 use pathbuild_db::system::{FileKind, System};
 
-use crate::session::{Found, Session};
+use crate::session::{ArgumentMatches, Session};
 
 /// The drawings of a run. The subject of a result is a drawing, or something in it whose description follows the drawing's path after a
 /// NUL.
@@ -24,7 +24,7 @@ pub enum Scope {
 
 impl Scope {
     /// The drawings that the arguments may refer to.
-    pub fn of(session: &Session<'_>, found: &Found) -> Self {
+    pub fn of(session: &Session<'_>, found: &ArgumentMatches) -> Self {
         let named = found.named().map(|file| file.path(session.db()).to_string());
         let drawings = found.directories().flat_map(|directory| &directory.drawings);
         let directories = found.directories().flat_map(|directory| &directory.directories);

@@ -141,8 +141,8 @@ impl<'a> Since<'a> {
 impl Past for Since<'_> {
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
         let known: Vec<_> = files.iter().map(|file| self.known(file)).collect();
-        let asked: Vec<&Utf8Path> = known.iter().flatten().map(|(real, _)| &**real).collect();
-        let mut ids = self.repository.ids(&asked).into_iter();
+        let comparable: Vec<&Utf8Path> = known.iter().flatten().map(|(real, _)| &**real).collect();
+        let mut ids = self.repository.ids(&comparable).into_iter();
         let is_same = |(_, id): &(Utf8PathBuf, &str)| ids.next().is_some_and(|now| now == *id);
         let same: Vec<bool> = known.iter().flatten().map(is_same).collect();
         let mut same = same.into_iter();

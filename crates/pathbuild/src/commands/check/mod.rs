@@ -4,7 +4,7 @@ mod git;
 
 use std::time::Instant;
 
-use pathbuild_workspace::check::{NotDirectories, Past, Request};
+use pathbuild_workspace::check::{InputsNotDirectories, Past, Request};
 
 use crate::args::CheckArgs;
 use crate::context::Context;
@@ -32,7 +32,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     }
     let checked = match request.run(&mut session) {
         Ok(checked) => checked,
-        Err(NotDirectories) => {
+        Err(InputsNotDirectories) => {
             return context.usage(context.choose(
                 "--changed-since is for directories or the library, not for single drawings or paths",
                 "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",

@@ -59,7 +59,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
 }
 
 /// Compares two programs, or a program and a path.
-fn single(old: side::Seen, new: side::Seen, pictures: Option<Pictures>) -> Comparison {
+fn single(old: side::ComparedProgram, new: side::ComparedProgram, pictures: Option<Pictures>) -> Comparison {
     let changed = programs(&old.path, &new.path, pictures);
     let is_same = changed.groups.is_empty();
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));

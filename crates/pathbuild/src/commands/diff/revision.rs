@@ -48,7 +48,7 @@ pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, Str
     let largest = context.settings.limits.file_size.value.max(LARGE);
     let mut taken = Taking { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
     taken.all(&entries)?;
-    say_left_out(context, &taken.left_out);
+    report_left_out(context, &taken.left_out);
     let directory = context.system.canonical(&context.working_directory);
     let below = directory.strip_prefix(&repository.root).unwrap_or(Utf8Path::new(""));
     let root = if below.as_str().is_empty() { whole } else { whole.join(below) };
@@ -66,7 +66,7 @@ fn place_of(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
     place.canonicalize_utf8().map_err(|error| error.to_string())
 }
 
-fn say_left_out(context: &Context, left_out: &[String]) {
+fn report_left_out(context: &Context, left_out: &[String]) {
     if let Some(first) = left_out.first() {
         let reason = context.choose(
             "drawings left out, since their names or links do not stay in the tree",
@@ -99,8 +99,8 @@ impl Taking<'_> {
             self.leave_out(entry);
         }
         self.directories(&plain).map_err(|error| error.to_string())?;
-        let of = |kind| plain.iter().copied().filter(move |entry| entry.kind == kind);
-        let links: Vec<&Entry> = of(EntryKind::Link).collect();
+        let of_kind = |kind| plain.iter().copied().filter(move |entry| entry.kind == kind);
+        let links: Vec<&Entry> = of_kind(EntryKind::Link).collect();
         let targets = self.repository.targets(&ids(&links))?;
         let links: Vec<(&Entry, Option<String>)> = links.into_iter().zip(targets).collect();
         // If a drawing is a link to another kind of file, its target is needed as well.
@@ -109,7 +109,7 @@ impl Taking<'_> {
         };
         let is_all_needed = links.iter().any(leads_elsewhere);
         let files: Vec<&Entry> =
-            of(EntryKind::File).filter(|entry| is_all_needed || is_needed(&entry.name)).collect();
+            of_kind(EntryKind::File).filter(|entry| is_all_needed || is_needed(&entry.name)).collect();
         self.files(&files)?;
         for (entry, target) in &links {
             self.link(entry, target.as_deref());

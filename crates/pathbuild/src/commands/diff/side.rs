@@ -17,7 +17,7 @@ use crate::context::Context;
 /// One side of the comparison.
 pub(super) enum Side {
     Drawings(Box<Drawings>),
-    Program(Box<Seen>),
+    Program(Box<ComparedProgram>),
 }
 
 /// Drawings below a directory, with their configuration.
@@ -30,7 +30,7 @@ pub(super) struct Drawings {
 }
 
 /// A program, or the program of a path.
-pub(super) struct Seen {
+pub(super) struct ComparedProgram {
     pub(super) path: ScenePath,
     pub(super) problems: Vec<Diagnostic>,
 }
@@ -112,7 +112,7 @@ impl Drawings {
     }
 }
 
-fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Seen, Failure> {
+fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<ComparedProgram, Failure> {
     let program =
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
     let source = GcodeSource {
@@ -122,15 +122,15 @@ fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Seen, 
         tool: None,
         rapid: context.settings.general.rapid.value,
     };
-    Ok(Seen { path: gcode_path(&source), problems: program.read.problems })
+    Ok(ComparedProgram { path: gcode_path(&source), problems: program.read.problems })
 }
 
 /// The program of a path in the working directory.
-fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
+fn path(context: &Context, name: &str) -> Result<ComparedProgram, Failure> {
     let inputs = Inputs { inputs: vec![name.to_owned()] };
-    Session::new(context).settled(|session| {
-        let wanted = session.wanted(&inputs);
-        let [path] = wanted.paths.as_slice() else {
+    Session::new(context).with_stable_files(|session| {
+        let selection = session.select(&inputs);
+        let [path] = selection.paths.as_slice() else {
             let reason = || {
                 context.phrase(
                     "{} is neither a directory nor a program nor one path",
@@ -138,7 +138,7 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
                     &format!("{name:?}"),
                 )
             };
-            let problems = wanted.problems;
+            let problems = selection.problems;
             return Err(if problems.is_empty() {
                 Failure::Usage(reason())
             } else {
@@ -150,7 +150,7 @@ fn path(context: &Context, name: &str) -> Result<Seen, Failure> {
             return Err(Failure::Found(seen.diagnostics));
         }
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
-        Ok(Seen { path: as_printed(path), problems: seen.diagnostics })
+        Ok(ComparedProgram { path: as_printed(path), problems: seen.diagnostics })
     })
 }
 

@@ -16,7 +16,7 @@ use pathbuild_path::PathName;
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::session::{Direction, Graph, Session, Wanted};
+use pathbuild_workspace::session::{Direction, Graph, Selection, Session};
 
 /// Runs `graph`: lists all embeddings of the given paths; without arguments, those of the library.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
@@ -24,13 +24,13 @@ pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named();
     }
-    let (asked, graph) = session.settled(|session| {
-        let asked = GraphArguments::new(session, session.wanted(&args.inputs));
-        let graph = session.graph(&asked.targets);
-        (asked, graph)
+    let (arguments, graph) = session.with_stable_files(|session| {
+        let arguments = GraphArguments::new(session, session.select(&args.inputs));
+        let graph = session.graph(&arguments.targets);
+        (arguments, graph)
     });
     print(context, &graph, |graph| list::list(graph, context.lang()));
-    asked.finish(context, &graph)
+    arguments.finish(context, &graph)
 }
 
 /// Runs `deps`: shows what paths embed, level by level.
@@ -39,13 +39,13 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named();
     }
-    let (asked, graph) = session.settled(|session| {
-        let asked = GraphArguments::new(session, session.wanted(&args.inputs));
-        let graph = session.graph(&asked.targets);
-        (asked, graph)
+    let (arguments, graph) = session.with_stable_files(|session| {
+        let arguments = GraphArguments::new(session, session.select(&args.inputs));
+        let graph = session.graph(&arguments.targets);
+        (arguments, graph)
     });
     print(context, &graph, |graph| tree::tree(graph, Direction::Down, context.lang()));
-    asked.finish(context, &graph)
+    arguments.finish(context, &graph)
 }
 
 /// Runs `rdeps`: shows what embeds the given paths, level by level, among all paths of the library; without a library, among those in and
@@ -57,13 +57,13 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
         );
     }
     let mut session = Session::new(context);
-    let (asked, whole) = session.settled(|session| {
-        let mut asked = GraphArguments::new(session, session.wanted(&args.inputs));
-        let whole = session.graph(&asked.and_everything(session));
-        (asked, whole)
+    let (arguments, whole) = session.with_stable_files(|session| {
+        let mut arguments = GraphArguments::new(session, session.select(&args.inputs));
+        let whole = session.graph(&arguments.with_all_others(session));
+        (arguments, whole)
     });
     let db = session.db();
-    let named = asked.targets.iter().flat_map(|target| {
+    let named = arguments.targets.iter().flat_map(|target| {
         let name = PathName::new(target.name(db));
         whole.nodes_of(&name, target.file(db).path(db))
     });
@@ -75,7 +75,7 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     }
     let graph = whole.part(&roots, Direction::Up);
     print(context, &graph, |graph| tree::tree(graph, Direction::Up, context.lang()));
-    asked.finish(context, &whole)
+    arguments.finish(context, &whole)
 }
 
 /// The resolved arguments.
@@ -86,16 +86,16 @@ struct GraphArguments {
 }
 
 impl GraphArguments {
-    fn new(session: &Session<'_>, wanted: Wanted) -> Self {
+    fn new(session: &Session<'_>, selection: Selection) -> Self {
         let db = session.db();
-        let files = wanted.whole(session);
-        session.read_ahead(&files);
+        let files = selection.whole(session);
+        session.parse_ahead(&files);
         let mut targets: Vec<Target> =
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
         let is_whole: HashSet<SourceFile> = files.iter().copied().collect();
-        let named = wanted.paths.iter().filter(|path| !is_whole.contains(&path.file));
+        let named = selection.paths.iter().filter(|path| !is_whole.contains(&path.file));
         targets.extend(named.map(|path| session.target(path, Role::Checked)));
-        let mut problems = wanted.problems;
+        let mut problems = selection.problems;
         let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
         problems.extend(broken.cloned());
         let problems = session.with_hints(problems);
@@ -103,12 +103,12 @@ impl GraphArguments {
     }
 
     /// The requested targets, and all others that may embed them.
-    fn and_everything(&mut self, session: &Session<'_>) -> Vec<Target> {
-        let (files, problems) = session.everything();
+    fn with_all_others(&mut self, session: &Session<'_>) -> Vec<Target> {
+        let (files, problems) = session.all_drawings();
         self.problems.extend(problems);
-        session.read_ahead(&files);
-        let asked: HashSet<SourceFile> = self.files.iter().copied().collect();
-        let others = files.into_iter().filter(|file| !asked.contains(file));
+        session.parse_ahead(&files);
+        let arguments: HashSet<SourceFile> = self.files.iter().copied().collect();
+        let others = files.into_iter().filter(|file| !arguments.contains(file));
         let others = others.flat_map(|file| session.targets(file, &Role::Checked));
         self.targets.iter().copied().chain(others).collect()
     }

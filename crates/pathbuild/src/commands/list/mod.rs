@@ -3,7 +3,7 @@
 mod row;
 mod stats;
 
-use pathbuild_workspace::list::{Listed, Request, Row, Stats, path_json, stats_json};
+use pathbuild_workspace::list::{PathListing, Request, Row, Stats, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
@@ -41,15 +41,16 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
 /// list.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
     let inputs = args.inputs();
-    let poster = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default()) {
-        Ok(poster) => poster,
+    let post_processor = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default())
+    {
+        Ok(post_processor) => post_processor,
         Err(problems) => return context.fail(problems),
     };
     let mut session = Session::new(context);
-    let listed = Request { inputs: &inputs, poster: poster.as_ref() }.run(&mut session);
+    let listed = Request { inputs: &inputs, post_processor: post_processor.as_ref() }.run(&mut session);
     // Leak instead of dropping: freeing all query results takes longer than process exit.
     std::mem::forget(session);
-    let Listed { paths, drawings, diagnostics } = match listed {
+    let PathListing { paths, drawings, diagnostics } = match listed {
         Ok(listed) => listed,
         Err(reason) => return context.usage(&reason),
     };

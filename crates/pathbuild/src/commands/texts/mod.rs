@@ -28,11 +28,12 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.nothing_named();
     }
-    let (texts, problems) = session.settled(|session| texts(context, session, args, pattern.as_ref()));
+    let (texts, problems) =
+        session.with_stable_files(|session| texts(context, session, args, pattern.as_ref()));
     for shown in texts {
         match shown {
-            Shown::Row(kind, row) => context.row(kind, row),
-            Shown::Lines(lines) => context.printer.result(lines),
+            OutputItem::Row(kind, row) => context.row(kind, row),
+            OutputItem::Lines(lines) => context.printer.result(lines),
         }
     }
     let findings = context.findings(problems);
@@ -41,7 +42,7 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
 }
 
 /// A text, or the parameters of an element, ready to be printed.
-enum Shown {
+enum OutputItem {
     /// A line of JSON: type and values.
     Row(&'static str, Json),
     /// Text lines.
@@ -54,11 +55,11 @@ fn texts(
     session: &Session<'_>,
     args: &TextsArgs,
     pattern: Option<&Regex>,
-) -> (Vec<Shown>, Vec<Diagnostic>) {
-    let wanted = session.wanted(&args.inputs);
-    let whole = wanted.whole(session).into_iter().map(|file| (file, None));
-    let parts = wanted.paths.iter().map(|path| (path.file, Some(&path.name)));
-    let mut problems = wanted.problems;
+) -> (Vec<OutputItem>, Vec<Diagnostic>) {
+    let selection = session.select(&args.inputs);
+    let whole = selection.whole(session).into_iter().map(|file| (file, None));
+    let parts = selection.paths.iter().map(|path| (path.file, Some(&path.name)));
+    let mut problems = selection.problems;
     let db = session.db();
     let mut shown = Vec::new();
     for (file, path) in whole.chain(parts) {
@@ -72,8 +73,8 @@ fn texts(
         // A search for texts shows only texts.
         let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
-            Format::Json => Shown::Row("text", object(&context.file(file.path(db)), text)),
-            _ => Shown::Lines(lines(context, name, text)),
+            Format::Json => OutputItem::Row("text", object(&context.file(file.path(db)), text)),
+            _ => OutputItem::Lines(lines(context, name, text)),
         }));
         shown.extend(paths.flat_map(|path| table::shown(context, db, file, path)));
     }

@@ -8,12 +8,12 @@ use pathbuild_path::{ElementParameters, Parameter, PathName, Position, Provider}
 use pathbuild_workspace::config::Origin;
 use serde_json::{Value as Json, json};
 
-use super::{Shown, handle, named};
+use super::{OutputItem, handle, named};
 use crate::args::Format;
 use crate::context::Context;
 
 /// The parameters of a path: a table, or one JSON object per element.
-pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<Shown> {
+pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<OutputItem> {
     let index = file_index(db, file).path(path);
     let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
     let positions = drawn.positions.positions();
@@ -24,9 +24,9 @@ pub(super) fn shown(context: &Context, db: &Database, file: SourceFile, path: &P
     match context.format {
         Format::Json => {
             let name = context.file(file);
-            placed.map(|(element, at)| Shown::Row("element", object(&name, path, element, at))).collect()
+            placed.map(|(element, at)| OutputItem::Row("element", object(&name, path, element, at))).collect()
         }
-        _ => vec![Shown::Lines(table(context, file.as_str(), path, placed))],
+        _ => vec![OutputItem::Lines(table(context, file.as_str(), path, placed))],
     }
 }
 

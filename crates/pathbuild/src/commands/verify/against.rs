@@ -54,11 +54,11 @@ impl Against {
             let names = checked.missing_options.iter().map(|option| option.name());
             return Err(Failure::Usage(missing_values(context, names)));
         }
-        let made = session.of_target(target, |db| {
+        let outcome = session.query_target(target, |db| {
             let placed = placed_keep_outs(db, target).into_iter().map(|clamp| clamp.placed);
             (program(db, target).clone(), placed.collect::<Vec<KeepOut>>())
         });
-        let (drawn, placed) = made.map_err(|problem| Failure::Found(vec![*problem]))?;
+        let (drawn, placed) = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
         let drawn = drawn.ok_or_else(|| Failure::Found(Vec::new()))?;
         let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
         let file = target.file(session.db()).path(session.db()).clone();
@@ -201,14 +201,14 @@ fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
 /// Resolves an argument to a single path.
 fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
     let db = session.db();
-    let wanted = session.wanted(&Inputs { inputs: vec![name.to_owned()] });
-    if !wanted.problems.is_empty() {
-        return Err(Failure::Found(wanted.problems));
+    let selection = session.select(&Inputs { inputs: vec![name.to_owned()] });
+    if !selection.problems.is_empty() {
+        return Err(Failure::Found(selection.problems));
     }
-    if let [path] = wanted.paths.as_slice() {
+    if let [path] = selection.paths.as_slice() {
         return Ok(session.target(path, Role::Emitted));
     }
-    let [file] = wanted.named.as_slice() else {
+    let [file] = selection.named.as_slice() else {
         return Err(Failure::Usage(session.workspace().phrase(
             "--against takes one path: `{}` is a directory",
             "--against braucht einen Pfad: `{}` ist ein Verzeichnis",

@@ -27,8 +27,8 @@ use against::Against;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
-    let wishes = match StockOptions::new(args) {
-        Ok(wishes) => wishes,
+    let stock_options = match StockOptions::new(args) {
+        Ok(stock_options) => stock_options,
         Err(fault) => return context.refuse(vec![*fault]),
     };
     let named =
@@ -40,14 +40,14 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     context.output.figure("programs", args.files.len());
     let mut session = Session::new(context);
     let mut diagnostics = Vec::new();
-    let drawn = |name| session.settled(|session| Against::new(context, session, name));
+    let drawn = |name| session.with_stable_files(|session| Against::new(context, session, name));
     let against = match args.against.as_deref().map(drawn).transpose() {
         Ok(against) => against,
         Err(against::Failure::Usage(reason)) => return context.usage(&reason),
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),
     };
     for file in &args.files {
-        match check(context, file, args, &wishes, against.as_ref(), wrote.as_ref()) {
+        match check(context, file, args, &stock_options, against.as_ref(), wrote.as_ref()) {
             Ok(found) => diagnostics.extend(found),
             Err(problem) => diagnostics.push(*problem),
         }
@@ -79,7 +79,7 @@ fn check(
     context: &Context,
     file: &Utf8Path,
     args: &VerifyArgs,
-    wishes: &StockOptions,
+    stock_options: &StockOptions,
     against: Option<&Against>,
     wrote: Option<&PostProcessor>,
 ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
@@ -93,7 +93,7 @@ fn check(
     let program = Program::open_each(context, file, &reading, &mut |step| {
         tools.step(&step);
         stated.step(&step);
-        has_probed |= step.as_move().is_some_and(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
+        has_probed |= step.as_move().is_some_and(|(_, motion)| matches!(motion.pace, Pace::Probe { .. }));
         if let Some(limits) = &mut limits {
             limits.step(&step);
         }
@@ -101,7 +101,7 @@ fn check(
     let drawn = program.drawn();
     let allowed = &context.settings.limits;
     let (cells, pieces) = (allowed.verify_cells.value, allowed.verify_pieces.value);
-    let stock = stock::stock(context, &program, &tools, wishes, against);
+    let stock = stock::stock(context, &program, &tools, stock_options, against);
     let stock = stock.map(|stock| stock.with_cells(cells).with_pieces(pieces));
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
@@ -136,7 +136,7 @@ fn check(
             found.extend(stated.finish());
         }
     }
-    found.extend(stock::disagreements(context, &program, &tools, wishes, against));
+    found.extend(stock::disagreements(context, &program, &tools, stock_options, against));
     if let Some((against, comparison)) = milled.zip(comparison) {
         let agreement = comparison.finish();
         against.say(context, &program, agreement.equal);
@@ -149,9 +149,9 @@ fn check(
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if against.is_some() {
-        let unsaid = diagnostics.iter_mut().filter(|it| is_unsaid(it));
-        let unchecked = found.iter_mut().filter(|it| it.code() == Code::UncheckedFormula);
-        unsaid.chain(unchecked).for_each(|it| it.severity = Severity::Error);
+        let unsaid = diagnostics.iter_mut().filter(|diagnostic| is_unsaid(diagnostic));
+        let unchecked = found.iter_mut().filter(|diagnostic| diagnostic.code() == Code::UncheckedFormula);
+        unsaid.chain(unchecked).for_each(|diagnostic| diagnostic.severity = Severity::Error);
     }
     diagnostics.append(&mut found);
     Ok(diagnostics)

@@ -75,13 +75,13 @@ pub(super) fn stock(
     context: &Context,
     program: &Program,
     tools: &Tools,
-    wishes: &StockOptions,
+    stock_options: &StockOptions,
     against: Option<&Against>,
 ) -> Option<Stock> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
     let of_header = header.as_ref().and_then(|header| header.cutter);
     let is_native = program.dialect == Dialect::Native;
-    let cutters = match wishes.cutter.or(against.and_then(Against::cutter)) {
+    let cutters = match stock_options.cutter.or(against.and_then(Against::cutter)) {
         Some(cutter) => vec![(0, cutter)],
         None if is_native => vec![(0, of_header?)],
         None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
@@ -90,7 +90,7 @@ pub(super) fn stock(
         let pieces = cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
         Stock::of_pieces(pieces.collect())
     };
-    if let Some(surface) = wishes.surface.or(against.and_then(Against::surface)) {
+    if let Some(surface) = stock_options.surface.or(against.and_then(Against::surface)) {
         return Some(uniform(surface));
     }
     let native = is_native.then(|| Stock::of_native_text(&program.drawn(), cutters.first()?.1)).flatten();
@@ -102,14 +102,14 @@ pub(super) fn disagreements(
     context: &Context,
     program: &Program,
     tools: &Tools,
-    wishes: &StockOptions,
+    stock_options: &StockOptions,
     against: Option<&Against>,
 ) -> Vec<Diagnostic> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
     let of_header = header.as_ref().and_then(|header| header.cutter);
     let drawn = against.and_then(Against::cutter);
     let mut found = Vec::new();
-    if let Some((header, given)) = different(of_header, wishes.cutter) {
+    if let Some((header, given)) = different(of_header, stock_options.cutter) {
         found.push(Diagnostic::new(&say::OTHER_CUTTER_GIVEN).with("header", header).with("given", given));
     }
     let compared = |message, place, values: Option<(f64, f64)>| {
@@ -121,12 +121,12 @@ pub(super) fn disagreements(
     };
     // The operator reads the header, and inserts the tool that it names.
     let of_program = compared(&say::OTHER_CUTTER_DRAWN, &HEADER, different(of_header, drawn));
-    found.extend(of_program.map(|it| Diagnostic { severity: Severity::Error, ..it }));
-    found.extend(compared(&say::OTHER_CUTTER_DRAWN, &CUTTER, different(wishes.cutter, drawn)));
+    found.extend(of_program.map(|problem| Diagnostic { severity: Severity::Error, ..problem }));
+    found.extend(compared(&say::OTHER_CUTTER_DRAWN, &CUTTER, different(stock_options.cutter, drawn)));
     let surface = against.and_then(Against::surface);
     let of_header_surface = header.and_then(|header| header.thickness);
     found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(of_header_surface, surface)));
-    found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(wishes.surface, surface)));
+    found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(stock_options.surface, surface)));
     found.extend(tools.other_than_header(context, program.dialect, of_header));
     found
 }

@@ -16,12 +16,12 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
         Ok(output) => output,
         Err(reason) => return context.usage(&reason),
     };
-    let seen = match target::seen(context, args) {
-        Ok(seen) => seen,
+    let target = match target::target_scene(context, args) {
+        Ok(scene) => scene,
         Err(Failure::Usage(reason)) => return context.usage(&reason),
         Err(Failure::Found(problems)) => return context.fail(problems),
     };
-    let (scene, findings) = seen.what.judged(context, &seen.file);
+    let (scene, findings) = target.report.with_findings(context, &target.file);
     context.show(&findings);
     if let Err(problem) = output.deliver(context, &scene) {
         return context.fail(vec![*problem]);

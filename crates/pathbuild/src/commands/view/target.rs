@@ -16,8 +16,8 @@ use crate::commands::program::Program;
 use crate::context::Context;
 
 /// The scene of an argument.
-pub(super) struct Seen {
-    pub(super) what: session::Seen,
+pub(super) struct TargetScene {
+    pub(super) report: session::SceneReport,
     /// The drawing or program that is shown.
     pub(super) file: String,
 }
@@ -29,16 +29,16 @@ pub(super) enum Failure {
 }
 
 /// The scene of the argument. A file that is not a drawing is read as a program.
-pub(super) fn seen(context: &Context, args: &ViewArgs) -> Result<Seen, Failure> {
+pub(super) fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
     let is_drawing = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
     if !is_drawing && is_there(file) {
         return program(context, file, args);
     }
-    Session::new(context).settled(|session| drawing(session, &args.what))
+    Session::new(context).with_stable_files(|session| drawing(session, &args.what))
 }
 
-fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Seen, Failure> {
+fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let program =
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
@@ -50,18 +50,18 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Seen, 
         rapid: context.settings.general.rapid.value,
     };
     scene.paths.push(gcode_path(&source));
-    let what = session::Seen { scene, diagnostics: program.read.problems };
-    Ok(Seen { what, file: file.to_string() })
+    let report = session::SceneReport { scene, diagnostics: program.read.problems };
+    Ok(TargetScene { report, file: file.to_string() })
 }
 
-fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
-    let wanted = session.wanted(&Inputs { inputs: vec![what.to_owned()] });
-    if !wanted.problems.is_empty() {
-        return Err(Failure::Found(wanted.problems));
+fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
+    let selection = session.select(&Inputs { inputs: vec![what.to_owned()] });
+    if !selection.problems.is_empty() {
+        return Err(Failure::Found(selection.problems));
     }
     let db = session.db();
     let (file, names): (SourceFile, Vec<PathName>) =
-        match (wanted.directories.as_slice(), wanted.paths.as_slice(), wanted.named.as_slice()) {
+        match (selection.directories.as_slice(), selection.paths.as_slice(), selection.named.as_slice()) {
             ([], [path], []) => (path.file, vec![path.name.clone()]),
             ([], [], [file]) => (*file, path_names(db, *file).to_vec()),
             _ => {
@@ -74,12 +74,12 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<Seen, Failure> {
                 return Err(Failure::Usage(reason));
             }
         };
-    let poster = PostProcessor::of_run(session.workspace(), None, PostArguments::default());
-    let poster = poster.map_err(Failure::Found)?;
-    let mut what = session.scene(file, &names, ShownText::Emitted(poster.as_ref()));
-    if names.is_empty() && !what.diagnostics.iter().any(Diagnostic::is_error) {
+    let post_processor = PostProcessor::of_run(session.workspace(), None, PostArguments::default());
+    let post_processor = post_processor.map_err(Failure::Found)?;
+    let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
+    if names.is_empty() && !report.diagnostics.iter().any(Diagnostic::is_error) {
         let problem = Diagnostic::new(&outputs::NO_PATH).with("pattern", "path-pattern");
-        what.diagnostics.push(problem.in_file(file.path(db)));
+        report.diagnostics.push(problem.in_file(file.path(db)));
     }
-    Ok(Seen { what, file: file.path(db).to_string() })
+    Ok(TargetScene { report, file: file.path(db).to_string() })
 }

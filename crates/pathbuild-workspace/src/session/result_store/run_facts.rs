@@ -10,12 +10,12 @@ use super::FreshResult;
 use crate::session::Session;
 
 /// Files and directories that the run accessed.
-pub(super) struct Seen<'a> {
+pub(super) struct RunFacts<'a> {
     db: &'a Database,
     /// The drawings that were read; `None` for one that could not be read or that changed during the run.
     read: HashMap<Utf8PathBuf, Option<Content>>,
     /// The directories in which lookups were made.
-    asked: HashSet<&'a Utf8Path>,
+    searched: HashSet<&'a Utf8Path>,
     /// The files that were written or compared.
     written: HashSet<&'a Utf8Path>,
 }
@@ -23,17 +23,17 @@ pub(super) struct Seen<'a> {
 /// Hash of a file's bytes, and the stamp under which they were read.
 pub(super) type Content = ([u8; 32], Stamp);
 
-impl<'a> Seen<'a> {
-    pub(super) fn new(session: &'a Session<'a>, made: &'a [FreshResult]) -> Self {
+impl<'a> RunFacts<'a> {
+    pub(super) fn new(session: &'a Session<'a>, fresh: &'a [FreshResult]) -> Self {
         let db = session.db();
-        let traces = || made.iter().flat_map(|made| &made.traces);
+        let traces = || fresh.iter().flat_map(|fresh| &fresh.traces);
         let read = traces().flat_map(|trace| &trace.files);
-        let asked = traces().flat_map(|trace| &trace.lookups).flat_map(|sought| &sought.directories);
+        let searched = traces().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories);
         Self {
             db,
             read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
-            asked: asked.map(|directory| &**directory).collect(),
-            written: made.iter().flat_map(|made| &made.outputs).map(|output| &*output.path).collect(),
+            searched: searched.map(|directory| &**directory).collect(),
+            written: fresh.iter().flat_map(|fresh| &fresh.outputs).map(|output| &*output.path).collect(),
         }
     }
 
@@ -54,7 +54,7 @@ impl<'a> Seen<'a> {
 
     /// Whether the database saw the same names in a directory, if it made lookups there.
     pub(super) fn agrees(&self, fact: &DirectoryFact) -> bool {
-        if !self.asked.contains(&*fact.path) {
+        if !self.searched.contains(&*fact.path) {
             return true;
         }
         let mut seen: Vec<&str> = drawing_names(self.db, self.db.directory(&fact.path)).iter().collect();

@@ -14,10 +14,10 @@ use super::Session;
 impl Session<'_> {
     /// Adds to each PB503 of a subpath where in the library the path is defined. The library is searched only if there is such a
     /// diagnostic.
-    pub(super) fn with_elsewhere(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    pub(super) fn with_library_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
         let mut known: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
-        let with_elsewhere = |diagnostic: Diagnostic| {
+        let with_library_hints = |diagnostic: Diagnostic| {
             let Some(name) = missing_path(&diagnostic) else { return diagnostic };
             let file = known.entry(name.clone()).or_insert_with(|| {
                 let files = self.definitions(&name, &directories);
@@ -28,7 +28,7 @@ impl Session<'_> {
                 None => diagnostic,
             }
         };
-        diagnostics.into_iter().map(with_elsewhere).collect()
+        diagnostics.into_iter().map(with_library_hints).collect()
     }
 
     fn note(&self, diagnostic: Diagnostic, file: &Utf8Path) -> Diagnostic {

@@ -7,7 +7,7 @@ use super::schema::schema;
 
 /// All tables of `pathbuild.toml` with their keys, taken from the schema.
 #[derive(Debug)]
-pub(super) struct Homes {
+pub(super) struct KeyIndex {
     tables: Vec<Table>,
 }
 
@@ -20,7 +20,7 @@ struct Table {
 
 /// A known key and its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Home<'a> {
+pub(super) struct KeyPlace<'a> {
     /// Header of its table; `None` for the keys before all tables.
     pub(super) header: Option<&'a str>,
     /// Name of the key.
@@ -29,7 +29,7 @@ pub(super) struct Home<'a> {
     pub(super) is_exact: bool,
 }
 
-impl Homes {
+impl KeyIndex {
     pub(super) fn new() -> Self {
         let schema = schema();
         let none = Map::new();
@@ -49,19 +49,19 @@ impl Homes {
     }
 
     /// Finds the table of a key that its own table does not know: by this name, or else by a similar one.
-    pub(super) fn of(&self, name: &str) -> Option<Home<'_>> {
+    pub(super) fn find(&self, name: &str) -> Option<KeyPlace<'_>> {
         let exact = self.keys().find(|home| home.key == name);
         exact.or_else(|| {
             let near = nearest(name, self.keys().map(|home| home.key)).filter(|_| name.len() >= SHORTEST)?;
             let home = self.keys().find(|home| home.key == near)?;
-            Some(Home { is_exact: false, ..home })
+            Some(KeyPlace { is_exact: false, ..home })
         })
     }
 
-    fn keys(&self) -> impl Iterator<Item = Home<'_>> {
+    fn keys(&self) -> impl Iterator<Item = KeyPlace<'_>> {
         self.tables.iter().flat_map(|table| {
             let header = table.header.as_deref();
-            table.keys.iter().map(move |key| Home { header, key, is_exact: true })
+            table.keys.iter().map(move |key| KeyPlace { header, key, is_exact: true })
         })
     }
 }
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn every_table_has_its_keys() {
-        let homes = Homes::new();
+        let key_index = KeyIndex::new();
         for (key, header) in [
             ("library", None),
             ("travel", Some("[machine]")),
@@ -94,16 +94,16 @@ mod tests {
             ("unchecked", Some("[post]")),
             ("files", Some("[[severity-in]]")),
         ] {
-            assert_eq!(homes.of(key), Some(Home { header, key, is_exact: true }));
+            assert_eq!(key_index.find(key), Some(KeyPlace { header, key, is_exact: true }));
         }
     }
 
     #[test]
     fn nearly_right_names_of_five_letters_are_found() {
-        let homes = Homes::new();
-        let near = Home { header: Some("[machine]"), key: "rates", is_exact: false };
-        assert_eq!(homes.of("ratse"), Some(near));
-        assert_eq!(homes.of("rate"), None);
-        assert_eq!(homes.of("colour-of-the-bit"), None);
+        let key_index = KeyIndex::new();
+        let near = KeyPlace { header: Some("[machine]"), key: "rates", is_exact: false };
+        assert_eq!(key_index.find("ratse"), Some(near));
+        assert_eq!(key_index.find("rate"), None);
+        assert_eq!(key_index.find("colour-of-the-bit"), None);
     }
 }

@@ -12,12 +12,12 @@ use pathbuild_path::PathName;
 use pathbuild_toolpath::Program;
 
 use super::{Provenances, writing};
-use crate::session::{OutputKind, Session, WantedPath};
+use crate::session::{OutputKind, SelectedPath, Session};
 use crate::workspace::Workspace;
 
 /// How a program compares with its drawing.
 #[derive(Debug)]
-pub enum Current {
+pub enum DrawingComparison {
     /// The drawing produces the same moves.
     Same,
     /// The drawing produces different moves.
@@ -47,20 +47,20 @@ pub enum Current {
 
 /// Compares a native program with its drawing. Without `named`, the drawing is the one in the program's title, searched for beside the
 /// program and then where paths are looked up.
-pub fn current(
+pub fn compare_with_drawing(
     session: &mut Session<'_>,
     text: &[u8],
     beside: &Utf8Path,
     named: Option<&Utf8Path>,
-) -> Current {
-    let Some((found, title)) = Provenance::of_head(text) else { return Current::Unknown };
+) -> DrawingComparison {
+    let Some((found, title)) = Provenance::of_head(text) else { return DrawingComparison::Unknown };
     let (Some(path), Some(drawing)) = (path_of_title(&title), drawing_of_title(&title)) else {
-        return Current::Unknown;
+        return DrawingComparison::Unknown;
     };
-    session.settled(|session| match defining(session, path, &title, beside, named) {
+    session.with_stable_files(|session| match defining(session, path, &title, beside, named) {
         Ok(Some(path)) => compared(session, &path, &found, text),
-        Ok(None) => Current::NoDrawing { drawing: drawing.into() },
-        Err(problem) => Current::Wrong(vec![*problem]),
+        Ok(None) => DrawingComparison::NoDrawing { drawing: drawing.into() },
+        Err(problem) => DrawingComparison::Wrong(vec![*problem]),
     })
 }
 
@@ -74,7 +74,7 @@ fn defining(
     title: &str,
     beside: &Utf8Path,
     named: Option<&Utf8Path>,
-) -> Result<Option<WantedPath>, Box<Diagnostic>> {
+) -> Result<Option<SelectedPath>, Box<Diagnostic>> {
     let db = session.db();
     let name = PathName::new(path);
     let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normal(drawing)) == FileKind::File;
@@ -82,45 +82,50 @@ fn defining(
     let file = if let Some(drawing) = named.filter(is_there) {
         Some(session.file(drawing))
     } else {
-        let names = session.names_in(beside)?;
+        let names = session.file_names_in(beside)?;
         names.iter().find(|file| is_meant(file)).map(|file| session.file(&join(beside, file)))
     };
     let file = file.or_else(|| {
         let files = session.definitions(&name, &session.name_directories());
         files.into_iter().find(|file| is_meant(file.path(db).file_name().unwrap_or_default()))
     });
-    Ok(file.map(|file| WantedPath { file, name }))
+    Ok(file.map(|file| SelectedPath { file, name }))
 }
 
-fn compared(session: &Session<'_>, path: &WantedPath, found: &Provenance, text: &[u8]) -> Current {
+fn compared(
+    session: &Session<'_>,
+    path: &SelectedPath,
+    found: &Provenance,
+    text: &[u8],
+) -> DrawingComparison {
     let db = session.db();
     let target = session.target(path, Role::Emitted);
     let checked = session.check(&[target]);
     let wrong: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| super::making::found(session, checked)).collect();
+        checked.iter().flat_map(|checked| super::generate::found(session, checked)).collect();
     if wrong.iter().any(Diagnostic::is_error) {
-        return Current::Wrong(wrong);
+        return DrawingComparison::Wrong(wrong);
     }
     if let Some(checked) = checked.iter().find(|checked| !checked.missing_options.is_empty()) {
-        return Current::NeedsOptions(checked.missing_options.clone());
+        return DrawingComparison::NeedsOptions(checked.missing_options.clone());
     }
-    let now = match session.of_target(target, |db| program(db, target).clone()) {
+    let now = match session.query_target(target, |db| program(db, target).clone()) {
         Ok(now) => now,
-        Err(problem) => return Current::Wrong(vec![*problem]),
+        Err(problem) => return DrawingComparison::Wrong(vec![*problem]),
     };
     let drawing = || path.file.path(db).clone();
-    let Some(now) = now else { return Current::Other { drawing: drawing() } };
+    let Some(now) = now else { return DrawingComparison::Other { drawing: drawing() } };
     let provenance = Provenances::new(&session.workspace().settings, None).of(&[&*now]);
     if provenance.moves != found.moves {
-        return Current::Other { drawing: drawing() };
+        return DrawingComparison::Other { drawing: drawing() };
     }
     let kind = if now.probes.is_empty() { OutputKind::Milling } else { OutputKind::Clean };
     match native_text(session.workspace(), &now, kind) {
         Ok(expected) => match first_other_line(text, expected.as_bytes(), Parts::Code) {
-            None => Current::Same,
-            Some(other) => Current::Edited { drawing: drawing(), other },
+            None => DrawingComparison::Same,
+            Some(other) => DrawingComparison::Edited { drawing: drawing(), other },
         },
-        Err(problem) => Current::Wrong(vec![*problem]),
+        Err(problem) => DrawingComparison::Wrong(vec![*problem]),
     }
 }
 

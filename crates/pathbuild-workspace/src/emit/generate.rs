@@ -5,43 +5,43 @@ use std::collections::HashMap;
 use pathbuild_db::{Db, Target, check_file};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::deliver::{Delivered, OutputSettings, Task};
-use super::job::{Job, Known, Maker, take_clashes};
-use super::store::{KnownPaths, Store, subject};
-use super::targets::Selection;
+use super::deliver::{OutputSettings, ProgramOutcome, Task};
+use super::job::{CachedOutcome, Job, JobBuilder, take_clashes};
+use super::store::{CachedPaths, Store, subject};
+use super::targets::TargetSelection;
 use super::write_queue::deliver_all;
 use super::{Request, options};
-use crate::session::{CheckedTarget, Found, Session};
+use crate::session::{ArgumentMatches, CheckedTarget, Session};
 
 /// Context of a run of `emit`.
-pub(super) struct Making<'a> {
+pub(super) struct EmitContext<'a> {
     pub(super) request: &'a Request<'a>,
     /// Cached results of earlier runs; `None` if everything is regenerated.
     pub(super) store: Option<Store>,
-    pub(super) found: Found,
+    pub(super) found: ArgumentMatches,
 }
 
 /// The outcome of a run.
-pub(super) struct RunResult {
-    pub(super) asked: Selection,
+pub(super) struct EmitResult {
+    pub(super) selection: TargetSelection,
     /// Results that were not cached.
-    pub(super) answers: Vec<Answer>,
+    pub(super) answers: Vec<CheckedProgram>,
     pub(super) jobs: Vec<Job>,
     /// Jobs that were dropped because they claim files of other jobs.
     pub(super) refused: Vec<Job>,
     /// The outcome of each job.
-    pub(super) delivered: Vec<Delivered>,
+    pub(super) delivered: Vec<ProgramOutcome>,
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 /// The result of checking the paths of one program.
-pub(super) struct Answer {
+pub(super) struct CheckedProgram {
     pub(super) checked: Vec<CheckedTarget>,
     /// Why no program is generated although the paths have no errors.
     pub(super) refusals: Vec<Diagnostic>,
 }
 
-impl Answer {
+impl CheckedProgram {
     /// Diagnostics of the paths and of the drawings that they use.
     pub(super) fn found(&self, session: &Session<'_>) -> Vec<Diagnostic> {
         self.checked.iter().flat_map(|checked| found(session, checked)).collect()
@@ -54,17 +54,17 @@ pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagn
     of_files.chain(&checked.diagnostics).cloned().collect()
 }
 
-impl Making<'_> {
+impl EmitContext<'_> {
     /// Generates the programs that are not cached, and writes, compares or prints all of them.
     ///
     /// # Errors
     /// If the arguments make no sense; the text says why.
-    pub(super) fn make(&self, session: &mut Session<'_>) -> Result<RunResult, String> {
-        let Request { task, poster, join, .. } = *self.request;
+    pub(super) fn make(&self, session: &mut Session<'_>) -> Result<EmitResult, String> {
+        let Request { task, post_processor, join, .. } = *self.request;
         let mut diagnostics = self.found.problems.clone();
-        let asked =
-            Selection::new(session, self, &mut diagnostics).ok_or_else(|| nothing_to_emit(session))?;
-        if task == Task::Print && join.is_none() && asked.targets.len() > 1 {
+        let selection =
+            TargetSelection::new(session, self, &mut diagnostics).ok_or_else(|| nothing_to_emit(session))?;
+        if task == Task::Print && join.is_none() && selection.targets.len() > 1 {
             let workspace = session.workspace();
             let reason = workspace.choose(
                 "`-o -` writes one program: name one path",
@@ -72,15 +72,15 @@ impl Making<'_> {
             );
             return Err(reason.to_owned());
         }
-        let mut planning = Planning { making: self, session, answers: Vec::new(), diagnostics };
-        let mut jobs = planning.jobs(&self.programs(&asked.targets))?;
-        in_order(&mut jobs, &asked.targets);
-        let refused = take_clashes(session, &mut jobs, &mut planning.diagnostics);
-        let clear = jobs.extract_if(.., |job| job.known == Known::Plan).map(|job| job.targets);
+        let mut planner = Planner { context: self, session, answers: Vec::new(), diagnostics };
+        let mut jobs = planner.jobs(&self.programs(&selection.targets))?;
+        in_order(&mut jobs, &selection.targets);
+        let refused = take_clashes(session, &mut jobs, &mut planner.diagnostics);
+        let clear = jobs.extract_if(.., |job| job.known == CachedOutcome::Plan).map(|job| job.targets);
         let clear: Vec<Vec<Target>> = clear.collect();
-        jobs.extend(planning.made(&clear)?);
-        in_order(&mut jobs, &asked.targets);
-        let Planning { answers, diagnostics, .. } = planning;
+        jobs.extend(planner.check(&clear)?);
+        in_order(&mut jobs, &selection.targets);
+        let Planner { answers, diagnostics, .. } = planner;
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
             let workspace = session.workspace();
             let reason = workspace.choose(
@@ -89,9 +89,9 @@ impl Making<'_> {
             );
             return Err(reason.to_owned());
         }
-        let means = OutputSettings::new(session.workspace(), poster);
-        let delivered = deliver(session, &jobs, task, &means);
-        Ok(RunResult { asked, answers, jobs, refused, delivered, diagnostics })
+        let settings = OutputSettings::new(session.workspace(), post_processor);
+        let delivered = deliver(session, &jobs, task, &settings);
+        Ok(EmitResult { selection, answers, jobs, refused, delivered, diagnostics })
     }
 
     /// Groups the targets by program.
@@ -105,23 +105,23 @@ impl Making<'_> {
 }
 
 /// State while planning which files the paths become.
-struct Planning<'a> {
-    making: &'a Making<'a>,
+struct Planner<'a> {
+    context: &'a EmitContext<'a>,
     session: &'a Session<'a>,
-    answers: Vec<Answer>,
+    answers: Vec<CheckedProgram>,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Planning<'_> {
+impl Planner<'_> {
     /// The jobs of these programs, from the cache where possible.
     fn jobs(&mut self, programs: &[Vec<Target>]) -> Result<Vec<Job>, String> {
-        let Request { task, join, .. } = *self.making.request;
+        let Request { task, join, .. } = *self.context.request;
         let (mut jobs, mut open) = (Vec::new(), Vec::new());
         for targets in programs {
             let subject = || subject(self.session.db(), targets, join);
             let system = self.session.db().system();
-            match self.making.store.as_ref().and_then(|store| store.paths(system, &subject(), task)) {
-                Some(KnownPaths { diagnostics, job }) => {
+            match self.context.store.as_ref().and_then(|store| store.paths(system, &subject(), task)) {
+                Some(CachedPaths { diagnostics, job }) => {
                     self.diagnostics.extend(diagnostics);
                     jobs.extend(job.map(|job| Job::known(targets.clone(), job)));
                 }
@@ -133,20 +133,20 @@ impl Planning<'_> {
         if !jobs.is_empty() && rapid.is_none() && task.writes_times() {
             return Err(options::missing_values(self.session.workspace(), ["rapid"]));
         }
-        jobs.extend(self.made(&open)?);
+        jobs.extend(self.check(&open)?);
         Ok(jobs)
     }
 
     /// Checks the programs and returns their jobs.
-    fn made(&mut self, programs: &[Vec<Target>]) -> Result<Vec<Job>, String> {
-        let Request { task, poster, join, .. } = *self.making.request;
+    fn check(&mut self, programs: &[Vec<Target>]) -> Result<Vec<Job>, String> {
+        let Request { task, post_processor, join, .. } = *self.context.request;
         let mut checked = self.session.check(&programs.concat());
         if let Some(refusal) = options::missing(self.session.workspace(), task, &checked) {
             return Err(refusal);
         }
-        let maker = Maker {
+        let builder = JobBuilder {
             session: self.session,
-            poster,
+            post_processor,
             join,
             sheet: task.sheets(&self.session.workspace().settings),
         };
@@ -154,11 +154,11 @@ impl Planning<'_> {
         let mut checked = checked.drain(..);
         for targets in programs {
             let checked: Vec<CheckedTarget> = checked.by_ref().take(targets.len()).collect();
-            let (job, refusals) = match maker.job(&checked) {
+            let (job, refusals) = match builder.job(&checked) {
                 Ok(job) => (job, Vec::new()),
                 Err(problems) => (None, problems),
             };
-            let answer = Answer { checked, refusals };
+            let answer = CheckedProgram { checked, refusals };
             self.diagnostics.extend(answer.found(self.session));
             self.diagnostics.extend_from_slice(&answer.refusals);
             self.answers.push(answer);
@@ -179,13 +179,13 @@ pub(super) fn deliver(
     session: &mut Session<'_>,
     jobs: &[Job],
     task: Task,
-    means: &OutputSettings<'_>,
-) -> Vec<Delivered> {
-    let open: Vec<&Job> = jobs.iter().filter(|job| job.known == Known::Nothing).collect();
-    let mut made = deliver_all(session, &open, task, means).into_iter();
+    settings: &OutputSettings<'_>,
+) -> Vec<ProgramOutcome> {
+    let open: Vec<&Job> = jobs.iter().filter(|job| job.known == CachedOutcome::Nothing).collect();
+    let mut outcomes = deliver_all(session, &open, task, settings).into_iter();
     let delivered = jobs.iter().map(|job| match &job.known {
-        Known::Program(known) => known.delivered(task),
-        Known::Nothing | Known::Plan => made.next().unwrap_or_default(),
+        CachedOutcome::Program(known) => known.delivered(task),
+        CachedOutcome::Nothing | CachedOutcome::Plan => outcomes.next().unwrap_or_default(),
     });
     delivered.collect()
 }

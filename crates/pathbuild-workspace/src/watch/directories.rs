@@ -16,9 +16,9 @@ use crate::config::clean;
 use crate::session::Session;
 
 /// Directories, as named in events.
-pub(super) struct Places {
+pub(super) struct WatchedDirectories {
     /// Watched directories, with or without everything below them.
-    wanted: BTreeMap<Utf8PathBuf, RecursiveMode>,
+    watched: BTreeMap<Utf8PathBuf, RecursiveMode>,
     /// The watched directories, each with its name in the session, which may begin with `..`.
     own_names: BTreeSet<[Utf8PathBuf; 2]>,
     /// Directories whose replacement matters: the watched ones, and those on the way to them.
@@ -27,22 +27,22 @@ pub(super) struct Places {
     refused: BTreeSet<Utf8PathBuf>,
 }
 
-impl Places {
+impl WatchedDirectories {
     /// Collects the directories of a request. `post` lists the files that the post-processor is read from.
     pub(super) fn new(session: &Session<'_>, request: &Request<'_>, post: &[Utf8PathBuf]) -> Self {
-        let (mut wanted, mut own_names) = (BTreeMap::new(), BTreeSet::new());
+        let (mut watched, mut own_names) = (BTreeMap::new(), BTreeSet::new());
         for (directory, mode) in directories(session, request, post) {
-            let told = as_told(session, &directory);
-            let known = wanted.entry(told.clone()).or_insert(mode);
+            let event_name = event_path(session, &directory);
+            let known = watched.entry(event_name.clone()).or_insert(mode);
             if mode == RecursiveMode::Recursive {
                 *known = mode;
             }
-            own_names.insert([told, session.normal(&directory)]);
+            own_names.insert([event_name, session.normal(&directory)]);
         }
-        let names = wanted.keys().flat_map(|directory| directory.ancestors());
+        let names = watched.keys().flat_map(|directory| directory.ancestors());
         // The working directory and the root exist as long as the program runs.
         let names = names.filter(|name| name.parent().is_some()).map(Utf8Path::to_owned).collect();
-        Self { wanted, own_names, names, refused: BTreeSet::new() }
+        Self { watched, own_names, names, refused: BTreeSet::new() }
     }
 
     /// Starts watching the directories.
@@ -54,7 +54,7 @@ impl Places {
         for way in self.names.iter().filter_map(|name| name.parent()).filter(|way| !is_root(way)) {
             _ = source.watch(spelt(way).as_std_path(), RecursiveMode::NonRecursive);
         }
-        for (directory, mode) in self.wanted.clone() {
+        for (directory, mode) in self.watched.clone() {
             let is_there = directory.as_str().is_empty() || system.kind(&directory) == FileKind::Directory;
             if is_there && !self.is_below(&directory) {
                 self.watch_one(source, system, &directory, mode, &mut BTreeSet::new())?;
@@ -70,7 +70,7 @@ impl Places {
 
     /// Whether the path is in a watched directory, or below one that is watched recursively.
     fn holds(&self, directory: &Utf8Path, path: &Utf8Path) -> bool {
-        match self.wanted.get(directory) {
+        match self.watched.get(directory) {
             Some(RecursiveMode::Recursive) => path != directory && path.starts_with(directory),
             Some(RecursiveMode::NonRecursive) => path.parent() == Some(directory),
             None => false,
@@ -79,8 +79,8 @@ impl Places {
 
     /// Names that the session uses for the path of an event. A drawing may have two names: as an argument, and in a search directory.
     pub(super) fn own_names(&self, path: &Utf8Path) -> Vec<Utf8PathBuf> {
-        let pairs = self.own_names.iter().filter(|[told, _]| self.holds(told, path));
-        let own = pairs.filter_map(|[told, own]| Some(join(own, path.strip_prefix(told).ok()?)));
+        let pairs = self.own_names.iter().filter(|[event_name, _]| self.holds(event_name, path));
+        let own = pairs.filter_map(|[event_name, own]| Some(join(own, path.strip_prefix(event_name).ok()?)));
         let own: BTreeSet<Utf8PathBuf> = own.collect();
         if own.is_empty() { vec![path.to_owned()] } else { own.into_iter().collect() }
     }
@@ -96,7 +96,7 @@ impl Places {
 
     /// Whether a directory above is watched recursively.
     fn is_below(&self, path: &Utf8Path) -> bool {
-        let is_whole = |above: &Utf8Path| self.wanted.get(above) == Some(&RecursiveMode::Recursive);
+        let is_whole = |above: &Utf8Path| self.watched.get(above) == Some(&RecursiveMode::Recursive);
         path.ancestors().skip(1).any(is_whole)
     }
 
@@ -186,6 +186,6 @@ fn directories(
 }
 
 /// The path as events name it.
-pub(super) fn as_told(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf {
+pub(super) fn event_path(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf {
     session.normal(&clean(&session.workspace().working_directory.join(path)))
 }

@@ -13,7 +13,7 @@ impl Session<'_> {
     ///
     /// PB006 if this triggers a bug, PB001 if a drawing changed in the meantime or if the directory cannot be listed.
     /// PB006 where that shows a bug, PB001 where a drawing changed meanwhile, and where the directory cannot be listed.
-    pub(super) fn of_directory<R>(
+    pub(super) fn query_directory<R>(
         &self,
         directory: &Utf8Path,
         ask: impl Fn(Directory) -> R,
@@ -30,7 +30,7 @@ impl Session<'_> {
     ///
     /// # Errors
     /// PB001 if it cannot be listed, PB006 if this triggers a bug.
-    pub fn names_in(&self, directory: &Utf8Path) -> Result<Names, Box<Diagnostic>> {
+    pub fn file_names_in(&self, directory: &Utf8Path) -> Result<Names, Box<Diagnostic>> {
         let listed = catch_bugs(|| self.db.system().list(directory));
         match listed.map_err(|bug| Box::new(bug.in_file(readable(directory))))? {
             Ok(listing) => Ok(listing.files),

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::{configuration, outputs as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
-use super::found::FoundDirectory;
+use super::argument_matches::SearchedDirectory;
 use super::{DrawingResult, Session};
 use crate::config::{Origin, Sourced};
 
@@ -39,12 +39,12 @@ impl Session<'_> {
     }
 
     /// PB518 for each named directory without drawings. A library may be new, so for it only if all its directories are empty.
-    pub(super) fn without_drawings(is_library: bool, asked: &[&FoundDirectory]) -> Vec<Diagnostic> {
-        let empty = asked.iter().filter(|directory| directory.drawings.is_empty());
+    pub(super) fn without_drawings(is_library: bool, directories: &[&SearchedDirectory]) -> Vec<Diagnostic> {
+        let empty = directories.iter().filter(|directory| directory.drawings.is_empty());
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
         match empty.as_slice() {
             [] => Vec::new(),
-            all if is_library && all.len() == asked.len() => vec![no_drawing(all)],
+            all if is_library && all.len() == directories.len() => vec![no_drawing(all)],
             _ if is_library => Vec::new(),
             each => each.iter().map(|directory| no_drawing(&[*directory])).collect(),
         }
@@ -76,8 +76,8 @@ impl Session<'_> {
     }
 
     /// PB513 for a drawing that was named but contains no path, unless the drawing has errors.
-    pub fn no_path(&self, drawing: &Utf8Path, said: &DrawingResult) -> Option<Diagnostic> {
-        let is_right = !said.names.is_empty() || said.diagnostics.iter().any(Diagnostic::is_error);
+    pub fn no_path(&self, drawing: &Utf8Path, result: &DrawingResult) -> Option<Diagnostic> {
+        let is_right = !result.names.is_empty() || result.diagnostics.iter().any(Diagnostic::is_error);
         (!is_right).then(|| {
             Diagnostic::new(&messages::NO_PATH)
                 .with("pattern", &*self.context.settings.general.path_pattern.value)

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 
-use crate::config::Concerns;
+use crate::config::ResultKind;
 use crate::workspace::Workspace;
 
 /// Identifies this build of the program.
@@ -12,15 +12,15 @@ pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
 /// The query with all settings that results depend on. Directories are relative to the configuration, so that a tree keeps its results when
 /// it is moved or copied as a whole.
-pub(super) fn whole_question(context: &Workspace, whose: Concerns, question: &str) -> String {
-    let mut text = question.to_owned();
+pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &str) -> String {
+    let mut text = query.to_owned();
     let base = context.settings.directory().map(|base| format!("\"{base}/")).unwrap_or_default();
-    context.settings.concerning(whose, &mut |name, value| {
+    context.settings.visit_inputs(result_kind, &mut |name, value| {
         let value = format!("{value:?}");
         let value = if base.is_empty() { value } else { value.replace(&base, "\"./") };
         _ = write!(text, "\n{name} = {value}");
     });
-    if whose == Concerns::Emit {
+    if result_kind == ResultKind::Emit {
         // These depend on whether a key is set, not only on its value.
         _ = write!(text, "\n{:?}", (context.settings.comment_lang(), context.settings.z_split()));
     }
@@ -59,21 +59,21 @@ impl Coverage {
     }
 
     /// The paths that drawings of these names may contain.
-    pub fn of_files<'f>(&self, files: impl IntoIterator<Item = &'f str>) -> Held<'_> {
+    pub fn of_files<'f>(&self, files: impl IntoIterator<Item = &'f str>) -> CoveredPaths<'_> {
         let stem = |file: &'f str| file.rsplit_once('.').map_or(file, |(stem, _)| stem);
         let ranges = files.into_iter().flat_map(|file| self.files.ranges(stem(file)));
-        Held { paths: &self.paths, ranges: ranges.map(|range| (range, 0)).collect() }
+        CoveredPaths { paths: &self.paths, ranges: ranges.map(|range| (range, 0)).collect() }
     }
 }
 
 /// The paths that some drawings may contain, judging by their names.
 #[derive(Debug)]
-pub struct Held<'a> {
+pub struct CoveredPaths<'a> {
     paths: &'a PathPattern,
     ranges: RangeTable,
 }
 
-impl Held<'_> {
+impl CoveredPaths<'_> {
     /// Whether any of the drawings may contain the path of this name.
     pub fn may_hold(&self, path: &str) -> bool {
         PathKey::new(path, self.paths).is_some_and(|key| !self.ranges.files(&key).is_empty())

@@ -7,12 +7,12 @@ use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Reco
 use pathbuild_db::{Db, NameLookup, SourceFile};
 
 use super::lookups::Lookups;
-use super::seen::{Content, Seen};
-use super::{FreshResult, FurtherFile, MadeOutput, ResultStore};
+use super::run_facts::{Content, RunFacts};
+use super::{ExtraInput, FreshResult, GeneratedFile, ResultStore};
 use crate::session::Session;
 
 /// A catalogue under construction.
-pub(super) struct Writing<'a> {
+pub(super) struct CatalogueBuilder<'a> {
     result_store: &'a ResultStore,
     session: &'a Session<'a>,
     begun: Clock,
@@ -25,15 +25,15 @@ pub(super) struct Writing<'a> {
     kept_files: Vec<Option<usize>>,
     kept_directories: Vec<Option<usize>>,
     kept_lookups: Vec<Option<usize>>,
-    seen: Seen<'a>,
+    seen: RunFacts<'a>,
 }
 
-impl<'a> Writing<'a> {
+impl<'a> CatalogueBuilder<'a> {
     pub(super) fn new(
         result_store: &'a ResultStore,
         session: &'a Session<'a>,
         begun: Clock,
-        made: &'a [FreshResult],
+        fresh: &'a [FreshResult],
     ) -> Self {
         let kept = &result_store.kept;
         Self {
@@ -47,7 +47,7 @@ impl<'a> Writing<'a> {
             kept_files: vec![None; kept.files()],
             kept_directories: vec![None; kept.directories()],
             kept_lookups: vec![None; kept.lookups()],
-            seen: Seen::new(session, made),
+            seen: RunFacts::new(session, fresh),
         }
     }
 
@@ -72,7 +72,7 @@ impl<'a> Writing<'a> {
     }
 
     /// Adds a new result, unless one of its drawings could not be read or changed during the run: such a result is not stable.
-    pub(super) fn add_made(&mut self, result: &FreshResult) {
+    pub(super) fn add_fresh(&mut self, result: &FreshResult) {
         let Some(payload) = &result.payload else { return };
         let db = self.session.db();
         let mut drawings = result.traces.iter().flat_map(|trace| &trace.files);
@@ -136,7 +136,7 @@ impl<'a> Writing<'a> {
     }
 
     /// Adds a file other than a drawing. If results were computed from different contents, it is unclear which content a result belongs to.
-    fn further_file(&mut self, FurtherFile { path, hash }: &FurtherFile) -> usize {
+    fn further_file(&mut self, ExtraInput { path, hash }: &ExtraInput) -> usize {
         let mut room = Vec::new();
         let limit = self.session.workspace().settings.limits.file_size.value;
         let now = self.session.db().system().read_stamped(path, limit, &mut room);
@@ -151,7 +151,7 @@ impl<'a> Writing<'a> {
     }
 
     /// Records an output file written or compared in this run.
-    fn output(&mut self, MadeOutput { path, hash, is_there }: &MadeOutput) -> usize {
+    fn output(&mut self, GeneratedFile { path, hash, is_there }: &GeneratedFile) -> usize {
         let stamp = if *is_there { Stamp::of(path).settled(self.begun) } else { Stamp::UNKNOWN };
         // If the file has vanished meanwhile, the stamp does not belong to the hash.
         let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };

@@ -32,11 +32,11 @@ impl Session<'_> {
                 None => diagnostic,
             }
         };
-        self.with_elsewhere(diagnostics).into_iter().map(with_near).collect()
+        self.with_library_hints(diagnostics).into_iter().map(with_near).collect()
     }
 
     /// Finds a missing path elsewhere: in the library, in a drawing whose file name does not cover it, or under a similar name.
-    fn near_path(&self, name: &str, known: &Known) -> Option<(&'static Message, String)> {
+    fn near_path(&self, name: &str, known: &KnownNames) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
         let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
         let defined = self.definitions(&path, &self.library_directories());
@@ -52,8 +52,8 @@ impl Session<'_> {
     }
 
     /// Everything that a name without a separator may refer to.
-    fn known(&self) -> Known {
-        Known { paths: self.paths_of_library(), entries: self.entries(Utf8Path::new("")) }
+    fn known(&self) -> KnownNames {
+        KnownNames { paths: self.paths_of_library(), entries: self.entries(Utf8Path::new("")) }
     }
 
     /// The existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.
@@ -89,7 +89,7 @@ impl Session<'_> {
 }
 
 /// Everything that a name without a separator may refer to.
-struct Known {
+struct KnownNames {
     /// Paths of the library, with their drawings.
     paths: Vec<(PathName, SourceFile)>,
     /// Drawings and directories in the working directory.

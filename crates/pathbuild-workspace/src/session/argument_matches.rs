@@ -15,7 +15,7 @@ use crate::inputs::{Input, Inputs};
 
 /// What the arguments may refer to.
 #[derive(Debug, Default)]
-pub struct Found {
+pub struct ArgumentMatches {
     /// Each argument; without any, the directories of the library.
     pub arguments: Vec<Argument>,
     /// Whether there are no arguments.
@@ -34,7 +34,7 @@ pub struct Found {
 #[derive(Debug)]
 pub enum Argument {
     /// A directory.
-    Directory(FoundDirectory),
+    Directory(SearchedDirectory),
     /// A drawing, whether it exists or not.
     Drawing(SourceFile),
     /// The first of these that exists: a path, a drawing without its `.dxf`, a directory.
@@ -46,13 +46,13 @@ pub enum Argument {
         /// The drawing of this name.
         drawing: Option<SourceFile>,
         /// The directory of this name.
-        directory: Option<FoundDirectory>,
+        directory: Option<SearchedDirectory>,
     },
 }
 
 /// A directory that was searched recursively.
 #[derive(Debug)]
-pub struct FoundDirectory {
+pub struct SearchedDirectory {
     /// Its path.
     pub path: Utf8PathBuf,
     /// All drawings in and below it, sorted.
@@ -63,9 +63,9 @@ pub struct FoundDirectory {
     pub problems: Vec<Diagnostic>,
 }
 
-impl Found {
+impl ArgumentMatches {
     /// The directories that the arguments may refer to.
-    pub fn directories(&self) -> impl Iterator<Item = &FoundDirectory> {
+    pub fn directories(&self) -> impl Iterator<Item = &SearchedDirectory> {
         self.arguments.iter().filter_map(Argument::directory)
     }
 
@@ -90,7 +90,7 @@ impl Found {
 }
 
 impl Argument {
-    fn directory(&self) -> Option<&FoundDirectory> {
+    fn directory(&self) -> Option<&SearchedDirectory> {
         match self {
             Self::Directory(directory) => Some(directory),
             Self::Name { directory, .. } => directory.as_ref(),
@@ -101,9 +101,13 @@ impl Argument {
 
 impl Session<'_> {
     /// Finds what the arguments may refer to; without any, the library.
-    pub fn found(&self, inputs: &Inputs) -> Found {
+    pub fn match_arguments(&self, inputs: &Inputs) -> ArgumentMatches {
         let is_library = inputs.inputs.is_empty();
-        let mut found = Found { problems: self.missing_directories(), is_library, ..Found::default() };
+        let mut found = ArgumentMatches {
+            problems: self.missing_directories(),
+            is_library,
+            ..ArgumentMatches::default()
+        };
         if is_library {
             let library = self.library_walked(&mut found.listings);
             found.arguments = library.into_iter().map(Argument::Directory).collect();
@@ -149,12 +153,12 @@ impl Session<'_> {
         Argument::Drawing(self.file(place))
     }
 
-    fn name(&self, name: &str, found: &mut Found) -> Argument {
+    fn name(&self, name: &str, found: &mut ArgumentMatches) -> Argument {
         let directories = &found.name_directories;
         let path = PathName::new(name);
         let mut candidates = Vec::new();
         for directory in directories {
-            match self.of_directory(directory, |directory| may_hold(&self.db, directory, &path)) {
+            match self.query_directory(directory, |directory| may_hold(&self.db, directory, &path)) {
                 Ok(files) => candidates.extend(files),
                 Err(problem) => found.problems.push(*problem),
             }
@@ -175,8 +179,8 @@ impl Session<'_> {
         })
     }
 
-    fn walked_in(&self, directory: Utf8PathBuf, listings: &mut Listings) -> FoundDirectory {
-        self.rouse_workers();
+    fn walked_in(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
+        self.start_workers();
         let walked = self.walk().through(&directory);
         self.found_directory(directory, walked, listings)
     }
@@ -184,22 +188,22 @@ impl Session<'_> {
     fn found_directory(
         &self,
         path: Utf8PathBuf,
-        walked: library::Walked,
+        walked: library::WalkResult,
         listings: &mut Listings,
-    ) -> FoundDirectory {
+    ) -> SearchedDirectory {
         let listed = walked.listings.into_iter();
         listings.extend(listed.map(|(directory, listing)| (self.normalised(directory), listing)));
         let normalised =
             |paths: Vec<Utf8PathBuf>| paths.into_iter().map(|path| self.normalised(path)).collect();
         let (drawings, directories) = (normalised(walked.drawings), normalised(walked.directories));
-        FoundDirectory { path, drawings, directories, problems: walked.problems }
+        SearchedDirectory { path, drawings, directories, problems: walked.problems }
     }
 
-    fn library_walked(&self, listings: &mut Listings) -> Vec<FoundDirectory> {
+    fn library_walked(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
         let walk = self.walk();
-        let walked: Vec<library::Walked> = if walk.is_parallel && library.len() > 1 {
+        let walked: Vec<library::WalkResult> = if walk.is_parallel && library.len() > 1 {
             library.par_iter().map(|directory| walk.through(directory)).collect()
         } else {
             library.iter().map(|directory| walk.through(directory)).collect()
@@ -241,7 +245,7 @@ impl Session<'_> {
 
     /// All known drawings: those of the library, or without a library those in and below the working directory. Also returns errors while
     /// listing them.
-    pub fn everything(&self) -> (Vec<SourceFile>, Vec<Diagnostic>) {
+    pub fn all_drawings(&self) -> (Vec<SourceFile>, Vec<Diagnostic>) {
         let (drawings, problems) = if self.has_library() {
             self.library()
         } else {
@@ -289,7 +293,7 @@ impl Session<'_> {
     }
 }
 
-fn holding_drawings(walked: &[FoundDirectory]) -> Vec<Utf8PathBuf> {
+fn holding_drawings(walked: &[SearchedDirectory]) -> Vec<Utf8PathBuf> {
     let drawings = walked.iter().flat_map(|directory| &directory.drawings);
     let parents = drawings.filter_map(|drawing| drawing.parent());
     let mut seen = FxHashSet::default();

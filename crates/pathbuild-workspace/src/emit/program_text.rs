@@ -8,7 +8,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 
 use super::deliver::{JobFiles, OutputSettings, make};
-use super::job::{Job, Maker};
+use super::job::{Job, JobBuilder};
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Session};
@@ -28,19 +28,20 @@ pub(crate) struct ProgramText {
 /// Why `emit` would refuse to write it.
 pub(crate) fn program_text(
     session: &Session<'_>,
-    poster: Option<&PostProcessor>,
+    post_processor: Option<&PostProcessor>,
     checked: &CheckedTarget,
 ) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
-    let maker = Maker { session, poster, join: None, sheet: SheetFormat::No };
-    let Some(job) = maker.job(slice::from_ref(checked))? else { return Ok(None) };
-    let settings = OutputSettings::new(session.workspace(), poster);
+    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
+    let Some(job) = builder.job(slice::from_ref(checked))? else { return Ok(None) };
+    let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &Job| make(db, job, &settings);
-    let made = session.guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(JobFiles::default()));
-    let made = made.map_err(|problem| vec![*problem])?;
+    let files = session.guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(JobFiles::default()));
+    let files = files.map_err(|problem| vec![*problem])?;
     // Without a known dialect, read the text as generic RS274, as when it is read back.
-    let dialect = poster.map_or(Dialect::Native, |poster| poster.reader().unwrap_or(Dialect::LinuxCnc));
-    match made.outputs.into_iter().find(|output| output.kind.is_program()) {
+    let dialect = post_processor
+        .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
+    match files.outputs.into_iter().find(|output| output.kind.is_program()) {
         Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),
-        None => Err(made.delivered.problems),
+        None => Err(files.delivered.problems),
     }
 }
