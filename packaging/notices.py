@@ -1,6 +1,6 @@
-"""What the program is made of, from `cargo metadata`: notices.py TARGET NOTICES SBOM [CRATE]
+"""Lists the crates that are linked into a program: notices.py TARGET NOTICES SBOM [CRATE]
 
-NOTICES has the name, version, licence and licence texts of every crate that is linked in, SBOM the same as CycloneDX 1.5 without texts.
+NOTICES has the name, version, licence and authors of every crate, and each licence text once. SBOM is the same as CycloneDX 1.5 without texts.
 A crate without any text ends the script: a package must not be made without the notices that its licences ask for.
 """
 import json
@@ -8,41 +8,38 @@ import subprocess
 import sys
 from pathlib import Path
 
-metadata = json.loads(subprocess.check_output(["cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", sys.argv[1]]))
-nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
-packages = {package["id"]: package for package in metadata["packages"]}
-root = next(package["id"] for package in metadata["packages"] if package["name"] == (sys.argv[4:] or ["pathbuild"])[0])
+target, notices, bill = sys.argv[1:4]
+crate = (sys.argv[4:] or ["pathbuild"])[0]
 
-linked, open_ = set(), [root]
-while open_:
-    at = open_.pop()
-    if at in linked:
-        continue
-    linked.add(at)
-    for dependency in nodes[at]["deps"]:
-        if any(kind["kind"] is None for kind in dependency["dep_kinds"]):
-            open_.append(dependency["pkg"])
+# cargo tree knows what is linked: procedural macros and build scripts are not, nor what only features of other workspace members need.
+tree = ["cargo", "tree", "--locked", "--package", crate, "--target", target, "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"]
+linked = {tuple(line.split()[:2]) for line in subprocess.check_output(tree, text=True).splitlines() if line}
+metadata = json.loads(subprocess.check_output(["cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", target]))
+ours = set(metadata["workspace_members"])
+packages = [package for package in metadata["packages"] if (package["name"], "v" + package["version"]) in linked]
+root = next(package for package in packages if package["name"] == crate)
+parts = sorted((package for package in packages if package["id"] not in ours), key=lambda part: (part["name"], part["version"]))
 
-ours = {package for package in metadata["workspace_members"]}
-parts = sorted((packages[part] for part in linked if part not in ours), key=lambda part: (part["name"], part["version"]))
-
-# Texts that a crate leaves out of its package although its licence wants them are those of the licence itself.
+# Some crates leave out a text that their licence asks for: it is that of the licence itself.
 TEXTS = {"MIT": "LICENSE-MIT", "Apache-2.0": "LICENSE-APACHE"}
-lines, without = [], []
+NAMES = ("LICENSE", "LICENCE", "COPYING", "NOTICE", "COPYRIGHT")
+texts, rows, without = {}, [], []
 for part in parts:
     directory = Path(part["manifest_path"]).parent
-    texts = sorted(path for path in directory.iterdir() if path.name.upper().startswith(("LICENSE", "LICENCE", "COPYING", "NOTICE", "COPYRIGHT")) and path.is_file())
-    lines += ["=" * 78, f"{part['name']} {part['version']}", f"Licence: {part['license']}", f"Authors: {', '.join(part['authors']) or 'see ' + str(part['repository'])}", ""]
-    if texts:
-        lines += [text for path in texts for text in [path.read_text(errors="replace").strip(), ""]]
-        continue
-    known = [name for name in TEXTS if name in (part["license"] or "")]
-    if not known:
+    files = sorted(path for path in directory.iterdir() if path.name.upper().startswith(NAMES) and path.is_file())
+    own = [path.read_text(errors="replace").strip().replace("\r\n", "\n") for path in files]
+    numbers = [f"text {texts.setdefault(text, len(texts) + 1)}" for text in own]
+    if not own:
+        numbers = [TEXTS[name] for name in TEXTS if name in (part["license"] or "")]
+    if not numbers:
         without.append(f"{part['name']} {part['version']}: {part['license']}")
-    lines += [f"The text of {name} is in {TEXTS[name]}." for name in known] + [""]
+    authors = ", ".join(part["authors"]) or f"see {part['repository']}"
+    rows += [f"{part['name']} {part['version']}", f"  {part['license']}: {', '.join(numbers)}", f"  {authors}", ""]
 if without:
     sys.exit("no licence text:\n" + "\n".join(without))
-Path(sys.argv[2]).write_text("\n".join(lines))
+head = ["This program contains the crates below. The licence texts that they name follow the list; LICENSE-MIT and LICENSE-APACHE lie beside this file.", ""]
+blocks = [f"{'=' * 78}\ntext {number}\n\n{text}\n" for text, number in texts.items()]
+Path(notices).write_text("\n".join(head + rows + blocks))
 
 components = [
     {
@@ -58,7 +55,7 @@ sbom = {
     "bomFormat": "CycloneDX",
     "specVersion": "1.5",
     "version": 1,
-    "metadata": {"component": {"type": "application", "name": "pathbuild", "version": packages[root]["version"]}},
+    "metadata": {"component": {"type": "application", "name": "pathbuild", "version": root["version"]}},
     "components": components,
 }
-Path(sys.argv[3]).write_text(json.dumps(sbom, indent=1) + "\n")
+Path(bill).write_text(json.dumps(sbom, indent=1) + "\n")
