@@ -66,11 +66,11 @@ impl OpenedFiles {
         if !faults.is_empty() {
             return (None, halted(faults));
         }
-        let post_processor = match PostProcessor::of_run(workspace, post.as_deref(), PostArguments::default())
-        {
-            Ok(post_processor) => post_processor,
-            Err(faults) => return (None, halted(faults)),
-        };
+        let post_processor =
+            match PostProcessor::for_run(workspace, post.as_deref(), PostArguments::default()) {
+                Ok(post_processor) => post_processor,
+                Err(faults) => return (None, halted(faults)),
+            };
         let session = Session::new(workspace);
         let (sources, found) = session.all_drawings();
         let drawings: Vec<String> = sources.iter().map(|file| file.path(session.db()).to_string()).collect();

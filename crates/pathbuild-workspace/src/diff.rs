@@ -125,16 +125,18 @@ pub fn trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pi
     session.with_stable_files(|session| {
         let mut new = Tree { session, inputs, root };
         let Tree { session, inputs, root } = &mut *old;
-        session.with_stable_files(|session| settled(&mut Tree { session, inputs, root }, &mut new, pictures))
+        session.with_stable_files(|session| {
+            compare_stable(&mut Tree { session, inputs, root }, &mut new, pictures)
+        })
     })
 }
 
-fn settled(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
-    let (was, old_problems) = old.paths();
-    let (is, new_problems) = new.paths();
+fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Pictures>) -> Comparison {
+    let (old_path, old_problems) = old.paths();
+    let (new_path, new_problems) = new.paths();
     let mut problems = [old_problems, new_problems];
-    let looked_at = is.len();
-    let mut paths: Vec<PathDiff> = pairs(was, is)
+    let looked_at = new_path.len();
+    let mut paths: Vec<PathDiff> = pair_up(old_path, new_path)
         .into_iter()
         .filter_map(|pair| pair.compare([old.session, new.session], pictures, &mut problems))
         .collect();
@@ -194,14 +196,14 @@ struct Pair {
 }
 
 /// Pairs the paths of both sides: those with the same name in the same drawing, then those whose name remains exactly once on each side.
-fn pairs(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
+fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
     let mut by_file: HashMap<(Utf8PathBuf, PathName), SidePath> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
-    let mut pairs = Vec::new();
+    let mut pair_up = Vec::new();
     let mut alone = Vec::new();
     for known in new {
         match by_file.remove(&(known.place.clone(), known.name.clone())) {
-            Some(old) => pairs.push(Pair { old: Some(old), new: Some(known) }),
+            Some(old) => pair_up.push(Pair { old: Some(old), new: Some(known) }),
             None => alone.push(known),
         }
     }
@@ -216,10 +218,10 @@ fn pairs(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<Pair> {
     for known in alone {
         let is_only = count[&known.name] == 1;
         let old = by_name.get_mut(&known.name).filter(|old| is_only && old.len() == 1).and_then(Vec::pop);
-        pairs.push(Pair { old, new: Some(known) });
+        pair_up.push(Pair { old, new: Some(known) });
     }
-    pairs.extend(by_name.into_values().flatten().map(|old| Pair { old: Some(old), new: None }));
-    pairs
+    pair_up.extend(by_name.into_values().flatten().map(|old| Pair { old: Some(old), new: None }));
+    pair_up
 }
 
 impl Pair {
@@ -231,12 +233,14 @@ impl Pair {
     ) -> Option<PathDiff> {
         let Self { old, new } = self;
         let outcome = match (&old, &new) {
-            (Some(was), Some(is)) => match (&was.moves, &is.moves) {
-                (Some(before), Some(after)) if before == after && was.place == is.place => return None,
+            (Some(old_path), Some(new_path)) => match (&old_path.moves, &new_path.moves) {
+                (Some(before), Some(after)) if before == after && old_path.place == new_path.place => {
+                    return None;
+                }
                 (Some(before), Some(after)) if before == after => Outcome::OtherDrawing,
                 (Some(_), Some(_)) => {
                     let [before, after] = sessions;
-                    changed([seen(before, was), seen(after, is)], pictures, problems)
+                    changed([scene_path(before, old_path), scene_path(after, new_path)], pictures, problems)
                 }
                 (Some(_), None) => Outcome::Broken,
                 (None, Some(_)) => Outcome::Mended,
@@ -260,7 +264,7 @@ fn changed(
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Outcome {
     let outcome = match &sides {
-        [Ok(was), Ok(is)] => Outcome::Changed(Box::new(programs(was, is, pictures))),
+        [Ok(old_path), Ok(new_path)] => Outcome::Changed(Box::new(programs(old_path, new_path, pictures))),
         [Ok(_), Err(_)] => Outcome::Broken,
         [Err(_), Ok(_)] => Outcome::Mended,
         [Err(_), Err(_)] => Outcome::StillBroken,
@@ -275,10 +279,10 @@ fn changed(
 ///
 /// # Errors
 /// The errors that prevent its program from being built.
-fn seen(session: &Session<'_>, known: &SidePath) -> Result<ScenePath, Vec<Diagnostic>> {
-    let seen = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
-    let path = seen.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
+fn scene_path(session: &Session<'_>, known: &SidePath) -> Result<ScenePath, Vec<Diagnostic>> {
+    let scene_path = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
+    let path = scene_path.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
     // Errors of the drawing as a whole are reported already.
     let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();
-    path.ok_or_else(|| seen.diagnostics.into_iter().filter(is_of_path).collect())
+    path.ok_or_else(|| scene_path.diagnostics.into_iter().filter(is_of_path).collect())
 }

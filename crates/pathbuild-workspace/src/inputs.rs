@@ -43,7 +43,7 @@ impl<'a> Input<'a> {
     }
 
     /// Directory or program at which the upward search for the configuration begins; for a name this is the working directory (empty).
-    pub(crate) fn beginning(self, is_directory: impl Fn(&Utf8Path) -> bool) -> &'a Utf8Path {
+    pub(crate) fn search_start(self, is_directory: impl Fn(&Utf8Path) -> bool) -> &'a Utf8Path {
         match self {
             Self::Place(place) if is_drawing(place) => place.parent().unwrap_or(Utf8Path::new("")),
             Self::Place(place) => place,

@@ -49,7 +49,7 @@ impl Workspace {
 
     /// Path of the working directory's configuration if it does not apply to this run, because the inputs lie outside its tree. Relative to
     /// the working directory.
-    pub fn configuration_not_used(&self) -> Option<Utf8PathBuf> {
+    pub fn unused_configuration(&self) -> Option<Utf8PathBuf> {
         let file = self.settings.not_used.as_deref()?;
         Some(relative(file, &self.working_directory))
     }

@@ -99,7 +99,7 @@ impl Context {
     }
 
     /// Like [`row`](Self::row), but only if the format is JSON.
-    pub(crate) fn row_of_json(&self, row: impl FnOnce() -> (&'static str, Value)) {
+    pub(crate) fn json_row(&self, row: impl FnOnce() -> (&'static str, Value)) {
         if self.format == Format::Json {
             let (kind, row) = row();
             self.row(kind, row);
@@ -168,7 +168,7 @@ impl Context {
     }
 
     /// Refuses to run because nothing was named to work on.
-    pub fn nothing_named(&self) -> ExitStatus {
+    pub fn refuse_empty_input(&self) -> ExitStatus {
         let advice = match self.settings.file {
             Some(_) => {
                 self.choose("or set `library` in pathbuild.toml", "oder `library` in pathbuild.toml setzen")

@@ -5,6 +5,7 @@ pub mod args;
 pub mod commands;
 mod completion;
 mod context;
+mod environment;
 mod exit;
 pub mod german;
 mod numbers;
@@ -18,7 +19,6 @@ mod serving;
 #[cfg(not(feature = "serve"))]
 #[path = "serving/missing.rs"]
 mod serving;
-mod surroundings;
 mod table;
 mod usage;
 mod watching;
@@ -36,13 +36,13 @@ pub use context::Context;
 pub use exit::ExitStatus;
 
 use args::{Cli, Command, CommonArgs, CompatArgs};
-use commands::compat::{self, Translated};
+use commands::compat::{self, Translation};
 use output::Output;
 use printer::{ColorChoice, Printer};
 
 /// Runs the program with its command-line arguments, of which the first is the program's own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
-    let arguments = compat::guarded(arguments.into_iter().collect());
+    let arguments = compat::with_separator(arguments.into_iter().collect());
     if let Some(status) = completion::answer(&arguments) {
         return status;
     }
@@ -62,8 +62,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
 fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
     let lang = lang_of(arguments);
     let translated = match compat::translate(&args.arguments, lang) {
-        Ok(Translated::Commands(translated)) => translated,
-        Ok(Translated::Help(own)) => {
+        Ok(Translation::Commands(translated)) => translated,
+        Ok(Translation::Help(own)) => {
             return print(|printer| usage::help(compat::help(own.unwrap_or(lang)), printer));
         }
         Err(reason) => return print(|printer| usage::wrong(&reason, lang, printer)),
@@ -75,7 +75,7 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
     }
     let each = translated.iter().map(|command| {
         Printer::new(common.verbosity(), ColorChoice::Never).detail(line(command).trim_end());
-        run(compat::spliced(arguments, args.arguments.len(), command))
+        run(compat::replace_arguments(arguments, args.arguments.len(), command))
     });
     each.max().unwrap_or(ExitStatus::Success)
 }
@@ -115,12 +115,12 @@ fn execute(cli: &Cli) -> ExitStatus {
 
 /// Why options or the environment ask for something impossible.
 fn refusal(context: &Context) -> Option<String> {
-    context.output.refusal(context).or_else(|| surroundings::refusal(context))
+    context.output.refusal(context).or_else(|| environment::refusal(context))
 }
 
 /// Warns if the working directory's configuration does not apply to this run.
 fn warn_about_unused_configuration(context: &Context) {
-    if let Some(file) = context.configuration_not_used() {
+    if let Some(file) = context.unused_configuration() {
         let line = context.phrase(
             "note: {} does not hold for what lies outside of its tree (--config {} makes it hold); no other was found",
             "Hinweis: {} gilt nicht für das, was außerhalb ihres Baums liegt (mit --config {} gilt sie); eine andere wurde nicht gefunden",
@@ -135,19 +135,19 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
     let Cli { command, common } = cli;
     let working_directory = working_directory();
     let (user, mut faults) =
-        surroundings::user_configuration().map(|file| User::load(&OsSystem, &file)).unwrap_or_default();
+        environment::user_configuration().map(|file| User::load(&OsSystem, &file)).unwrap_or_default();
     let given = Overrides { trusted: user.trusted, ..common.overrides() };
     let (settings, more) = config::load(&OsSystem::shared(), &given, &command.inputs(), &working_directory);
     faults.extend(more);
     let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
     let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
     let cache_home =
-        || surroundings::cache_home(common.cache_dir.as_deref(), user.cache_dir, &working_directory);
+        || environment::cache_home(common.cache_dir.as_deref(), user.cache_dir, &working_directory);
     let workspace = Workspace {
         system: context::system_of(&settings),
         settings,
-        own_lang: common.lang.map(Lang::from).or_else(surroundings::lang).or(user.lang),
-        system_lang: surroundings::system_lang(),
+        own_lang: common.lang.map(Lang::from).or_else(environment::lang).or(user.lang),
+        system_lang: environment::system_lang(),
         jobs: common.jobs,
         cache: if common.no_cache { None } else { cache_home() },
         working_directory,

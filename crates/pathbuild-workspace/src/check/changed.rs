@@ -37,7 +37,7 @@ impl ReachedInputs {
     }
 
     /// Adds the inputs of a cached result.
-    pub(super) fn add_kept(&mut self, facts: &Dependencies<'_>) {
+    pub(super) fn add_cached(&mut self, facts: &Dependencies<'_>) {
         facts.files.iter().for_each(|file| add(&mut self.files, file));
         facts.lookups.iter().for_each(|(directory, _)| add(&mut self.directories, directory));
     }
@@ -69,7 +69,7 @@ impl ChangedDrawings {
     }
 
     /// Whether a result computed in this run depends on one of the drawings.
-    pub(super) fn concerns(&self, session: &Session<'_>, traces: &[Trace]) -> bool {
+    pub(super) fn affects(&self, session: &Session<'_>, traces: &[Trace]) -> bool {
         let db = session.db();
         traces.iter().any(|trace| {
             trace.files.iter().any(|file| self.files.contains(file.path(db)))
@@ -80,7 +80,7 @@ impl ChangedDrawings {
     }
 
     /// Whether a cached result depends on one of the drawings.
-    pub(super) fn concerns_kept(&self, facts: &Dependencies<'_>) -> bool {
+    pub(super) fn affects_cached(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
             || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
     }

@@ -30,7 +30,7 @@ pub(super) fn check_paths(
     let files: Vec<SourceFile> = targets.iter().map(|(file, _)| *file).collect();
     session.parse_ahead(&files);
     session.in_batches(targets, BATCH, |session, targets| {
-        session.each(targets, |checker, target| check_drawing(checker, target, with_all_values))
+        session.map_with_checker(targets, |checker, target| check_drawing(checker, target, with_all_values))
     })
 }
 

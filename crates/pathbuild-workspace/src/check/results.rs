@@ -162,9 +162,9 @@ impl<'a> ChangeFilter<'a> {
     pub(super) fn contains(&self, subject: &str) -> bool {
         let Some(changed) = &self.changed else { return true };
         if let Some(result) = self.fresh.get(subject) {
-            return changed.concerns(self.session, &result.traces);
+            return changed.affects(self.session, &result.traces);
         }
-        self.facts(subject).is_none_or(|facts| changed.concerns_kept(&facts))
+        self.facts(subject).is_none_or(|facts| changed.affects_cached(&facts))
     }
 
     fn reached<'n>(&self, names: impl Iterator<Item = Cow<'n, str>>) -> ReachedInputs {
@@ -173,7 +173,7 @@ impl<'a> ChangeFilter<'a> {
             if let Some(result) = self.fresh.get(&*subject) {
                 reached.add(self.session, &result.traces);
             } else if let Some(facts) = self.facts(&subject) {
-                reached.add_kept(&facts);
+                reached.add_cached(&facts);
             }
         }
         reached

@@ -20,9 +20,9 @@ pub(super) struct Discovery<'a> {
 impl Discovery<'_> {
     /// The configuration of a run: the one above the first argument. If the argument is a program without a configuration above it, the
     /// next argument decides, and finally the working directory.
-    pub(super) fn of_run(&self) -> Option<Utf8PathBuf> {
+    pub(super) fn for_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
-            let found = self.above(&self.beginning_of(input));
+            let found = self.above(&self.search_start_of(input));
             if found.is_some() || !input.is_program(|place| self.is_directory(place)) {
                 return found;
             }
@@ -36,18 +36,18 @@ impl Discovery<'_> {
     }
 
     /// The directory of a run without configuration: that of the first argument.
-    pub(super) fn beginning(&self) -> Utf8PathBuf {
+    pub(super) fn search_start(&self) -> Utf8PathBuf {
         let first = self.inputs.iter().next();
-        first.map_or_else(|| clean(self.working_directory), |first| self.beginning_of(first))
+        first.map_or_else(|| clean(self.working_directory), |first| self.search_start_of(first))
     }
 
     /// The directories of all arguments.
-    pub(super) fn beginnings(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
-        self.inputs.iter().map(|input| self.beginning_of(input))
+    pub(super) fn search_starts(&self) -> impl Iterator<Item = Utf8PathBuf> + '_ {
+        self.inputs.iter().map(|input| self.search_start_of(input))
     }
 
-    fn beginning_of(&self, input: Input<'_>) -> Utf8PathBuf {
-        clean(&self.working_directory.join(input.beginning(|place| self.is_directory(place))))
+    fn search_start_of(&self, input: Input<'_>) -> Utf8PathBuf {
+        clean(&self.working_directory.join(input.search_start(|place| self.is_directory(place))))
     }
 
     /// The configuration of a directory: the one in it, or else in the nearest directory above.
@@ -69,7 +69,7 @@ impl Discovery<'_> {
         };
         let stranger = |place: Utf8PathBuf| {
             let other = self.above(&clean(&self.working_directory.join(&place)))?;
-            (Some(&*other) != used).then(|| complaint(&place, &other, used))
+            (Some(&*other) != used).then(|| misplaced_input(&place, &other, used))
         };
         self.inputs.iter().filter_map(place).filter_map(stranger).collect()
     }
@@ -98,7 +98,7 @@ pub(super) fn confining<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a
     around.unwrap_or_else(|| repository(system, directory))
 }
 
-fn complaint(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {
+fn misplaced_input(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {
     let message =
         if used.is_some() { &messages::OTHER_CONFIGURATION } else { &messages::UNEXPECTED_CONFIGURATION };
     let diagnostic = Diagnostic::new(message).with("argument", place.as_str()).with("other", other.as_str());

@@ -30,7 +30,7 @@ pub fn load(
     let (options, mut diagnostics) = arguments::read(given, working_directory);
     let file = match &given.config {
         Some(file) => Some(clean(&working_directory.join(file))),
-        None => discovery.of_run(),
+        None => discovery.for_run(),
     };
     let confined = confinement(system, given, file.as_deref(), &discovery);
     if given.config.is_none() {
@@ -50,11 +50,11 @@ fn confinement(
     file: Option<&Utf8Path>,
     discovery: &Discovery<'_>,
 ) -> Option<ConfinedSystem> {
-    let first = || discovery.beginning();
+    let first = || discovery.search_start();
     let directory = file.and_then(Utf8Path::parent).map_or_else(first, Utf8Path::to_owned);
     let root = confining(&**system, &directory);
     let confined = ConfinedSystem::new(Arc::clone(system), root, discovery.working_directory);
-    let further = discovery.beginnings();
+    let further = discovery.search_starts();
     let confined = further.fold(confined, |confined, place| confined.and(confining(&**system, &place)));
     let is_trusted = given.trusted.as_ref().is_none_or(|roots| confined.lies_below(roots));
     (given.untrusted || !is_trusted).then_some(confined)

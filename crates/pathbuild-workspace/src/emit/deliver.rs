@@ -169,7 +169,7 @@ pub(super) fn make(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> J
     let result = result.and_then(|mut outputs| {
         outputs.extend(sheets(db, job, settings).map_err(|problem| vec![*problem])?);
         let too_large = outputs.iter().find(|output| output.text.len() > settings.writing.most_bytes);
-        too_large.map_or(Ok(()), |output| Err(vec![exceeding(db, job, output, &settings.writing)]))?;
+        too_large.map_or(Ok(()), |output| Err(vec![file_too_large(db, job, output, &settings.writing)]))?;
         Ok(outputs)
     });
     let outputs = result.unwrap_or_else(|problems| {
@@ -186,7 +186,7 @@ pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
 }
 
 /// PB005: the output file is too large. Files on disk are not read beyond this limit either.
-fn exceeding(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
+fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
         .with("name", output.path.file_name().unwrap_or_default())
         .with("limit", writing.most_bytes)

@@ -74,12 +74,12 @@ impl EmitContext<'_> {
         }
         let mut planner = Planner { context: self, session, answers: Vec::new(), diagnostics };
         let mut jobs = planner.jobs(&self.programs(&selection.targets))?;
-        in_order(&mut jobs, &selection.targets);
+        sort_by_target(&mut jobs, &selection.targets);
         let refused = take_clashes(session, &mut jobs, &mut planner.diagnostics);
         let clear = jobs.extract_if(.., |job| job.known == CachedOutcome::Plan).map(|job| job.targets);
         let clear: Vec<Vec<Target>> = clear.collect();
         jobs.extend(planner.check(&clear)?);
-        in_order(&mut jobs, &selection.targets);
+        sort_by_target(&mut jobs, &selection.targets);
         let Planner { answers, diagnostics, .. } = planner;
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
             let workspace = session.workspace();
@@ -169,7 +169,7 @@ impl Planner<'_> {
 }
 
 /// Sorts jobs in the order of their targets.
-fn in_order(jobs: &mut [Job], targets: &[Target]) {
+fn sort_by_target(jobs: &mut [Job], targets: &[Target]) {
     let places: HashMap<Target, usize> = targets.iter().copied().zip(0..).collect();
     jobs.sort_by_key(|job| places[&job.targets[0]]);
 }

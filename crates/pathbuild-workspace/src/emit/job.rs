@@ -80,7 +80,7 @@ impl Job {
     }
 
     /// The outcome of a job that was aborted.
-    pub(super) fn given_up(&self, session: &Session<'_>, problem: Diagnostic) -> ProgramOutcome {
+    pub(super) fn aborted(&self, session: &Session<'_>, problem: Diagnostic) -> ProgramOutcome {
         let problem = problem.in_file(self.drawing(session.db()).path(session.db())).in_path(&self.path);
         ProgramOutcome { problems: vec![problem], ..ProgramOutcome::default() }
     }
@@ -114,16 +114,16 @@ impl JobBuilder<'_> {
     /// Why no program can be generated from error-free paths.
     pub(super) fn job(&self, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
         match (self.join, checked) {
-            (Some(name), checked) => self.joined(name, checked),
+            (Some(name), checked) => self.joined_job(name, checked),
             (None, [checked]) => {
                 let Some(emitted) = &checked.emitted else { return Ok(None) };
-                self.alone(checked, emitted).map(Some).map_err(|problem| vec![*problem])
+                self.single_job(checked, emitted).map(Some).map_err(|problem| vec![*problem])
             }
             (None, _) => Ok(None),
         }
     }
 
-    fn joined(&self, name: &str, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
+    fn joined_job(&self, name: &str, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
         let right = || checked.iter().filter_map(|checked| Some((checked, checked.emitted.as_ref()?)));
         let refused = right().filter_map(|(checked, emitted)| self.refuse_probes(checked, emitted).err());
         let refused: Vec<Diagnostic> = refused.map(|problem| *problem).collect();
@@ -139,7 +139,7 @@ impl JobBuilder<'_> {
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
 
-    fn alone(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
+    fn single_job(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
         let db = self.session.db();
         let file = checked.target.file(db);
         let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));

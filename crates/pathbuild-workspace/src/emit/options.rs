@@ -37,7 +37,7 @@ fn no_configuration(context: &Workspace) -> Option<String> {
     if context.settings.file.is_some() {
         return None;
     }
-    Some(match context.configuration_not_used() {
+    Some(match context.unused_configuration() {
         Some(file) => context.phrase(
             "no configuration holds for this drawing: it lies outside of the tree of {}; give --config {}, or move the drawing into the tree",
             "für diese Zeichnung gilt keine Konfiguration: sie liegt außerhalb des Baums von {}; --config {} angeben oder die Zeichnung in den Baum legen",

@@ -35,7 +35,8 @@ pub(crate) fn program_text(
     let Some(job) = builder.job(slice::from_ref(checked))? else { return Ok(None) };
     let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &Job| make(db, job, &settings);
-    let files = session.guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(JobFiles::default()));
+    let files =
+        session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(JobFiles::default()));
     let files = files.map_err(|problem| vec![*problem])?;
     // Without a known dialect, read the text as generic RS274, as when it is read back.
     let dialect = post_processor

@@ -142,7 +142,7 @@ fn of_job(
         let sheet = if result.delivered.is_refused { Ok(None) } else { sheet(db, job, &settings) };
         (result.delivered.problems, sheet)
     };
-    let result = session.guarded(&[job], work).pop()?;
+    let result = session.map_guarded(&[job], work).pop()?;
     let sheet = result.and_then(|(problems, sheet)| {
         diagnostics.extend(problems);
         sheet
@@ -209,7 +209,7 @@ fn sheet(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Opti
         head: [provenance.to_string(), job.title.clone()],
         tools: tools(&programs, &settings.sheets.tools),
         starts_spindle: settings.sheets.starts_spindle,
-        cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], joined),
+        cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], bounding_box),
         length: total.length,
         minutes: Some(total.minutes()).filter(|minutes| minutes.is_finite()),
         rapid: Some(settings.writing.options.rapid).filter(|rapid| *rapid > 0.0),
@@ -259,7 +259,7 @@ fn hashes(provenance: &Provenance) -> String {
     format!("{}-{}", provenance.moves, provenance.options)
 }
 
-fn joined(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Option<(f64, f64)>; 3] {
+fn bounding_box(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Option<(f64, f64)>; 3] {
     let either = |a: Option<(f64, f64)>, b: Option<(f64, f64)>| match (a, b) {
         (Some(a), Some(b)) => Some((a.0.min(b.0), a.1.max(b.1))),
         (a, b) => a.or(b),

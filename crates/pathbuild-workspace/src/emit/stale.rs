@@ -138,7 +138,7 @@ pub(super) fn stale(
             Err(problem) => diagnostics.push(*problem),
         }
     }
-    stale.extend(finding.elsewhere(directories));
+    stale.extend(finding.individual_paths(directories));
     stale
 }
 
@@ -178,7 +178,7 @@ impl<'a> StaleSearch<'a> {
             match self.own(&path) {
                 Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
                 _ => self.of_other_post(&path, &found, &title).or_else(|| {
-                    let is_left = self.writers.have_left(directory, &title, names.iter());
+                    let is_left = self.writers.are_gone(directory, &title, names.iter());
                     is_left.then_some(StaleProgram { path, reason: Reason::Left })
                 }),
             }
@@ -187,7 +187,7 @@ impl<'a> StaleSearch<'a> {
     }
 
     /// Checks paths that were named individually: only the names that their own files would have.
-    fn elsewhere(&self, directories: &[Utf8PathBuf]) -> Vec<StaleProgram> {
+    fn individual_paths(&self, directories: &[Utf8PathBuf]) -> Vec<StaleProgram> {
         let looked_at: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !looked_at.contains(parent));
         let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
@@ -361,7 +361,7 @@ impl Writers {
     }
 
     /// Whether no drawing yields this program any more, given that no path of the run does. `beside` lists the files in its directory.
-    fn have_left<'n>(
+    fn are_gone<'n>(
         &self,
         directory: &Utf8Path,
         title: &str,

@@ -42,7 +42,7 @@ pub(super) fn deliver_all(
             delivered
         };
         let generated =
-            session.in_batches_of_programs(&numbered, |session, jobs| session.guarded(jobs, generated));
+            session.in_batches_of_programs(&numbered, |session, jobs| session.map_guarded(jobs, generated));
         drop(sender);
         let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
         (generated, written.unwrap_or_default())
@@ -52,10 +52,10 @@ pub(super) fn deliver_all(
             generated.add(written);
         }
     }
-    let given_up = |(delivered, job): (Result<ProgramOutcome, Box<Diagnostic>>, &&Job)| {
-        delivered.unwrap_or_else(|problem| job.given_up(session, *problem))
+    let aborted = |(delivered, job): (Result<ProgramOutcome, Box<Diagnostic>>, &&Job)| {
+        delivered.unwrap_or_else(|problem| job.aborted(session, *problem))
     };
-    generated.into_iter().zip(jobs).map(given_up).collect()
+    generated.into_iter().zip(jobs).map(aborted).collect()
 }
 
 /// Number of jobs that may wait to be written. Their files are held in memory.

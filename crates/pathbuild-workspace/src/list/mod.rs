@@ -290,9 +290,10 @@ impl ListArguments {
 
 /// Lists paths without the state of their programs on disk.
 fn known(session: &Session<'_>, paths: &[(SourceFile, PathName)]) -> Vec<ListedPath> {
-    let checked = session.each(paths, |checker, (file, name)| checker.check_leniently(*file, name));
+    let checked =
+        session.map_with_checker(paths, |checker, (file, name)| checker.check_leniently(*file, name));
     let rapid = session.workspace().settings.general.rapid.value;
-    let figures = session.guarded(&checked, |db, checked| Figures::of(db, checked, rapid));
+    let figures = session.map_guarded(&checked, |db, checked| Figures::of(db, checked, rapid));
     let listed = |((checked, figures), (file, name)): (CheckedFigures, &(SourceFile, PathName))| {
         let db = session.db();
         let mut diagnostics = checked.diagnostics;

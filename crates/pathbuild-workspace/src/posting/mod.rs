@@ -87,7 +87,7 @@ impl PostProcessor {
     ///
     /// # Errors
     /// If there is no such post, or its definition has errors.
-    pub fn of_run(
+    pub fn for_run(
         context: &Workspace,
         named: Option<&str>,
         arguments: PostArguments,
@@ -296,10 +296,10 @@ pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: 
     if let Some(post_processor) = wrote {
         return post_processor.words(dialect);
     }
-    let of_run = |name| PostProcessor::of_run(context, name, PostArguments::default()).ok().flatten();
+    let for_run = |name| PostProcessor::for_run(context, name, PostArguments::default()).ok().flatten();
     let writes_it =
         |post_processor: &PostProcessor| post_processor.reader().is_none_or(|reader| reader == dialect);
-    let post_processor = of_run(None).filter(writes_it).or_else(|| of_run(Some(dialect.name())));
+    let post_processor = for_run(None).filter(writes_it).or_else(|| for_run(Some(dialect.name())));
     post_processor.map_or_else(|| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
 }
 

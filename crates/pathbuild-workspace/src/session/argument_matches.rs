@@ -119,13 +119,14 @@ impl Session<'_> {
         for input in inputs.iter() {
             match input {
                 Input::Place(place) => {
-                    let matching = self.matching(place);
-                    let places = if matching.is_empty() { vec![place.to_owned()] } else { matching };
-                    let argument = |place: &Utf8PathBuf| self.place(place, &mut found.listings);
+                    let expand_pattern = self.expand_pattern(place);
+                    let places =
+                        if expand_pattern.is_empty() { vec![place.to_owned()] } else { expand_pattern };
+                    let argument = |place: &Utf8PathBuf| self.match_place(place, &mut found.listings);
                     found.arguments.extend(places.iter().map(argument));
                 }
                 Input::Name(name) => {
-                    let argument = self.name(name, &mut found);
+                    let argument = self.match_name(name, &mut found);
                     found.arguments.push(argument);
                 }
             }
@@ -135,7 +136,7 @@ impl Session<'_> {
 
     /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. Matches drawings and directories by the last component,
     /// unless a file of just that name exists.
-    fn matching(&self, place: &Utf8Path) -> Vec<Utf8PathBuf> {
+    fn expand_pattern(&self, place: &Utf8Path) -> Vec<Utf8PathBuf> {
         let name = place.file_name().filter(|name| name.contains(['*', '?', '[']));
         let Some(pattern) = name.and_then(|name| Pattern::new(name).ok()) else { return Vec::new() };
         if self.db.system().kind(&self.normal(place)) != FileKind::Missing {
@@ -146,14 +147,14 @@ impl Session<'_> {
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
-    fn place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {
+    fn match_place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {
         if self.is_directory(place) && !library::is_drawing(place) {
-            return Argument::Directory(self.walked_in(self.normal(place), listings));
+            return Argument::Directory(self.search_directory(self.normal(place), listings));
         }
         Argument::Drawing(self.file(place))
     }
 
-    fn name(&self, name: &str, found: &mut ArgumentMatches) -> Argument {
+    fn match_name(&self, name: &str, found: &mut ArgumentMatches) -> Argument {
         let directories = &found.name_directories;
         let path = PathName::new(name);
         let mut candidates = Vec::new();
@@ -166,7 +167,7 @@ impl Session<'_> {
         let drawing = self.drawing_of_name(name, directories);
         let place = Utf8Path::new(name);
         let directory =
-            self.is_directory(place).then(|| self.walked_in(self.normal(place), &mut found.listings));
+            self.is_directory(place).then(|| self.search_directory(self.normal(place), &mut found.listings));
         Argument::Name { name: path, candidates, drawing, directory }
     }
 
@@ -179,7 +180,7 @@ impl Session<'_> {
         })
     }
 
-    fn walked_in(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
+    fn search_directory(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
         self.start_workers();
         let walked = self.walk().through(&directory);
         self.found_directory(directory, walked, listings)

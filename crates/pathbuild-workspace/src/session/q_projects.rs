@@ -18,7 +18,7 @@ impl Session<'_> {
         let given_up = |(result, [drawing, _]): (Result<_, Box<Diagnostic>>, &Pair)| {
             result.unwrap_or_else(|problem| vec![problem.in_file(drawing.path(self.db()))])
         };
-        self.guarded(pairs, judge).into_iter().zip(pairs).map(given_up).collect()
+        self.map_guarded(pairs, judge).into_iter().zip(pairs).map(given_up).collect()
     }
 }
 

@@ -112,11 +112,11 @@ impl Session<'_> {
                     }
                     ([], None, None) => {
                         selection.problems.extend(self.name_problems(found));
-                        let unread = self.unread(candidates, names);
-                        if unread.is_empty() {
-                            selection.problems.push(nowhere(name, &found.name_directories));
+                        let read_errors = self.read_errors(candidates, names);
+                        if read_errors.is_empty() {
+                            selection.problems.push(no_such_path(name, &found.name_directories));
                         }
-                        selection.problems.extend(unread);
+                        selection.problems.extend(read_errors);
                     }
                 }
             }
@@ -126,7 +126,7 @@ impl Session<'_> {
 
     /// Errors that kept candidate drawings from being read. Only candidates without a known path matter: the wanted path may be in one of
     /// them.
-    fn unread(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
+    fn read_errors(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
         let files = self.distinct(candidates.iter().copied().filter(is_unread));
         let problems = files.iter().flat_map(|file| check_file(&self.db, *file));
@@ -185,7 +185,7 @@ impl Selection {
     }
 }
 
-fn nowhere(name: &PathName, directories: &[Utf8PathBuf]) -> Diagnostic {
+fn no_such_path(name: &PathName, directories: &[Utf8PathBuf]) -> Diagnostic {
     let shown = |directory: &Utf8PathBuf| {
         if directory.as_str().is_empty() { ".".to_owned() } else { directory.to_string() }
     };

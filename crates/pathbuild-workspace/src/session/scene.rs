@@ -92,7 +92,7 @@ impl Session<'_> {
     pub fn drawn_scenes(&self, files: &[&Utf8Path]) -> Vec<Option<Scene>> {
         let files: Vec<SourceFile> = files.iter().map(|file| self.file(file)).collect();
         let scenes =
-            self.guarded(&files, |db: &pathbuild_db::Database, file: &SourceFile| drawn_scene(db, *file));
+            self.map_guarded(&files, |db: &pathbuild_db::Database, file: &SourceFile| drawn_scene(db, *file));
         scenes.into_iter().map(Result::ok).collect()
     }
 
@@ -103,8 +103,9 @@ impl Session<'_> {
         name: &PathName,
         text: ShownText<'_>,
     ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
-        let checked =
-            self.each(slice::from_ref(name), |checker, name| checker.check_leniently(file, name)).pop();
+        let checked = self
+            .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
+            .pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
         let writing = &writing(self.context);
         // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
@@ -137,7 +138,7 @@ impl Session<'_> {
         };
         let mut diagnostics = checked.diagnostics;
         let at = |problem: Diagnostic| problem.in_file(file.path(&self.db)).in_path(name.as_str());
-        let result = self.guarded(slice::from_ref(&checked.target), work).pop();
+        let result = self.map_guarded(slice::from_ref(&checked.target), work).pop();
         match result {
             Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),
             Some(Err(problem) | Ok(Err(problem))) => diagnostics.push(at(*problem)),
@@ -155,13 +156,14 @@ impl Session<'_> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
         let paths: Vec<(SourceFile, PathName)> =
             names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
-        let checked = self.each(&paths, |checker, (file, name)| checker.check_leniently(*file, name));
+        let checked =
+            self.map_with_checker(&paths, |checker, (file, name)| checker.check_leniently(*file, name));
         let hash = |db: &pathbuild_db::Database, checked: &CheckedTarget| {
             program(db, checked.target)
                 .as_deref()
                 .map(|program| Provenance::of_programs(&[program], &[], None).moves)
         };
-        let hashes = self.guarded(&checked, hash);
+        let hashes = self.map_guarded(&checked, hash);
         let hashed = |(((file, name), checked), hash): ((_, CheckedTarget), Result<_, Box<Diagnostic>>)| {
             let mut problems: Vec<Diagnostic> =
                 checked.diagnostics.into_iter().filter(stops_making).collect();

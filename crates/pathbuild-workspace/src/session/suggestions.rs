@@ -23,7 +23,7 @@ impl Session<'_> {
                     self.near_file(file).map(|near| (&files::NEAR_FILE, near.into_string()))
                 }
                 (message, _) if *message == outputs::NO_SUCH_PATH || *message == outputs::NO_PATH_LIKE => {
-                    self.near_path(named(&diagnostic), &known)
+                    self.near_path(missing_name(&diagnostic), &known)
                 }
                 _ => None,
             };
@@ -97,10 +97,10 @@ struct KnownNames {
 }
 
 /// The missing name that a diagnostic reports.
-fn named(diagnostic: &Diagnostic) -> &str {
-    let named = diagnostic.arguments.iter().find_map(|(argument, value)| match value {
+fn missing_name(diagnostic: &Diagnostic) -> &str {
+    let missing_name = diagnostic.arguments.iter().find_map(|(argument, value)| match value {
         Value::Text(name) if *argument == "name" => Some(&**name),
         _ => None,
     });
-    named.unwrap_or_default()
+    missing_name.unwrap_or_default()
 }

@@ -86,7 +86,7 @@ impl Session<'_> {
     /// Parses drawings on all cores.
     pub fn parse_ahead(&self, files: &[SourceFile]) {
         let read = |db: &Database, file: &SourceFile| _ = file_index(db, *file);
-        self.timings.measure(&READING, || self.spread(files, read));
+        self.timings.measure(&READING, || self.map_parallel(files, read));
     }
 
     /// Processes many items in batches. Parsed data of a batch is evicted before the next one, so that memory grows with the results and
@@ -122,15 +122,19 @@ impl Session<'_> {
 
     /// Checks targets. The results are in the order of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
-        self.each(targets, |checker, target| checker.check(*target))
+        self.map_with_checker(targets, |checker, target| checker.check(*target))
     }
 
     /// Processes items on all cores. The results are in the order of the items.
-    pub fn each<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&Checker<'_>, &T) -> R + Sync) -> Vec<R> {
+    pub fn map_with_checker<T: Sync, R: Send>(
+        &self,
+        items: &[T],
+        work: impl Fn(&Checker<'_>, &T) -> R + Sync,
+    ) -> Vec<R> {
         let (is_traced, limit, watchdog) = (self.is_traced, self.limit(), &self.watchdog);
         let timings = &self.timings;
         let work = |db: &Database, item: &T| work(&Checker { db, is_traced, limit, watchdog, timings }, item);
-        self.timings.measure(&CHECKING, || self.spread(items, work))
+        self.timings.measure(&CHECKING, || self.map_parallel(items, work))
     }
 
     /// Queries more about a target than its check did.
@@ -154,7 +158,7 @@ impl Session<'_> {
 
     /// Processes items independently: one that takes too long or triggers a bug does not affect the others. The results are in the order of
     /// the items.
-    pub fn guarded<T: Sync, R: Send>(
+    pub fn map_guarded<T: Sync, R: Send>(
         &self,
         items: &[T],
         work: impl Fn(&Database, &T) -> R + Sync,
@@ -168,20 +172,20 @@ impl Session<'_> {
             let _watched = watchdog.begin(db);
             db.guarded(limit, || work(db, item))
         };
-        self.spread_in_chunks(items, PROGRAMS_PER_CHUNK, work)
+        self.map_in_chunks(items, PROGRAMS_PER_CHUNK, work)
     }
 
     /// Processes items in parallel, with results in the order of the items. A single item is processed on this thread: starting threads
     /// takes longer than most paths.
-    pub(super) fn spread<T: Sync, R: Send>(
+    pub(super) fn map_parallel<T: Sync, R: Send>(
         &self,
         items: &[T],
         work: impl Fn(&Database, &T) -> R + Sync,
     ) -> Vec<R> {
-        self.spread_in_chunks(items, ITEMS_PER_CHUNK, work)
+        self.map_in_chunks(items, ITEMS_PER_CHUNK, work)
     }
 
-    fn spread_in_chunks<T: Sync, R: Send>(
+    fn map_in_chunks<T: Sync, R: Send>(
         &self,
         items: &[T],
         chunk_size: usize,

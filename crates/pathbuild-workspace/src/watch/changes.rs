@@ -24,10 +24,10 @@ pub(super) struct Watcher {
     debounce: Duration,
     /// The configuration and the files of the post-processor, as named in events.
     configuration: BTreeSet<Utf8PathBuf>,
-    places: WatchedDirectories,
+    directories: WatchedDirectories,
     system: Arc<dyn System>,
     /// Changes that arrived while a batch was processed.
-    news: Changes,
+    pending: Changes,
     /// When these changes are due, if no more arrive.
     due: Instant,
     /// Whether a wake-up was requested and not yet handled.
@@ -50,7 +50,7 @@ enum Signal {
 pub struct Bell(Sender<Signal>);
 
 impl Bell {
-    /// Requests a call of [`Listener::rung`](super::Listener::rung) as soon as the session is idle. Has no effect once watching has ended.
+    /// Requests a call of [`Listener::woken`](super::Listener::woken) as soon as the session is idle. Has no effect once watching has ended.
     pub fn ring(&self) {
         _ = self.0.send(Signal::Rung);
     }
@@ -119,8 +119,8 @@ impl Watcher {
         } else {
             Box::new(RecommendedWatcher::new(tell, Config::default())?)
         };
-        let mut places = WatchedDirectories::new(session, request, post);
-        places.watch(&mut *watcher, &*workspace.system)?;
+        let mut directories = WatchedDirectories::new(session, request, post);
+        directories.watch(&mut *watcher, &*workspace.system)?;
         let configuration = settings.file.iter().chain(post);
         Ok(Self {
             signals,
@@ -128,8 +128,8 @@ impl Watcher {
             _source: watcher,
             debounce: settings.watch.debounce.value,
             configuration: configuration.map(|file| event_path(session, file)).collect(),
-            places,
-            news: Changes::default(),
+            directories,
+            pending: Changes::default(),
             due: Instant::now(),
             is_rung: false,
             is_over: false,
@@ -146,7 +146,7 @@ impl Watcher {
     /// Waits for changes. Due changes take precedence over wake-ups, which a page may request without end.
     pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
         loop {
-            self.look(library.session());
+            self.poll_signals(library.session());
             if self.is_over {
                 return Batch::Over;
             }
@@ -169,7 +169,7 @@ impl Watcher {
 
     /// Time until something is due, if no more events arrive.
     fn patience(&self, library: &Library<'_>) -> Duration {
-        if self.news.is_empty() && self.unfinished.is_empty() && !library.is_behind() {
+        if self.pending.is_empty() && self.unfinished.is_empty() && !library.has_backlog() {
             return Duration::MAX;
         }
         self.due.saturating_duration_since(Instant::now())
@@ -177,26 +177,26 @@ impl Watcher {
 
     /// Takes the changes that are due, except for incomplete drawings, which are checked again soon.
     fn take_due(&mut self, library: &Library<'_>) -> Option<Batch> {
-        let mut changes = std::mem::take(&mut self.news);
+        let mut changes = std::mem::take(&mut self.pending);
         if let Some(restart) = changes.restart {
             return Some(Batch::Restart(restart));
         }
         self.hold_back(&mut changes);
         self.due = Instant::now() + GLANCE;
-        (!changes.is_empty() || library.is_behind()).then_some(Batch::Changes(changes))
+        (!changes.is_empty() || library.has_backlog()).then_some(Batch::Changes(changes))
     }
 
     /// Whether drawings have changed since the last batch, or watching is to end.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
-        self.look(session);
-        let news = &self.news;
-        let has_drawings = news.paths.iter().any(|path| Session::is_drawing(path));
-        self.is_over || news.is_incomplete || news.restart.is_some() || has_drawings
+        self.poll_signals(session);
+        let pending = &self.pending;
+        let has_drawings = pending.paths.iter().any(|path| Session::is_drawing(path));
+        self.is_over || pending.is_incomplete || pending.restart.is_some() || has_drawings
     }
 
     /// Whether watching is to end.
     pub(super) fn is_over(&mut self, session: &Session<'_>) -> bool {
-        self.look(session);
+        self.poll_signals(session);
         self.is_over
     }
 
@@ -206,7 +206,7 @@ impl Watcher {
     }
 
     /// Processes pending signals without waiting.
-    fn look(&mut self, session: &Session<'_>) {
+    fn poll_signals(&mut self, session: &Session<'_>) {
         while let Ok(signal) = self.signals.try_recv() {
             self.add(signal, session);
         }
@@ -226,14 +226,14 @@ impl Watcher {
             Signal::Changed(Ok(event)) if !event.need_rescan() => self.add_event(event, session),
             // Events were lost.
             Signal::Changed(_) => {
-                self.news.is_incomplete = true;
-                self.rest();
+                self.pending.is_incomplete = true;
+                self.restart_debounce();
             }
         }
     }
 
     /// Restarts the debounce interval.
-    fn rest(&mut self) {
+    fn restart_debounce(&mut self) {
         self.due = Instant::now() + self.debounce;
     }
 
@@ -254,15 +254,15 @@ impl Watcher {
         let restart = if self.configuration.contains(path) {
             Some(Restart::Configuration)
         } else {
-            self.places.are_changed(kind, path, &*self.system).then_some(Restart::Directories)
+            self.directories.are_changed(kind, path, &*self.system).then_some(Restart::Directories)
         };
-        let is_change = matters(path) && self.places.regard(path);
+        let is_change = may_affect_results(path) && self.directories.is_relevant(path);
         if is_change {
-            self.news.paths.extend(self.places.own_names(path));
+            self.pending.paths.extend(self.directories.own_names(path));
         }
         if restart.is_some() || is_change {
-            self.news.restart = self.news.restart.max(restart);
-            self.rest();
+            self.pending.restart = self.pending.restart.max(restart);
+            self.restart_debounce();
         }
     }
 
@@ -291,7 +291,7 @@ impl Changes {
 }
 
 /// Whether a change of this path can affect results: drawings, configurations, ignore files, and possible directories of drawings.
-fn matters(path: &Utf8Path) -> bool {
+fn may_affect_results(path: &Utf8Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("dxf") => true,

@@ -64,7 +64,7 @@ impl WatchedDirectories {
     }
 
     /// Whether a change of this path matters; directories on the way contain unrelated names as well.
-    pub(super) fn regard(&self, path: &Utf8Path) -> bool {
+    pub(super) fn is_relevant(&self, path: &Utf8Path) -> bool {
         self.names.contains(path) || path.ancestors().skip(1).any(|directory| self.holds(directory, path))
     }
 

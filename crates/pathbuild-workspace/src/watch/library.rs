@@ -30,7 +30,7 @@ pub(super) struct Library<'a> {
     /// Drawings that are still to be checked, sorted by path.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
     /// The changed files that caused this backlog.
-    late: BTreeSet<Utf8PathBuf>,
+    backlog_cause: BTreeSet<Utf8PathBuf>,
 }
 
 /// The outcome of a batch of changes.
@@ -75,7 +75,7 @@ impl<'a> Library<'a> {
             reverse: ReverseIndex::default(),
             names: NameSnapshots::default(),
             open: BTreeMap::new(),
-            late: BTreeSet::new(),
+            backlog_cause: BTreeSet::new(),
         }
     }
 
@@ -107,12 +107,11 @@ impl<'a> Library<'a> {
     }
 
     /// Applies changes to the database and marks the affected drawings to be checked.
-    pub(super) fn take_over(&mut self, changes: &Changes) -> Batch {
+    pub(super) fn apply(&mut self, changes: &Changes) -> Batch {
         let mut update = Batch::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
         let files = self.changed_files(changes);
-        let mut is_other_library =
-            self.take_over_names(changes, &files, &mut concerned) || changes.is_incomplete;
+        let mut is_other_library = self.apply_names(changes, &files, &mut concerned) || changes.is_incomplete;
         for path in &files {
             concerned.extend(self.reverse.of_file(self.session.db().file(path)));
             self.session.touch_file(path);
@@ -130,7 +129,7 @@ impl<'a> Library<'a> {
         self.open.extend(concerned.map(|file| (file.path(db).clone(), file)));
         self.open.retain(|path, _| !update.removed.contains(path));
         update.changed.extend(files);
-        update.changed.append(&mut self.late);
+        update.changed.append(&mut self.backlog_cause);
         update
     }
 
@@ -175,7 +174,7 @@ impl<'a> Library<'a> {
     }
 
     /// Whether drawings are still to be checked.
-    pub(super) fn is_behind(&self) -> bool {
+    pub(super) fn has_backlog(&self) -> bool {
         !self.open.is_empty()
     }
 
@@ -185,7 +184,7 @@ impl<'a> Library<'a> {
     }
 
     /// Checks up to `most` of the drawings to be checked, and returns them.
-    pub(super) fn ask_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
+    pub(super) fn check_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
             std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(most).collect();
         self.ask(portion.clone(), update);
@@ -193,10 +192,10 @@ impl<'a> Library<'a> {
     }
 
     /// Leaves the remaining drawings to the next batch.
-    pub(super) fn leave(&mut self, update: &mut Batch) {
+    pub(super) fn postpone_rest(&mut self, update: &mut Batch) {
         update.open = self.open.len();
-        if self.is_behind() {
-            self.late.clone_from(&update.changed);
+        if self.has_backlog() {
+            self.backlog_cause.clone_from(&update.changed);
         }
     }
 
@@ -224,7 +223,7 @@ impl<'a> Library<'a> {
 
     /// Updates the names of directories in which files were added or removed, and collects the drawings whose lookups that may affect.
     /// Returns whether any names changed.
-    fn take_over_names(
+    fn apply_names(
         &mut self,
         changes: &Changes,
         files: &BTreeSet<Utf8PathBuf>,
@@ -314,12 +313,12 @@ impl<'a> Library<'a> {
             }
             update.before.extend(before.into_iter().flat_map(|result| result.diagnostics));
         }
-        self.ask_q_projects(&checked_files, update);
+        self.compare_q_projects(&checked_files, update);
         update.checked_files.extend(checked_files);
     }
 
     /// Compares the Q-projects and drawings of which either was checked.
-    fn ask_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Batch) {
+    fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Batch) {
         if self.pairs.is_none() {
             self.find_pairs(update);
         }

@@ -45,21 +45,21 @@ pub struct Request<'a> {
 /// Receives events from the watcher. Callbacks get the session so that they can query more than the findings.
 pub trait Listener {
     /// Hands over the handle that wakes the watcher from other threads.
-    fn bell(&self, _: Bell) {}
+    fn set_bell(&self, _: Bell) {}
     /// Drawings were found and read, and will be checked. The diagnostics are those of arguments and directories.
-    fn found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
+    fn drawings_found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
     /// Drawings were checked, and on request their programs were written through this post-processor.
-    fn checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
+    fn drawings_checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
     /// A wake-up was requested through the [`Bell`].
-    fn rung(&self, _: &mut Session<'_>) {}
+    fn woken(&self, _: &mut Session<'_>) {}
     /// All drawings were checked for the first time.
-    fn begun(&self, _: &FirstCheck) {}
+    fn first_check_done(&self, _: &FirstCheck) {}
     /// A batch of changes was processed.
-    fn updated(&self, _: &Update) {}
+    fn batch_done(&self, _: &Update) {}
     /// Programs were written.
-    fn written(&self, _: &[ProgramOutcome]) {}
+    fn programs_written(&self, _: &[ProgramOutcome]) {}
     /// Programs cannot be written because options are missing; the text says which.
-    fn refused(&self, _: &str) {}
+    fn options_missing(&self, _: &str) {}
 }
 
 /// The result of the first check.
@@ -161,14 +161,14 @@ const PORTION: usize = 64;
 
 impl WatchLoop<'_> {
     fn run(mut self) -> WatchEnd {
-        self.listener.bell(self.watcher.bell());
+        self.listener.set_bell(self.watcher.bell());
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
                 Batch::Restart(Restart::Configuration) => return WatchEnd::ConfigurationChanged,
                 Batch::Restart(Restart::Directories) => return WatchEnd::DirectoriesChanged,
                 Batch::Over => return WatchEnd::Over,
-                Batch::Rung => self.listener.rung(self.library.session_mut()),
+                Batch::Rung => self.listener.woken(self.library.session_mut()),
                 Batch::Changes(changes) => self.update(&changes),
             }
         }
@@ -178,9 +178,9 @@ impl WatchLoop<'_> {
         let begun = Instant::now();
         let mut found = self.library.find();
         let drawings: Vec<SourceFile> = self.library.open().collect();
-        self.listener.found(self.library.session_mut(), &drawings, &found.now);
-        while self.library.is_behind() && !self.watcher.is_over(self.library.session()) {
-            let portion = self.library.ask_portion(FIRST_PORTION, &mut found);
+        self.listener.drawings_found(self.library.session_mut(), &drawings, &found.now);
+        while self.library.has_backlog() && !self.watcher.is_over(self.library.session()) {
+            let portion = self.library.check_portion(FIRST_PORTION, &mut found);
             self.tell(&portion);
         }
         let written = self.writer.begin(self.library.session_mut(), &found.checked_files);
@@ -191,20 +191,20 @@ impl WatchLoop<'_> {
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
         let diagnostics = self.library.session().with_hints([found.now, written].concat());
-        self.listener.begun(&FirstCheck { drawings, paths, diagnostics, time });
+        self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, time });
     }
 
     fn update(&mut self, changes: &changes::Changes) {
-        let found = self.library.take_over(changes);
-        if !self.library.is_behind() && !found.has_news() {
+        let found = self.library.apply(changes);
+        if !self.library.has_backlog() && !found.has_news() {
             return;
         }
         self.revision += 1;
         let checked_files = self.work_on(found);
         // This may take as long as the time limit allows, so it must not delay the results of the change itself.
-        if !self.library.is_behind() && !self.watcher.has_news(self.library.session()) {
-            let again = self.library.try_again(&self.writer.passing(), &checked_files);
-            if self.library.is_behind() || again.has_news() {
+        if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
+            let again = self.library.try_again(&self.writer.with_transient_problems(), &checked_files);
+            if self.library.has_backlog() || again.has_news() {
                 self.work_on(again);
             }
         }
@@ -215,8 +215,8 @@ impl WatchLoop<'_> {
         let begun = Instant::now();
         found.before.extend(self.writer.release(self.library.session(), self.library.open(), &found.removed));
         let mut written = Vec::new();
-        while self.library.is_behind() {
-            let portion = self.library.ask_portion(PORTION, &mut found);
+        while self.library.has_backlog() {
+            let portion = self.library.check_portion(PORTION, &mut found);
             let writing = self.writer.write(self.library.session_mut(), &portion);
             found.before.extend(writing.before);
             written.extend(writing.now);
@@ -226,12 +226,12 @@ impl WatchLoop<'_> {
                 break;
             }
         }
-        self.library.leave(&mut found);
+        self.library.postpone_rest(&mut found);
         let time = begun.elapsed();
         let library::Batch { changed, checked_files, open, removed, tried_again, before, now, problems } =
             found;
         let session = self.library.session();
-        self.listener.updated(&Update {
+        self.listener.batch_done(&Update {
             revision: self.revision,
             changed,
             removed,
@@ -249,10 +249,10 @@ impl WatchLoop<'_> {
     /// Reports checked drawings, and handles a pending wake-up.
     fn tell(&mut self, checked: &[SourceFile]) {
         let session = self.library.session_mut();
-        self.listener.checked(session, checked, self.writer.post_processor());
+        self.listener.drawings_checked(session, checked, self.writer.post_processor());
         _ = self.watcher.is_over(session);
         if self.watcher.has_been_rung() {
-            self.listener.rung(session);
+            self.listener.woken(session);
         }
     }
 }

@@ -44,7 +44,7 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, Vec<Diagnostic>> {
         let is_needed = request.emits || request.lists;
         let post_processor =
-            if is_needed { PostProcessor::of_run(workspace, None, PostArguments::default())? } else { None };
+            if is_needed { PostProcessor::for_run(workspace, None, PostArguments::default())? } else { None };
         let (owners, found) = (Owners::default(), BTreeMap::new());
         Ok(Self { workspace, listener, is_on: request.emits, post_processor, owners, found })
     }
@@ -71,10 +71,10 @@ impl<'a> Writer<'a> {
 
     /// Drawings whose programs have transient diagnostics or could not be written. No event tells when that changes, so they are tried
     /// again.
-    pub(super) fn passing(&self) -> BTreeSet<Utf8PathBuf> {
+    pub(super) fn with_transient_problems(&self) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;
-        let passing = self.found.iter().filter(|(_, found)| found.iter().any(may_pass));
-        passing.map(|(drawing, _)| drawing.clone()).collect()
+        let with_transient_problems = self.found.iter().filter(|(_, found)| found.iter().any(may_pass));
+        with_transient_problems.map(|(drawing, _)| drawing.clone()).collect()
     }
 
     /// Releases the output files of drawings that will be checked again or were removed. Returns the diagnostics of removed drawings'
@@ -124,12 +124,12 @@ impl<'a> Writer<'a> {
         }
         match emit::write(session, self.post_processor.as_ref(), &targets, &mut self.owners) {
             Ok(emission) => {
-                self.listener.written(&emission.delivered);
+                self.listener.programs_written(&emission.delivered);
                 self.keep(session, &emission.diagnostics);
                 WriteOutcome { before, now: emission.diagnostics }
             }
             Err(refusal) => {
-                self.listener.refused(&refusal);
+                self.listener.options_missing(&refusal);
                 WriteOutcome { before, now: Vec::new() }
             }
         }

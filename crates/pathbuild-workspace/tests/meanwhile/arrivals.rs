@@ -75,7 +75,7 @@ fn shown(found: &Diagnostic) -> String {
 }
 
 impl Listener for Driver<'_> {
-    fn bell(&self, bell: Bell) {
+    fn set_bell(&self, bell: Bell) {
         self.bell.replace(Some(bell.clone()));
         thread::spawn(move || {
             thread::sleep(Duration::from_mins(3));
@@ -83,12 +83,12 @@ impl Listener for Driver<'_> {
         });
     }
 
-    fn begun(&self, beginning: &FirstCheck) {
+    fn first_check_done(&self, beginning: &FirstCheck) {
         self.told.borrow_mut().extend(beginning.diagnostics.iter().map(shown));
         self.settle();
     }
 
-    fn updated(&self, update: &Update) {
+    fn batch_done(&self, update: &Update) {
         {
             let mut told = self.told.borrow_mut();
             for before in update.before.iter().map(shown) {

@@ -131,7 +131,7 @@ impl OnDisk {
     pub(crate) fn emit_posted(&self, system: Arc<dyn System>, is_kept: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
-        let post_processor = PostProcessor::of_run(&workspace, None, PostArguments::default()).unwrap();
+        let post_processor = PostProcessor::for_run(&workspace, None, PostArguments::default()).unwrap();
         let request = emit::Request {
             inputs: &inputs,
             task: Task::Write { force: false },

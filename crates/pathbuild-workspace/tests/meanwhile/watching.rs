@@ -46,12 +46,12 @@ impl Editor {
 }
 
 impl Listener for Editor {
-    fn bell(&self, bell: Bell) {
+    fn set_bell(&self, bell: Bell) {
         self.bell.replace(Some(bell));
         self.end_after(Duration::from_secs(20));
     }
 
-    fn begun(&self, beginning: &FirstCheck) {
+    fn first_check_done(&self, beginning: &FirstCheck) {
         self.found.replace(beginning.diagnostics.iter().map(Diagnostic::code).collect());
         self.is_written.set(self.has_program());
         if beginning.diagnostics.is_empty() {
@@ -63,7 +63,7 @@ impl Listener for Editor {
         self.place.draw(self.edit.0, &self.edit.1);
     }
 
-    fn updated(&self, update: &Update) {
+    fn batch_done(&self, update: &Update) {
         self.told.borrow_mut().push(update.clone());
         match self.told.borrow().len() {
             1 if self.passes && update.before.is_empty() => {}
@@ -193,16 +193,16 @@ struct Adder {
 }
 
 impl Listener for Adder {
-    fn bell(&self, bell: Bell) {
+    fn set_bell(&self, bell: Bell) {
         self.bell.replace(Some(bell));
     }
 
-    fn begun(&self, beginning: &FirstCheck) {
+    fn first_check_done(&self, beginning: &FirstCheck) {
         assert!(beginning.diagnostics.is_empty() && beginning.drawings == 2, "{beginning:#?}");
         self.place.draw("lib/1002.1P.dxf", &OTHER.1.replace("1001", "1002"));
     }
 
-    fn updated(&self, update: &Update) {
+    fn batch_done(&self, update: &Update) {
         self.told.borrow_mut().push(update.clone());
         if self.told.borrow().len() == 2 {
             self.bell.borrow().as_ref().unwrap().end();

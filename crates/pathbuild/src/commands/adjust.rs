@@ -281,7 +281,7 @@ impl<'a> Adjustment<'a> {
     }
 
     fn report_written(&self, file: &Utf8Path, written: WriteOutcome, adjusted: &Adjusted) {
-        self.context.row_of_json(|| {
+        self.context.json_row(|| {
             let (kind, mut row) = output_row(self.context, file, written);
             row["heights"] = adjusted.heights.into();
             row["corrections"] = json!([adjusted.corrections.0, adjusted.corrections.1]);

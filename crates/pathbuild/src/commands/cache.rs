@@ -58,7 +58,7 @@ pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
 fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus {
     match removed {
         Ok(count) => {
-            context.row_of_json(|| ("cache", json!({ "removed": count })));
+            context.json_row(|| ("cache", json!({ "removed": count })));
             context.printer.status(format_args!("{}: {count}", context.choose("removed", "entfernt")));
             ExitStatus::Success
         }

@@ -19,8 +19,8 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::Lang;
 
 use super::adjust;
+use crate::environment::named_lang;
 use crate::german;
-use crate::surroundings::named_lang;
 
 /// Options whose value is passed on.
 const VALUES: &[(char, &str)] = &[
@@ -37,7 +37,7 @@ const VALUES: &[(char, &str)] = &[
 
 /// The translation of a command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Translated {
+pub(crate) enum Translation {
     /// Command lines of pathbuild without the program's name, to be run in order.
     Commands(Vec<Vec<String>>),
     /// The help was requested, in this language if one was given.
@@ -82,7 +82,7 @@ pathbuild compat [/OPTION[WERT]]... DATEIEN
 ///
 /// # Errors
 /// Why the command line is invalid.
-pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, String> {
+pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translation, String> {
     let say = |en: &str, de: &str, argument: &str| {
         let phrase = if lang == Lang::De { de } else { en };
         phrase.replace("{}", argument)
@@ -97,7 +97,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
                 parsed.own.extend(value.cloned());
             }
             None => parsed.files.push(file_name(argument)),
-            Some(('h' | '?', _)) => return Ok(Translated::Help(named_lang_in(arguments))),
+            Some(('h' | '?', _)) => return Ok(Translation::Help(named_lang_in(arguments))),
             Some(('c', "")) => parsed.check = true,
             Some((letter, glued)) => {
                 let value = if glued.is_empty() {
@@ -125,7 +125,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translated, 
             "/m",
         ));
     }
-    Ok(Translated::Commands(parsed.commands()))
+    Ok(Translation::Commands(parsed.commands()))
 }
 
 /// The language of the last `/l` in the command line.
@@ -139,7 +139,7 @@ fn named_lang_in(arguments: &[String]) -> Option<Lang> {
 }
 
 /// Inserts `--` after `compat`, so that options with one hyphen, such as `-v` and `-h`, are those of the original tools.
-pub(crate) fn guarded(mut arguments: Vec<OsString>) -> Vec<OsString> {
+pub(crate) fn with_separator(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let text = |at: usize| arguments.get(at).and_then(|argument| argument.to_str());
     let Some(mut at) = (1..arguments.len()).find(|at| text(*at).is_none_or(|text| !text.starts_with('-')))
     else {
@@ -169,7 +169,11 @@ pub(crate) fn shown(arguments: &[String]) -> String {
 }
 
 /// Replaces the arguments of `compat` by the translated ones; options before `compat` stay.
-pub(crate) fn spliced(arguments: &[OsString], given: usize, translated: &[String]) -> Vec<OsString> {
+pub(crate) fn replace_arguments(
+    arguments: &[OsString],
+    given: usize,
+    translated: &[String],
+) -> Vec<OsString> {
     let before = &arguments[..arguments.len() - given];
     let end = before.iter().rposition(|argument| argument == "compat").unwrap_or(before.len());
     before[..end].iter().cloned().chain(translated.iter().map(OsString::from)).collect()

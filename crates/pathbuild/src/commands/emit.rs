@@ -20,7 +20,7 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
         dialect: args.dialect.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };
-    match PostProcessor::of_run(context, args.post.as_deref(), arguments) {
+    match PostProcessor::for_run(context, args.post.as_deref(), arguments) {
         Ok(post_processor) => match refusal(context, args, post_processor.as_ref()) {
             Some(refusal) => context.usage(refusal),
             None => emit(context, args, post_processor.as_ref()),
@@ -85,7 +85,7 @@ fn conclude(context: &Context, task: Task, emission: Emission) -> ExitStatus {
     if matches!(task, Task::Compare { .. }) {
         is_current &= outdated.is_empty();
         for path in &outdated {
-            context.row_of_json(|| row(context, path, &State::Outdated, None, false));
+            context.json_row(|| row(context, path, &State::Outdated, None, false));
             show_state(context, path, &State::Outdated);
         }
     }
@@ -154,7 +154,7 @@ fn show(context: &Context, delivered: &ProgramOutcome) -> bool {
     for (index, (path, state)) in delivered.files.iter().enumerate() {
         let phrase = |en, de| context.choose(en, de);
         // The program comes first; the files of its probes have no length of their own.
-        context.row_of_json(|| row(context, path, state, Some(delivered), index == 0));
+        context.json_row(|| row(context, path, state, Some(delivered), index == 0));
         match state {
             State::Written | State::Unchanged => {
                 let state = match state {

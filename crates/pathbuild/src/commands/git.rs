@@ -148,7 +148,8 @@ impl<'a> Repository<'a> {
     pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
-        let (entries, is_whole) = self.fed(&arguments, "", |mut answers| entries(&mut answers, most))?;
+        let (entries, is_whole) =
+            self.run_with_input(&arguments, "", |mut answers| entries(&mut answers, most))?;
         let entries = entries.map_err(|word| self.workspace.phrase(word.en, word.de, &most.to_string()))?;
         if is_whole { Ok(entries) } else { Err(self.failed("")) }
     }
@@ -159,21 +160,22 @@ impl<'a> Repository<'a> {
     /// If a blob is missing, if the total size is too large, or if `take` fails.
     pub(super) fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
         let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
-        let (sizes, _) =
-            self.fed(&["cat-file", "--batch-check"], &lines(&mut ids.iter().copied()), |mut answers| {
-                ids.iter().map(|_| size_of(&mut answers)).collect::<io::Result<Vec<u64>>>()
-            })?;
+        let (sizes, _) = self.run_with_input(
+            &["cat-file", "--batch-check"],
+            &lines(&mut ids.iter().copied()),
+            |mut answers| ids.iter().map(|_| read_size(&mut answers)).collect::<io::Result<Vec<u64>>>(),
+        )?;
         if sizes.iter().filter(|size| **size <= most).sum::<u64>() > MOST_BYTES {
             let (en, de) = ("the revision has more than 4 GiB", "die Revision hat mehr als 4 GiB");
             return Err(self.workspace.choose(en, de).to_owned());
         }
         let mut small = ids.iter().zip(&sizes).filter(|(_, size)| **size <= most).map(|(id, _)| *id);
-        self.fed(&["cat-file", "--batch"], &lines(&mut small), |mut answers| {
+        self.run_with_input(&["cat-file", "--batch"], &lines(&mut small), |mut answers| {
             sizes.iter().enumerate().try_for_each(|(index, size)| {
                 if *size > most {
                     take(index, Err(*size))
                 } else {
-                    blob(&mut answers, &mut |bytes| take(index, Ok(bytes)))
+                    read_blob(&mut answers, &mut |bytes| take(index, Ok(bytes)))
                 }
             })
         })
@@ -198,11 +200,11 @@ impl<'a> Repository<'a> {
     /// The blob ids of the current contents of files; fewer if one of them cannot be read. The files must be regular files without line
     /// breaks in their names.
     pub(super) fn ids(&self, files: &[&Utf8Path]) -> Vec<String> {
-        let lines: String = files.iter().flat_map(|file| [plain(file), "\n"]).collect();
+        let lines: String = files.iter().flat_map(|file| [without_verbatim_prefix(file), "\n"]).collect();
         let arguments = ["hash-object", "--no-filters", "--stdin-paths"];
         let mut ids = Vec::new();
         // Callers treat files without an id as changed.
-        _ = self.fed(&arguments, &lines, |answers| {
+        _ = self.run_with_input(&arguments, &lines, |answers| {
             answers.lines().try_for_each(|line| line.map(|line| ids.push(line)))
         });
         ids
@@ -237,7 +239,7 @@ impl<'a> Repository<'a> {
     }
 
     /// Runs Git with input, and passes its output to `take`. Also returns whether Git succeeded.
-    fn fed<R>(
+    fn run_with_input<R>(
         &self,
         arguments: &[&str],
         lines: &str,
@@ -262,13 +264,13 @@ impl<'a> Repository<'a> {
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new("git");
         if !self.root.as_str().is_empty() {
-            command.current_dir(plain(&self.root));
+            command.current_dir(without_verbatim_prefix(&self.root));
         }
         for name in NOT_INHERITED {
             command.env_remove(name);
         }
         // Git must not search above the root.
-        let above = self.root.parent().map(plain).unwrap_or_default();
+        let above = self.root.parent().map(without_verbatim_prefix).unwrap_or_default();
         command.env("GIT_CEILING_DIRECTORIES", above).envs(NO_FETCHES);
         command.args(OPTIONS).args(arguments).stdin(Stdio::null());
         command
@@ -331,7 +333,7 @@ fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry
 }
 
 /// Reads the header line of a blob in `cat-file` output, and returns the size.
-fn size_of(answers: &mut impl BufRead) -> io::Result<u64> {
+fn read_size(answers: &mut impl BufRead) -> io::Result<u64> {
     let mut head = String::new();
     answers.by_ref().take(LONGEST_LINE).read_line(&mut head)?;
     let size = head.trim_end().split_once(" blob ").and_then(|(_, size)| size.parse().ok());
@@ -339,11 +341,11 @@ fn size_of(answers: &mut impl BufRead) -> io::Result<u64> {
 }
 
 /// Reads one blob of `cat-file --batch`: a header line that ends in the size, the bytes, and a line break.
-fn blob(
+fn read_blob(
     answers: &mut BufReader<ChildStdout>,
     take: &mut dyn FnMut(&mut dyn Read) -> io::Result<()>,
 ) -> io::Result<()> {
-    let size = size_of(answers)?;
+    let size = read_size(answers)?;
     let mut bytes = answers.by_ref().take(size);
     take(&mut bytes)?;
     io::copy(&mut bytes, &mut io::sink())?;
@@ -351,6 +353,6 @@ fn blob(
 }
 
 /// A path without the prefix of long Windows paths, which Git does not understand.
-fn plain(path: &Utf8Path) -> &str {
+fn without_verbatim_prefix(path: &Utf8Path) -> &str {
     path.as_str().strip_prefix(r"\\?\").unwrap_or(path.as_str())
 }

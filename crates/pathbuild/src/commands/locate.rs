@@ -19,7 +19,7 @@ use pathbuild_workspace::session::{Selection, Session};
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named();
+        return context.refuse_empty_input();
     }
     let (found, problems) = session.with_stable_files(|session| {
         let selection = session.select(&args.inputs);

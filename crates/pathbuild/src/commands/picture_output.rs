@@ -19,7 +19,7 @@ pub(super) fn deliver(
 ) -> Result<(), Box<Diagnostic>> {
     let written = bytes.map_err(Value::from).and_then(|bytes| context.system.write(file, &bytes));
     let written = written.map_err(|reason| Box::new(cannot_write(file, reason)))?;
-    context.row_of_json(|| output_row(context, file, written));
+    context.json_row(|| output_row(context, file, written));
     let state = match written {
         WriteOutcome::Changed => context.choose("written", "geschrieben"),
         WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),

@@ -64,7 +64,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         dialect: args.target.as_deref().map(Into::into),
         run_post_build: args.run_post_build,
     };
-    let post_processor = match PostProcessor::of_run(context, args.post.as_deref(), arguments) {
+    let post_processor = match PostProcessor::for_run(context, args.post.as_deref(), arguments) {
         Ok(Some(post_processor)) => post_processor,
         Ok(None) => {
             return context.usage(context.choose(
@@ -120,7 +120,7 @@ fn written(
         WriteOutcome::Changed => context.choose("written", "geschrieben"),
         WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
     };
-    context.row_of_json(|| output_row(context, to, written));
+    context.json_row(|| output_row(context, to, written));
     context.printer.status(format_args!("{to}: {state}"));
     match &output.post_build {
         Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),

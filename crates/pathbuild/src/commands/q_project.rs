@@ -177,7 +177,7 @@ fn write(
 ) -> ExitStatus {
     let state = match session.db().system().write(output, bytes) {
         Ok(written) => {
-            context.row_of_json(|| output_row(context, output, written));
+            context.json_row(|| output_row(context, output, written));
             match written {
                 WriteOutcome::Changed => context.choose("written", "geschrieben"),
                 WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),

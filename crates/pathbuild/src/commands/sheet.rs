@@ -29,7 +29,7 @@ pub fn run(context: &Context, args: &SheetArgs) -> ExitStatus {
             }
         },
     };
-    let post_processor = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default())
+    let post_processor = match PostProcessor::for_run(context, args.post.as_deref(), PostArguments::default())
     {
         Ok(post_processor) => post_processor,
         Err(problems) => return context.fail(problems),

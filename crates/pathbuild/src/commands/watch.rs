@@ -52,7 +52,7 @@ pub(crate) fn run(
             ));
         }
         WatchEnd::Over => ExitStatus::Success,
-        WatchEnd::NothingNamed => context.nothing_named(),
+        WatchEnd::NothingNamed => context.refuse_empty_input(),
         WatchEnd::NoTargets => {
             let reason = context.choose(
                 "nothing to emit: set `[emit] targets` in pathbuild.toml",
@@ -91,38 +91,38 @@ impl WatchPrinter<'_> {
 }
 
 impl Listener for WatchPrinter<'_> {
-    fn bell(&self, bell: Bell) {
+    fn set_bell(&self, bell: Bell) {
         if let Some(page) = &self.page {
-            page.bell(bell.clone());
+            page.set_bell(bell.clone());
         }
     }
 
-    fn found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
+    fn drawings_found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
         if let Some(page) = &self.page {
-            page.found(session, drawings, problems);
+            page.drawings_found(session, drawings, problems);
         }
     }
 
-    fn checked(
+    fn drawings_checked(
         &self,
         session: &mut Session<'_>,
         drawings: &[SourceFile],
         post_processor: Option<&PostProcessor>,
     ) {
         if let Some(page) = &self.page {
-            page.checked(session, drawings, post_processor);
+            page.drawings_checked(session, drawings, post_processor);
         }
     }
 
-    fn rung(&self, session: &mut Session<'_>) {
+    fn woken(&self, session: &mut Session<'_>) {
         if let Some(page) = &self.page {
-            page.rung(session);
+            page.woken(session);
         }
     }
 
-    fn begun(&self, beginning: &FirstCheck) {
+    fn first_check_done(&self, beginning: &FirstCheck) {
         if let Some(page) = &self.page {
-            page.begun(beginning);
+            page.first_check_done(beginning);
         }
         let FirstCheck { drawings, paths, diagnostics, time } = beginning;
         let context = self.context;
@@ -140,9 +140,9 @@ impl Listener for WatchPrinter<'_> {
         ));
     }
 
-    fn updated(&self, update: &Update) {
+    fn batch_done(&self, update: &Update) {
         if let Some(page) = &self.page {
-            page.updated(update);
+            page.batch_done(update);
         }
         let context = self.context;
         let judged = |found: &[Diagnostic]| context.findings(found.to_vec()).diagnostics;
@@ -180,11 +180,11 @@ impl Listener for WatchPrinter<'_> {
         }
     }
 
-    fn written(&self, delivered: &[ProgramOutcome]) {
+    fn programs_written(&self, delivered: &[ProgramOutcome]) {
         show_all(self.context, delivered);
     }
 
-    fn refused(&self, reason: &str) {
+    fn options_missing(&self, reason: &str) {
         _ = self.context.usage(reason);
     }
 }

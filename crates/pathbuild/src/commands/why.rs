@@ -19,7 +19,7 @@ use pathbuild_workspace::session::Session;
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named();
+        return context.refuse_empty_input();
     }
     let Some(result_store) = cached_results(context) else {
         return context.usage(context.choose(

@@ -23,7 +23,7 @@ pub(super) struct State {
     revision: u64,
     /// Clients whose last revision is older than this must reload everything.
     base: u64,
-    drawings: BTreeMap<Utf8PathBuf, Published>,
+    drawings: BTreeMap<Utf8PathBuf, PublishedDrawing>,
     /// Totals of all paths, as JSON.
     pub(super) statistics: String,
     /// Diagnostics of the configuration and of directories, as JSON.
@@ -38,7 +38,7 @@ pub(super) struct State {
 }
 
 /// Published facts about a drawing.
-struct Published {
+struct PublishedDrawing {
     revision: u64,
     /// Its rows, as JSON.
     text: String,
@@ -51,14 +51,14 @@ pub(super) struct Question {
     /// The path; `None` for the whole drawing.
     pub(super) path: Option<String>,
     /// Form of the answer.
-    pub(super) form: Form,
+    pub(super) form: AnswerForm,
     /// Receives the answer; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
 }
 
 /// Form in which a drawing or path is returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum AnswerForm {
     /// Scene as JSON.
     Scene,
     /// Picture as SVG.
@@ -125,7 +125,7 @@ impl Hub {
         &self,
         file: String,
         path: Option<String>,
-        form: Form,
+        form: AnswerForm,
     ) -> oneshot::Receiver<Option<String>> {
         let (answer, answered) = oneshot::channel();
         let mut state = self.state();
@@ -164,7 +164,7 @@ impl State {
     pub(super) fn set(&mut self, drawing: &Utf8Path, file: &str, rows: Option<&str>, revision: u64) {
         let name = serde_json::Value::from(file);
         let text = format!("{{\"file\":{name},\"rows\":{}}}", rows.unwrap_or("null"));
-        self.drawings.insert(drawing.to_owned(), Published { revision, text });
+        self.drawings.insert(drawing.to_owned(), PublishedDrawing { revision, text });
     }
 
     pub(super) fn set_problems(&mut self, problems: &[Diagnostic]) {

@@ -5,7 +5,7 @@
 //! one they know.
 
 mod connections;
-mod door;
+mod endpoint;
 mod guard;
 mod hub;
 mod page;
@@ -21,7 +21,7 @@ use pathbuild_workspace::watch::Listener;
 use crate::args::{Address, ServeArgs};
 use crate::context::Context;
 
-use door::Door;
+use endpoint::Endpoint;
 use hub::Hub;
 use page::Page;
 use routes::Routes;
@@ -39,11 +39,11 @@ impl Server {
     /// Why it cannot be started.
     pub(crate) fn start(context: &Context, args: &ServeArgs) -> Result<Option<Self>, String> {
         let Some(address) = &args.serve else { return Ok(None) };
-        let (listener, door) = Door::open(address).map_err(|reason| format!("--serve: {reason}"))?;
-        tell(context, address, &door);
-        let link = door.link();
+        let (listener, endpoint) = Endpoint::open(address).map_err(|reason| format!("--serve: {reason}"))?;
+        tell(context, address, &endpoint);
+        let link = endpoint.link();
         let hub = Arc::new(Hub::default());
-        let routes = Routes::new(door, Arc::clone(&hub), context.lang())?;
+        let routes = Routes::new(endpoint, Arc::clone(&hub), context.lang())?;
         serve(listener, routes, args.until_closed)?;
         if args.open
             && let Err(error) = open::that_detached(link)
@@ -79,15 +79,15 @@ impl Server {
 }
 
 /// Prints the address of the page. The line may contain the token, so it must not be logged.
-fn tell(context: &Context, address: &Address, door: &Door) {
-    if address.port.is_none() && door.port() != door::PORT {
+fn tell(context: &Context, address: &Address, endpoint: &Endpoint) {
+    if address.port.is_none() && endpoint.port() != endpoint::PORT {
         context.printer.status(match context.lang() {
-            Lang::En => format!("port {} is taken", door::PORT),
-            Lang::De => format!("Port {} ist belegt", door::PORT),
+            Lang::En => format!("port {} is taken", endpoint::PORT),
+            Lang::De => format!("Port {} ist belegt", endpoint::PORT),
         });
     }
     let phrase = context.choose("served at", "zu sehen unter");
-    context.printer.status(format_args!("{phrase} {}", door.link()));
+    context.printer.status(format_args!("{phrase} {}", endpoint.link()));
 }
 
 /// Runs the server in a thread that ends with the program.

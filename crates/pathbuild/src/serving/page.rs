@@ -15,7 +15,7 @@ use pathbuild_workspace::session::{Session, ShownText};
 use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
 use serde_json::{Value, json};
 
-use super::hub::{Form, Hub, Question};
+use super::hub::{AnswerForm, Hub, Question};
 use crate::context::Context;
 
 /// The page of a watched library.
@@ -39,7 +39,13 @@ impl<'a> Page<'a> {
     }
 
     /// The scene or picture of a listed drawing or path; others are not accessible.
-    fn seen(&self, session: &mut Session<'_>, file: &str, path: Option<&str>, form: Form) -> Option<String> {
+    fn seen(
+        &self,
+        session: &mut Session<'_>,
+        file: &str,
+        path: Option<&str>,
+        form: AnswerForm,
+    ) -> Option<String> {
         let drawing = self.library.borrow().by_file.get(file)?.clone();
         let scene = session.with_stable_files(|session| {
             let file = session.file(&drawing);
@@ -49,7 +55,7 @@ impl<'a> Page<'a> {
                 Some(path) => vec![all.iter().find(|name| name.as_str() == path)?.clone()],
             };
             let file_name = file.path(session.db()).as_str();
-            let post_processor = PostProcessor::of_run(self.context, None, PostArguments::default());
+            let post_processor = PostProcessor::for_run(self.context, None, PostArguments::default());
             // A broken post is already reported for the whole library.
             let text = post_processor
                 .as_ref()
@@ -57,18 +63,18 @@ impl<'a> Page<'a> {
             Some(session.scene(file, &names, text).with_findings(self.context, file_name).0)
         })?;
         Some(match form {
-            Form::Scene => scene.to_json(),
-            Form::Picture => pathbuild_view::svg(&scene, VisibleParts::all(self.context.lang())),
+            AnswerForm::Scene => scene.to_json(),
+            AnswerForm::Picture => pathbuild_view::svg(&scene, VisibleParts::all(self.context.lang())),
         })
     }
 }
 
 impl Listener for Page<'_> {
-    fn bell(&self, bell: Bell) {
+    fn set_bell(&self, bell: Bell) {
         self.hub.begin(&bell);
     }
 
-    fn found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
+    fn drawings_found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
         let db = session.db();
         let problems = self.context.findings(problems.to_vec());
         self.hub.publish(|state, revision| {
@@ -83,7 +89,7 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn checked(
+    fn drawings_checked(
         &self,
         session: &mut Session<'_>,
         drawings: &[SourceFile],
@@ -110,11 +116,11 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn begun(&self, _: &FirstCheck) {
+    fn first_check_done(&self, _: &FirstCheck) {
         self.hub.publish(|state, _| state.is_complete = true);
     }
 
-    fn updated(&self, Update { removed, problems, .. }: &Update) {
+    fn batch_done(&self, Update { removed, problems, .. }: &Update) {
         if removed.is_empty() && problems.is_none() {
             return;
         }
@@ -134,7 +140,7 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn rung(&self, session: &mut Session<'_>) {
+    fn woken(&self, session: &mut Session<'_>) {
         for Question { file, path, form, answer } in self.hub.questions() {
             // The client may have disconnected.
             if !answer.is_closed() {

@@ -22,13 +22,13 @@ use tokio::sync::watch;
 use tokio::time::timeout;
 
 use super::connections::answer;
-use super::door::{Door, random};
+use super::endpoint::{Endpoint, random};
 use super::guard::{HEADERS, admit};
-use super::hub::{Form, Hub};
+use super::hub::{AnswerForm, Hub};
 
 /// State of the routes.
 pub(super) struct Routes {
-    door: Door,
+    endpoint: Endpoint,
     hub: Arc<Hub>,
     lang: Lang,
     /// Identifies this run: pages of an earlier run reload everything.
@@ -48,9 +48,9 @@ impl Routes {
     ///
     /// # Errors
     /// If the system provides no random numbers.
-    pub(super) fn new(door: Door, hub: Arc<Hub>, lang: Lang) -> Result<Self, String> {
+    pub(super) fn new(endpoint: Endpoint, hub: Arc<Hub>, lang: Lang) -> Result<Self, String> {
         let run = random().map_err(|error| error.to_string())?;
-        Ok(Self { door, hub, lang, run, pages: watch::Sender::new(0) })
+        Ok(Self { endpoint, hub, lang, run, pages: watch::Sender::new(0) })
     }
 
     /// Serves until the program ends.
@@ -110,7 +110,7 @@ fn router(routes: Arc<Routes>) -> Router {
 /// Refuses requests that are not admitted, and adds the security headers to every response.
 async fn guarded(State(routes): State<Arc<Routes>>, request: Request, next: Next) -> Response {
     let (parts, body) = request.into_parts();
-    let mut response = match admit(&routes.door, &parts) {
+    let mut response = match admit(&routes.endpoint, &parts) {
         Ok(()) => next.run(Request::from_parts(parts, body)).await,
         Err(StatusCode::METHOD_NOT_ALLOWED) => {
             (StatusCode::METHOD_NOT_ALLOWED, [(header::ALLOW, "GET")]).into_response()
@@ -155,17 +155,17 @@ struct SceneQuery {
 const JSON: &str = "application/json";
 
 async fn scene(State(routes): State<Arc<Routes>>, Query(query): Query<SceneQuery>) -> Response {
-    answer_with(&routes, query, Form::Scene, JSON).await
+    answer_with(&routes, query, AnswerForm::Scene, JSON).await
 }
 
 async fn picture(State(routes): State<Arc<Routes>>, Query(query): Query<SceneQuery>) -> Response {
-    answer_with(&routes, query, Form::Picture, "image/svg+xml").await
+    answer_with(&routes, query, AnswerForm::Picture, "image/svg+xml").await
 }
 
 async fn answer_with(
     routes: &Routes,
     SceneQuery { file, path }: SceneQuery,
-    form: Form,
+    form: AnswerForm,
     kind: &'static str,
 ) -> Response {
     match routes.hub.ask(file, path, form).await {

@@ -19,7 +19,8 @@ impl Session<'_> {
     pub fn graph(&self, targets: &[Target]) -> Graph {
         let mut builder = GraphBuilder::default();
         let mut parts = Vec::with_capacity(targets.len());
-        for (result, target) in self.guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets)
+        for (result, target) in
+            self.map_guarded(targets, |db, target| part(db, *target)).into_iter().zip(targets)
         {
             match result {
                 Ok(part) => {
@@ -83,8 +84,8 @@ fn part(db: &Database, target: Target) -> TargetGraph {
         nodes.push(node);
     }
     let number = number(reached);
-    let crowded = crowded(reached);
-    let beyond = if crowded.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
+    let too_many_paths = too_many_paths(reached);
+    let beyond = if too_many_paths.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {
         // The closure does not contain paths that are embedded too deep or beyond a limit.
         Destination::Path(child) => number
@@ -93,13 +94,13 @@ fn part(db: &Database, target: Target) -> TargetGraph {
         Destination::Nowhere { name, code } => End::Nowhere(name, code),
     };
     let embeddings = reached.edges(db).into_iter().map(|edge| (number[&edge.from], end(edge.to)));
-    TargetGraph { embeddings: embeddings.collect(), nodes, problems: crowded }
+    TargetGraph { embeddings: embeddings.collect(), nodes, problems: too_many_paths }
 }
 
 /// PB005 if the target embeds more paths than the limit allows, so that some are missing.
-fn crowded(closure: &Closure<'_>) -> Vec<Diagnostic> {
-    let is_it = |problem: &&Diagnostic| *problem.message == files::TOO_MANY_PATHS;
-    closure.diagnostics.iter().filter(is_it).cloned().collect()
+fn too_many_paths(closure: &Closure<'_>) -> Vec<Diagnostic> {
+    let is_limit = |problem: &&Diagnostic| *problem.message == files::TOO_MANY_PATHS;
+    closure.diagnostics.iter().filter(is_limit).cloned().collect()
 }
 
 fn number<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {

@@ -17,7 +17,7 @@ use git::Since;
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let begun = Instant::now();
     if args.inputs.inputs.is_empty() && !context.has_library() {
-        return context.nothing_named();
+        return context.refuse_empty_input();
     }
     let since = |revision: &String| Since::new(context, &args.inputs, revision);
     let since = match args.changed_since.as_ref().map(since).transpose() {

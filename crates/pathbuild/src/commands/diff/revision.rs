@@ -26,7 +26,7 @@ pub(super) struct Revision {
 ///
 /// # Errors
 /// Git's message if there is no such revision.
-pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, String> {
+pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, String> {
     let name = git::revision(context, name)?;
     let repository = Repository::of(context, Utf8Path::new(""))?;
     let tree = repository.tree(name).map_err(|reason| {
@@ -46,9 +46,9 @@ pub(super) fn checked_out(context: &Context, name: &str) -> Result<Revision, Str
     // Stop the search for a configuration here: the directories above are unrelated. This one is empty.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
     let largest = context.settings.limits.file_size.value.max(LARGE);
-    let mut taken = Taking { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
-    taken.all(&entries)?;
-    report_left_out(context, &taken.left_out);
+    let mut checkout = Checkout { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
+    checkout.all(&entries)?;
+    report_left_out(context, &checkout.left_out);
     let directory = context.system.canonical(&context.working_directory);
     let below = directory.strip_prefix(&repository.root).unwrap_or(Utf8Path::new(""));
     let root = if below.as_str().is_empty() { whole } else { whole.join(below) };
@@ -81,7 +81,7 @@ fn report_left_out(context: &Context, left_out: &[String]) {
 const LARGE: u64 = 1 << 30;
 
 /// Writes the files of a tree.
-struct Taking<'a> {
+struct Checkout<'a> {
     repository: &'a Repository<'a>,
     whole: &'a Utf8Path,
     /// Upper bound on a file's size in bytes. A larger file is written with its length but without its content, so that reading it reports
@@ -91,7 +91,7 @@ struct Taking<'a> {
     left_out: Vec<String>,
 }
 
-impl Taking<'_> {
+impl Checkout<'_> {
     /// Writes everything. Links come last, so that no file is written through one.
     fn all(&mut self, entries: &[Entry]) -> Result<(), String> {
         let (plain, hostile): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| entry.is_plain());

@@ -44,7 +44,7 @@ pub(super) enum Failure {
 
 /// Kind of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Nature {
+enum ArgumentKind {
     Drawings,
     Program,
     /// A revision, or a path if the other argument is a program.
@@ -54,29 +54,31 @@ enum Nature {
 /// Resolves both sides, the old one first.
 pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Failure> {
     let new = args.new.as_deref().unwrap_or(".");
-    let natures = [args.old.as_str(), new].map(|argument| nature(context, argument));
-    let beside_program = natures.contains(&Nature::Program);
-    let side = |argument: &str, nature| match nature {
-        Nature::Program => program(context, Utf8Path::new(argument), args).map(Box::new).map(Side::Program),
-        Nature::Name if beside_program => path(context, argument).map(Box::new).map(Side::Program),
-        Nature::Drawings => drawings(context, argument.into(), None),
-        Nature::Name => {
-            let revision = revision::checked_out(context, argument).map_err(Failure::Usage)?;
+    let kinds = [args.old.as_str(), new].map(|argument| kind_of(context, argument));
+    let beside_program = kinds.contains(&ArgumentKind::Program);
+    let side = |argument: &str, kind_of| match kind_of {
+        ArgumentKind::Program => {
+            program(context, Utf8Path::new(argument), args).map(Box::new).map(Side::Program)
+        }
+        ArgumentKind::Name if beside_program => path(context, argument).map(Box::new).map(Side::Program),
+        ArgumentKind::Drawings => drawings(context, argument.into(), None),
+        ArgumentKind::Name => {
+            let revision = revision::check_out(context, argument).map_err(Failure::Usage)?;
             drawings(context, revision.root.clone(), Some(revision))
         }
     };
-    Ok([side(&args.old, natures[0])?, side(new, natures[1])?])
+    Ok([side(&args.old, kinds[0])?, side(new, kinds[1])?])
 }
 
-fn nature(context: &Context, argument: &str) -> Nature {
+fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
     let place = Utf8Path::new(argument);
     let is_drawing = Session::is_drawing(place);
     match context.system.kind(place) {
-        FileKind::Directory => Nature::Drawings,
-        FileKind::File if is_drawing => Nature::Drawings,
-        FileKind::File => Nature::Program,
-        _ if argument == "." => Nature::Drawings,
-        FileKind::Missing => Nature::Name,
+        FileKind::Directory => ArgumentKind::Drawings,
+        FileKind::File if is_drawing => ArgumentKind::Drawings,
+        FileKind::File => ArgumentKind::Program,
+        _ if argument == "." => ArgumentKind::Drawings,
+        FileKind::Missing => ArgumentKind::Name,
     }
 }
 

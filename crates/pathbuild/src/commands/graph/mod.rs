@@ -22,7 +22,7 @@ use pathbuild_workspace::session::{Direction, Graph, Selection, Session};
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named();
+        return context.refuse_empty_input();
     }
     let (arguments, graph) = session.with_stable_files(|session| {
         let arguments = GraphArguments::new(session, session.select(&args.inputs));
@@ -37,7 +37,7 @@ pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named();
+        return context.refuse_empty_input();
     }
     let (arguments, graph) = session.with_stable_files(|session| {
         let arguments = GraphArguments::new(session, session.select(&args.inputs));

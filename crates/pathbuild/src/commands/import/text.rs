@@ -11,48 +11,51 @@ use crate::context::Context;
 
 /// Formats the summary; the first line begins with the file's name.
 pub(super) fn text(context: &Context, facts: &Facts<'_>) -> String {
-    let say = Say(context);
-    let mut text = say.title(facts);
-    for (label, line) in say.lines(facts) {
+    let formatter = Formatter(context);
+    let mut text = formatter.title(facts);
+    for (label, line) in formatter.lines(facts) {
         _ = writeln!(text, "  {label:<10} {line}");
     }
     text
 }
 
-struct Say<'a>(&'a Context);
+struct Formatter<'a>(&'a Context);
 
-impl Say<'_> {
-    fn is<'t>(&self, en: &'t str, de: &'t str) -> &'t str {
+impl Formatter<'_> {
+    fn choose<'t>(&self, en: &'t str, de: &'t str) -> &'t str {
         self.0.choose(en, de)
     }
 
     fn title(&self, facts: &Facts<'_>) -> String {
         let program = facts.program;
         let lines = program.lines();
-        let noun = if lines == 1 { self.is("line", "Zeile") } else { self.is("lines", "Zeilen") };
+        let noun = if lines == 1 { self.choose("line", "Zeile") } else { self.choose("lines", "Zeilen") };
         format!("{}: {lines} {noun}, {}\n", shown::line(program.file.as_str()), program.read_as(self.0))
     }
 
     fn lines(&self, facts: &Facts<'_>) -> Vec<(&str, String)> {
         let summary = &facts.summary;
         let mut lines = vec![
-            (self.is("moves", "Bewegungen"), self.moves(facts)),
-            (self.is("lengths", "Längen"), self.lengths(facts)),
+            (self.choose("moves", "Bewegungen"), self.moves(facts)),
+            (self.choose("lengths", "Längen"), self.lengths(facts)),
         ];
-        lines.extend(self.extent(&summary.extent).map(|box_| (self.is("box", "Bereich"), box_)));
-        lines.extend(self.extent(&summary.cut).map(|box_| (self.is("cutting", "Fräsen"), box_)));
+        lines.extend(self.extent(&summary.extent).map(|box_| (self.choose("box", "Bereich"), box_)));
+        lines.extend(self.extent(&summary.cut).map(|box_| (self.choose("cutting", "Fräsen"), box_)));
         let is_layer = facts.program.dialect == Dialect::Xpertmill;
-        let tools = if is_layer { self.is("layers", "Ebenen") } else { self.is("tools", "Werkzeuge") };
+        let tools =
+            if is_layer { self.choose("layers", "Ebenen") } else { self.choose("tools", "Werkzeuge") };
         for (index, used) in summary.tools.iter().enumerate() {
             lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer)));
         }
-        lines.push((self.is("time", "Zeit"), self.time(facts)));
-        lines.extend(self.waits(facts).map(|waits| (self.is("waits", "Halte"), waits)));
+        lines.push((self.choose("time", "Zeit"), self.time(facts)));
+        lines.extend(self.waits(facts).map(|waits| (self.choose("waits", "Halte"), waits)));
         for (index, taken) in facts.taken.iter().enumerate() {
-            let label = if index == 0 { self.is("taken", "angenommen") } else { "" };
+            let label = if index == 0 { self.choose("taken", "angenommen") } else { "" };
             let line = taken.place.line.unwrap_or(0);
-            lines
-                .push((label, format!("{} {line}: {}", self.is("line", "Zeile"), taken.text(self.0.lang()))));
+            lines.push((
+                label,
+                format!("{} {line}: {}", self.choose("line", "Zeile"), taken.text(self.0.lang())),
+            ));
         }
         lines
     }
@@ -60,16 +63,16 @@ impl Say<'_> {
     fn moves(&self, facts: &Facts<'_>) -> String {
         let total = &facts.summary.total;
         let kinds = [
-            (total.rapid.moves, self.is("rapid", "Eilgang")),
-            (total.milling.moves, self.is("milling", "Fräsen")),
-            (total.drilling.moves, self.is("drilling", "Bohren")),
-            (total.probing, self.is("probing", "Messen")),
+            (total.rapid.moves, self.choose("rapid", "Eilgang")),
+            (total.milling.moves, self.choose("milling", "Fräsen")),
+            (total.drilling.moves, self.choose("drilling", "Bohren")),
+            (total.probing, self.choose("probing", "Messen")),
         ];
         let kinds =
             kinds.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}"));
         let mut moves = format!("{}: {}", total.moves(), kinds.collect::<Vec<_>>().join(", "));
         if total.arcs > 0 {
-            _ = write!(moves, "; {} {}", total.arcs, self.is("of them arcs", "davon Bögen"));
+            _ = write!(moves, "; {} {}", total.arcs, self.choose("of them arcs", "davon Bögen"));
         }
         moves
     }
@@ -78,7 +81,7 @@ impl Say<'_> {
         let total = &facts.summary.total;
         let cutting = total.cutting().length;
         let rapid = total.rapid.total.length;
-        let [cuts, sweeps] = [self.is("cutting", "Fräsen"), self.is("rapid", "Eilgang")];
+        let [cuts, sweeps] = [self.choose("cutting", "Fräsen"), self.choose("rapid", "Eilgang")];
         let [whole, cutting, rapid] = [cutting + rapid, cutting, rapid].map(|length| self.tenths(length));
         format!("{whole} mm: {cutting} mm {cuts}, {rapid} mm {sweeps}")
     }
@@ -89,7 +92,7 @@ impl Say<'_> {
 
     /// `X 0.000 to 40.000, Y 0.000 to 20.000`; `None` if no axis moves to a known position.
     fn extent(&self, extent: &Extent) -> Option<String> {
-        let to = self.is("to", "bis");
+        let to = self.choose("to", "bis");
         let axis = |(axis, ends): (char, &Option<(f64, f64)>)| {
             ends.map(|(low, high)| format!("{axis} {low:.3} {to} {high:.3}"))
         };
@@ -101,12 +104,13 @@ impl Say<'_> {
         let name = match used.tool {
             Some(number) if is_layer => number.to_string(),
             Some(number) => format!("T{number}"),
-            None => self.is("none named", "keins genannt").to_owned(),
+            None => self.choose("none named", "keins genannt").to_owned(),
         };
         let (moves, length) = (used.tally.moves(), used.tally.cutting().length);
-        let noun = if moves == 1 { self.is("move", "Bewegung") } else { self.is("moves", "Bewegungen") };
+        let noun =
+            if moves == 1 { self.choose("move", "Bewegung") } else { self.choose("moves", "Bewegungen") };
         let mut line = format!("{name}: {moves} {noun}");
-        _ = write!(line, ", {} mm {}", self.tenths(length), self.is("cutting", "Fräsen"));
+        _ = write!(line, ", {} mm {}", self.tenths(length), self.choose("cutting", "Fräsen"));
         if !used.feeds.is_empty() {
             _ = write!(line, ", F {}", numbers(&used.feeds));
         }
@@ -119,21 +123,21 @@ impl Say<'_> {
     fn time(&self, facts: &Facts<'_>) -> String {
         let mut time = match (facts.minutes(), facts.rapid) {
             (None, _) => self
-                .is(
+                .choose(
                     "not known: a cutting move has no feed",
                     "unbekannt: einer Schnittbewegung fehlt der Vorschub",
                 )
                 .to_owned(),
             (Some(minutes), Some(rapid)) => format!(
                 "{} {minutes:.0} min, {} {}",
-                self.is("about", "etwa"),
-                self.is("rapid at", "Eilgang mit"),
+                self.choose("about", "etwa"),
+                self.choose("rapid at", "Eilgang mit"),
                 Number(rapid).prose(self.0.lang())
             ),
             (Some(minutes), None) => format!(
                 "{} {minutes:.0} min {}",
-                self.is("about", "etwa"),
-                self.is(
+                self.choose("about", "etwa"),
+                self.choose(
                     "without rapid moves (--rapid is not known)",
                     "ohne Eilgang (--rapid ist nicht bekannt)"
                 )
@@ -143,8 +147,10 @@ impl Say<'_> {
             let seconds = seconds.round();
             let minutes = (seconds / 60.0).floor();
             let rest = seconds - 60.0 * minutes;
-            let on = self
-                .is("on the machine, with its accelerations", "auf der Maschine, mit ihren Beschleunigungen");
+            let on = self.choose(
+                "on the machine, with its accelerations",
+                "auf der Maschine, mit ihren Beschleunigungen",
+            );
             _ = write!(time, "; {minutes:.0}:{rest:02.0} min {on}");
         }
         time
@@ -154,13 +160,17 @@ impl Say<'_> {
         let summary = &facts.summary;
         let mut waits = Vec::new();
         if summary.dwell > 0.0 {
-            waits.push(format!("{} s {}", self.tenths(summary.dwell), self.is("dwelling", "Verweilen")));
+            waits.push(format!("{} s {}", self.tenths(summary.dwell), self.choose("dwelling", "Verweilen")));
         }
         if summary.stops > 0 {
-            waits.push(format!("{} {}", summary.stops, self.is("for a person", "auf einen Menschen")));
+            waits.push(format!("{} {}", summary.stops, self.choose("for a person", "auf einen Menschen")));
         }
         if summary.tool_changes > 0 {
-            waits.push(format!("{} {}", summary.tool_changes, self.is("tool changes", "Werkzeugwechsel")));
+            waits.push(format!(
+                "{} {}",
+                summary.tool_changes,
+                self.choose("tool changes", "Werkzeugwechsel")
+            ));
         }
         (!waits.is_empty()).then(|| waits.join(", "))
     }

@@ -41,7 +41,7 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
 /// list.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
     let inputs = args.inputs();
-    let post_processor = match PostProcessor::of_run(context, args.post.as_deref(), PostArguments::default())
+    let post_processor = match PostProcessor::for_run(context, args.post.as_deref(), PostArguments::default())
     {
         Ok(post_processor) => post_processor,
         Err(problems) => return context.fail(problems),

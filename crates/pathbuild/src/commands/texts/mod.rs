@@ -26,7 +26,7 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     };
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.nothing_named();
+        return context.refuse_empty_input();
     }
     let (texts, problems) =
         session.with_stable_files(|session| texts(context, session, args, pattern.as_ref()));

@@ -94,7 +94,7 @@ impl Against {
     /// Reports what was compared, and how many moves are equal.
     pub(super) fn say(&self, context: &Context, program: &Program, equal: usize) {
         let (path, moves) = (&self.drawn.path, interpret::each_move_of(&self.drawn).count());
-        context.row_of_json(|| {
+        context.json_row(|| {
             let row = json!({
                 "file": context.file(&program.file),
                 "path": &**path,

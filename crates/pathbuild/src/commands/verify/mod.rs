@@ -31,8 +31,10 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(stock_options) => stock_options,
         Err(fault) => return context.refuse(vec![*fault]),
     };
-    let named =
-        args.post.as_deref().map(|name| PostProcessor::of_run(context, Some(name), PostArguments::default()));
+    let named = args
+        .post
+        .as_deref()
+        .map(|name| PostProcessor::for_run(context, Some(name), PostArguments::default()));
     let wrote = match named.transpose() {
         Ok(wrote) => wrote.flatten(),
         Err(problems) => return context.fail(problems),

@@ -74,7 +74,7 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
                 return Err(Failure::Usage(reason));
             }
         };
-    let post_processor = PostProcessor::of_run(session.workspace(), None, PostArguments::default());
+    let post_processor = PostProcessor::for_run(session.workspace(), None, PostArguments::default());
     let post_processor = post_processor.map_err(Failure::Found)?;
     let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
     if names.is_empty() && !report.diagnostics.iter().any(Diagnostic::is_error) {

@@ -9,7 +9,7 @@ use crate::args::{Address, Host};
 pub(super) const PORT: u16 = 8347;
 
 /// A listening socket with the names it answers to.
-pub(super) struct Door {
+pub(super) struct Endpoint {
     /// The host that was requested.
     host: Host,
     local: SocketAddr,
@@ -17,7 +17,7 @@ pub(super) struct Door {
     token: Option<String>,
 }
 
-impl Door {
+impl Endpoint {
     /// Starts listening.
     ///
     /// # Errors
