@@ -27,6 +27,7 @@ mod explain_examples;
 mod faults;
 mod gcode;
 mod german;
+mod german_messages;
 mod growth;
 mod help;
 mod hostile;

@@ -6,20 +6,22 @@ use pathbuild::args::Format;
 use pathbuild::render::View;
 use pathbuild::report::{CheckedFile, Findings};
 use pathbuild_diagnostic::messages::files;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Handle, Lang, Point, TextFault, TraceStep};
+use pathbuild_diagnostic::{
+    Diagnostic, ElementId, EntityKind, Handle, Lang, Point, TextFault, TraceStep, Value,
+};
 use pathbuild_path::PathName;
 
 /// One with everything that a diagnostic can have, and one with as little as possible.
 fn findings() -> Findings {
     let mut rich = Diagnostic::new(&files::LIMIT)
-        .with("what", "the text")
-        .with("limit", "65536 characters")
-        .with("key", "text-length")
+        .quoting("what", "the text")
+        .quoting("limit", "65536 characters")
+        .quoting("key", "text-length")
         .in_file(Utf8Path::new("/work/parts/2913 Ph.dxf"))
         .in_path("2913.1P")
         .at_element(ElementId(7), EntityKind::Line, "2913.1P~A", Point::new(12.5, -30.0))
         .with_text(TextFault::new(">2051.1P Tü B5", 9..12))
-        .note(&files::INTERNAL, vec![("reason", "not at all".into())]);
+        .note(&files::INTERNAL, vec![("reason", Value::quoted("not at all"))]);
     rich.locate(1234, Some(Handle(0x4A1)));
     let step = |file: &str, path: &str, x| TraceStep {
         file: file.into(),
@@ -30,8 +32,8 @@ fn findings() -> Findings {
         vec![step("/work/projects/8001.dxf", "8001.1P", 1.0), step("/elsewhere/8002.dxf", "8002.1P", 2.0)];
     let plain = Diagnostic::new(&files::EMPTY_FILE).in_file(Utf8Path::new("/work/parts/2914.dxf"));
     let mut config = Diagnostic::new(&files::CANNOT_WRITE)
-        .with("name", "a\u{1b}[31m.txt")
-        .with("reason", "two\nlines")
+        .quoting("name", "a\u{1b}[31m.txt")
+        .quoting("reason", "two\nlines")
         .in_file(Utf8Path::new("/work/pathbuild.toml"))
         .at_line(12, Some(8))
         .with_text(TextFault::new("feed = \u{1b}x", 7..9));
@@ -49,7 +51,7 @@ fn findings() -> Findings {
             plain.clone(),
             rich,
             plain,
-            Diagnostic::new(&files::UNREADABLE).with("reason", "no"),
+            Diagnostic::new(&files::UNREADABLE).quoting("reason", "no"),
         ])
     }
 }

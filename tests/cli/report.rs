@@ -15,7 +15,7 @@ use pathbuild_workspace::config::{self, Overrides};
 
 fn diagnostic() -> Diagnostic {
     Diagnostic::new(&files::NOT_DXF)
-        .with("found", "x")
+        .quoting("found", "x")
         .in_file(Utf8Path::new("/work/parts/2913.dxf"))
         .in_path("2913.1P")
         .at_element(ElementId(3), EntityKind::Line, "2913.1P", Point::new(1.0, 2.0))
@@ -40,7 +40,7 @@ fn the_same_finding_is_reported_once_however_it_was_met() {
         traced
     };
     assert_eq!(Findings::new(vec![traced("8001.1P"), diagnostic(), traced("8001.2P")]).diagnostics.len(), 1);
-    assert_eq!(Findings::new(vec![diagnostic().with("found", "y"), diagnostic()]).diagnostics.len(), 2);
+    assert_eq!(Findings::new(vec![diagnostic().quoting("found", "y"), diagnostic()]).diagnostics.len(), 2);
     assert_eq!(
         Findings::new(vec![diagnostic(), diagnostic().at_point(Point::new(1.0, 2.001))]).diagnostics.len(),
         2

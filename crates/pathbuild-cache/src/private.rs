@@ -8,9 +8,9 @@ use std::io::{self, Read, Write};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::reasons::{
     IS_LINK, NEVER_SO_LARGE, NO_DIRECTORY_BUT_FILE, NO_OWN_FILE, NOT_LOOKED_AT, OPEN_TO_ALL, SOMEBODY_ELSES,
-    reason,
+    TOO_MANY_TEMPORARY, error, reason,
 };
-use pathbuild_diagnostic::{Value, Word};
+use pathbuild_diagnostic::{Text, Value};
 
 /// Creates a directory and its missing parents. Returns whether it is new.
 ///
@@ -28,7 +28,7 @@ pub(crate) fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
 }
 
 /// Why a directory must not be used; `None` if it is fine or does not exist yet.
-pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Word> {
+pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
     match fs::symlink_metadata(directory) {
         Ok(data) if data.is_symlink() => Some(&IS_LINK),
         Ok(data) if !data.is_dir() => Some(&NO_DIRECTORY_BUT_FILE),
@@ -60,15 +60,15 @@ pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value
     };
     let data = file.metadata().map_err(|error| reason(&error))?;
     if !data.is_file() || !is_own(&data) {
-        return Err(Value::Word(&NO_OWN_FILE));
+        return Err(Value::Prose(&NO_OWN_FILE));
     }
     if data.len() > limit {
-        return Err(Value::Word(&NEVER_SO_LARGE));
+        return Err(Value::Prose(&NEVER_SO_LARGE));
     }
     // The file may grow while it is read, so limit the read as well.
     let mut bytes = Vec::with_capacity(usize::try_from(data.len()).unwrap_or_default());
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| reason(&error))?;
-    if bytes.len() as u64 > limit { Err(Value::Word(&NEVER_SO_LARGE)) } else { Ok(Some(bytes)) }
+    if bytes.len() as u64 > limit { Err(Value::Prose(&NEVER_SO_LARGE)) } else { Ok(Some(bytes)) }
 }
 
 /// Creates a new temporary file in a directory, with a unique hidden name derived from `name`.
@@ -88,7 +88,7 @@ pub(crate) fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf
             Err(error) => return Err(error),
         }
     }
-    Err(io::Error::other("too many temporary files"))
+    Err(error(io::ErrorKind::Other, &TOO_MANY_TEMPORARY))
 }
 
 /// Atomically replaces a file. An existing symbolic link is replaced, not followed.

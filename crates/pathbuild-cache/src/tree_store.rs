@@ -5,8 +5,8 @@
 use std::io;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::Word;
-use pathbuild_diagnostic::reasons::HOLDS_OTHERS;
+use pathbuild_diagnostic::Text;
+use pathbuild_diagnostic::reasons::{self, HOLDS_OTHERS};
 
 use crate::facts::Catalogue;
 use crate::flat::CatalogueTooLarge;
@@ -60,7 +60,7 @@ impl TreeStore {
     }
 
     /// Why the store must not be used: its directory is a symbolic link, belongs to another user, or holds other files.
-    pub fn refusal(&self) -> Option<&'static Word> {
+    pub fn refusal(&self) -> Option<&'static Text> {
         let holds_others = || {
             let mut listed = self.directory.read_dir_utf8().into_iter().flatten().filter_map(Result::ok);
             listed.any(|entry| !is_ours(&self.directory, entry.file_name()))
@@ -90,7 +90,7 @@ impl TreeStore {
     /// # Errors
     /// If they cannot be written; the earlier ones remain.
     pub fn store(&self, key: &Key, catalogue: &Catalogue) -> io::Result<()> {
-        let too_much = || io::Error::other("there is more to keep than a file can hold");
+        let too_much = || reasons::error(io::ErrorKind::Other, &reasons::TOO_MUCH_TO_KEEP);
         let bytes = format::encode(key, catalogue).map_err(|CatalogueTooLarge| too_much())?;
         if bytes.len() as u64 > LARGEST {
             return Err(too_much());
@@ -114,7 +114,7 @@ impl TreeStore {
     pub fn make(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
         let tag = private::read(&self.directory.join(TAG), SMALL);
-        if tag.map_err(|_| io::Error::other("its CACHEDIR.TAG cannot be read"))?.is_none() {
+        if tag.map_err(|_| reasons::error(io::ErrorKind::Other, &reasons::TAG_UNREADABLE))?.is_none() {
             private::replace(&self.directory, TAG, TAG_TEXT.as_bytes())?;
             if let Some(tree) = &self.tree {
                 private::replace(&self.directory, TREE, tree.as_str().as_bytes())?;

@@ -145,7 +145,7 @@ fn clean(directory: &Utf8Path) -> Result<(), RemoveError> {
 
 /// Refuses directories reached through a symbolic link or not created by pathbuild: other programs may use the same file names.
 fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
-    let refused = |word| RemoveError { path: directory.to_owned(), reason: Value::Word(word) };
+    let refused = |word| RemoveError { path: directory.to_owned(), reason: Value::Prose(word) };
     if let Some(word) = private::refusal(directory) {
         return Err(refused(word));
     }

@@ -120,13 +120,13 @@ fn cache(base: &Utf8Path) -> TreeStore {
 fn every_message_comes_back_with_all_its_values() {
     for message in messages::all() {
         let mut diagnostic = Diagnostic::new(message)
-            .with("text", "ä\n\"")
+            .quoting("text", "ä\n\"")
             .with("number", -0.1)
             .with("count", 7_u64)
             .with("point", Point::new(1.5, -2.0))
             .with("list", ["a", "b"].iter().collect::<Value>())
             .with("word", &words::SWEEP)
-            .note(&parameters::MISSING_MATERIAL, vec![("where", "here".into())])
+            .note(&parameters::MISSING_MATERIAL, vec![("where", Value::quoted("here"))])
             .in_file(Utf8Path::new("a/b.dxf"))
             .in_path("1234.1P")
             .with_text(TextFault::new("T5 O2", 3..5));

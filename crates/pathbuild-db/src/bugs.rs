@@ -4,8 +4,8 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::Duration;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use salsa::Cancelled;
 
 use crate::guard::too_slow;
@@ -37,5 +37,5 @@ pub(crate) fn internal_error(payload: &(dyn Any + Send)) -> Diagnostic {
 
 /// PB006 with this reason, without a place.
 pub fn bug(reason: &str) -> Diagnostic {
-    Diagnostic::new(&messages::INTERNAL).with("reason", reason)
+    Diagnostic::new(&messages::INTERNAL).with("reason", Value::foreign(reason))
 }

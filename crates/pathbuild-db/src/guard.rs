@@ -4,7 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::limits::{TIME_OF_PATH, exceeded, seconds};
 use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::reasons::CHANGES_WHILE_READ;
 use salsa::{CancellationToken, Cancelled, Database as _};
 
 use crate::bugs::{TimeoutPanic, internal_error};
@@ -61,7 +63,7 @@ impl Database {
                 Some(Cancelled::PropagatedPanic) => continue,
                 Some(_) => too_slow(limit),
                 None if payload.is::<DriftPanic>() => {
-                    Diagnostic::new(&messages::UNREADABLE).with("reason", "it changes while it is being read")
+                    Diagnostic::new(&messages::UNREADABLE).with("reason", &CHANGES_WHILE_READ)
                 }
                 None if payload.is::<TimeoutPanic>() => too_slow(limit),
                 None => internal_error(&*payload),
@@ -73,8 +75,5 @@ impl Database {
 
 /// PB005 for work beyond this time limit, without a place.
 pub fn too_slow(limit: Duration) -> Diagnostic {
-    Diagnostic::new(&messages::LIMIT)
-        .with("what", "the time that this path takes")
-        .with("limit", format!("{} s", limit.as_secs_f64()))
-        .with("key", "seconds-per-path")
+    exceeded(&TIME_OF_PATH, seconds(limit), "seconds-per-path")
 }

@@ -79,7 +79,7 @@ fn what_is_no_regular_file_is_refused() {
     use std::process::{Command, Stdio};
 
     let read = |path: &str| OsSystem.read(Utf8Path::new(path), 1_000_000);
-    let refused = Err(ReadError::Other(Value::Word(&NOT_REGULAR)));
+    let refused = Err(ReadError::Other(Value::Prose(&NOT_REGULAR)));
     assert_eq!(read("/dev/zero"), refused);
     assert_eq!(read("/dev/null"), refused);
     assert_eq!(read("/dev"), Err(ReadError::IsDirectory));

@@ -2,12 +2,10 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::message::fill;
+use crate::message::{Arguments, fill};
 use crate::{
     Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value, kept,
 };
-
-type Arguments = Vec<(&'static str, Value)>;
 
 /// A finding: its message, the values in it, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -84,19 +82,24 @@ impl Diagnostic {
 
     /// The message as a sentence.
     pub fn text(&self, lang: Lang) -> String {
-        fill(self.message.text.template(lang), &self.arguments, lang)
+        fill(self.message.text.in_lang(lang), &self.arguments, lang)
     }
 
     /// Advice on how to solve the problem; `None` if the message says it all.
     pub fn help(&self, lang: Lang) -> Option<String> {
-        let template = self.message.help.template(lang);
+        let template = self.message.help.in_lang(lang);
         (!template.is_empty()).then(|| fill(template, &self.arguments, lang))
     }
 
-    /// Sets a value in the message.
+    /// Sets a value in the message: a number, a place, prose in every language.
     pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
         self.arguments.push((name, value.into()));
         self
+    }
+
+    /// Sets a value of the message to a name or a piece of source text, which is the same in every language.
+    pub fn quoting(self, name: &'static str, text: impl AsRef<str>) -> Self {
+        self.with(name, Value::quoted(text))
     }
 
     /// Adds a note.
@@ -177,6 +180,6 @@ impl Diagnostic {
 impl Note {
     /// The note as a sentence.
     pub fn text(&self, lang: Lang) -> String {
-        fill(self.message.text.template(lang), &self.arguments, lang)
+        fill(self.message.text.in_lang(lang), &self.arguments, lang)
     }
 }

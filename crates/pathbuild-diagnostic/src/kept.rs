@@ -7,9 +7,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::{Message, Value, Word, messages};
-
-type Arguments = Vec<(&'static str, Value)>;
+use crate::message::Arguments;
+use crate::{Message, Text, Value, messages};
 
 impl Serialize for Message {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -31,14 +30,14 @@ pub(crate) fn arguments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Ar
     Ok(arguments.into_iter().map(|(name, value)| (name_of(name), value)).collect())
 }
 
-/// A word in both languages.
-pub(crate) fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Word, D::Error> {
-    static KEPT: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Word>>> =
+/// Prose in both languages.
+pub(crate) fn text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Text, D::Error> {
+    static KEPT: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
         LazyLock::new(Mutex::default);
     let (en, de) = <(&str, &str)>::deserialize(deserializer)?;
     let (en, de) = (name_of(en), name_of(de));
     let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Word { en, de }))))
+    Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Text { en, de }))))
 }
 
 /// A single copy of a text that lives until the process ends.

@@ -8,6 +8,7 @@
 mod code;
 mod diagnostic;
 mod kept;
+pub mod limits;
 mod message;
 pub mod messages;
 mod number;
@@ -19,7 +20,7 @@ pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
-pub use message::{Lang, Message, Text, Value, Word};
+pub use message::{Lang, Message, Sentence, Text, Value};
 pub use number::{Number, in_prose};
 pub use page::{example, page};
 pub use place::{ElementId, EntityKind, Handle, Place, Point, TextFault};

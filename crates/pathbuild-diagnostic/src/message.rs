@@ -1,4 +1,4 @@
-use std::fmt::Write;
+use std::fmt::{self, Write};
 use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
@@ -15,8 +15,10 @@ pub enum Lang {
     De,
 }
 
-/// A sentence in every language, with `{name}` as placeholders for arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Prose in every language: a word, a phrase or a sentence, with `{name}` where an argument goes.
+///
+/// This is the only type of prose. A message takes it as an argument beside drawn text ([`Diagnostic::quoting`](crate::Diagnostic::quoting)), never a string.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Text {
     /// English.
     pub en: &'static str,
@@ -25,16 +27,53 @@ pub struct Text {
 }
 
 impl Text {
-    /// The sentence in one language, with placeholders.
-    pub fn template(&self, lang: Lang) -> &'static str {
-        match lang {
-            Lang::En => self.en,
-            Lang::De => self.de,
+    /// The sentence in one language, its arguments not yet put in.
+    pub fn in_lang(&self, lang: Lang) -> &'static str {
+        lang.choose(self.en, self.de)
+    }
+}
+
+impl Lang {
+    /// One of two values, such as the halves of a sentence that only one command says.
+    pub fn choose<T>(self, en: T, de: T) -> T {
+        match self {
+            Self::En => en,
+            Self::De => de,
         }
     }
 }
 
-/// A message of the catalogue. A code has one message for each way in which the problem occurs.
+/// A [`Text`] with the values of its arguments, to stand in another message: "it has 17219 bytes, the limit is 1000".
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Sentence {
+    #[serde(deserialize_with = "kept::text")]
+    text: &'static Text,
+    #[serde(deserialize_with = "kept::arguments")]
+    arguments: Arguments,
+}
+
+impl Sentence {
+    /// A sentence whose arguments have no values yet.
+    pub fn new(text: &'static Text) -> Self {
+        Self { text, arguments: Vec::new() }
+    }
+
+    /// Sets the value of an argument.
+    pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
+        self.arguments.push((name, value.into()));
+        self
+    }
+
+    /// Sets the value of an argument to a name or a piece of source text.
+    pub fn quoting(self, name: &'static str, text: impl AsRef<str>) -> Self {
+        self.with(name, Value::quoted(text))
+    }
+}
+
+/// Values of a message by the names of its arguments.
+pub(crate) type Arguments = Vec<(&'static str, Value)>;
+
+/// What can be said under a code. A code has one message for each way in which it happens.
 ///
 /// Messages are statics declared by the `messages!` macro in [`crate::messages`]; two messages are equal if they are the same static.
 #[derive(Debug)]
@@ -63,12 +102,13 @@ impl Hash for Message {
     }
 }
 
-/// A value in a message.
+/// A value in a message. Strings do not turn into values by themselves: a name or a piece of source text is [`quoted`](Value::quoted), prose
+/// is a [`Text`] or a [`Sentence`], and what a library says is [`foreign`](Value::foreign).
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Value {
-    /// A name or a piece of source text.
-    Text(Box<str>),
-    /// A number in mm or mm/min.
+    /// A name or a piece of source text, the same in every language.
+    Quoted(Box<str>),
+    /// Millimetres, or mm/min.
     Number(Number),
     /// A count.
     Count(u64),
@@ -76,30 +116,25 @@ pub enum Value {
     Point(Point),
     /// Names, displayed as a comma-separated list.
     List(Box<[Box<str>]>),
-    /// A word with a translation of its own.
-    Word(#[serde(deserialize_with = "kept::word")] &'static Word),
-}
-
-/// A word or short phrase in every language.
-#[derive(Debug, PartialEq, Eq, Hash, Serialize)]
-pub struct Word {
-    /// English.
-    pub en: &'static str,
-    /// German.
-    pub de: &'static str,
-}
-
-impl Word {
-    /// The word in one language.
-    pub fn in_lang(&self, lang: Lang) -> &'static str {
-        match lang {
-            Lang::En => self.en,
-            Lang::De => self.de,
-        }
-    }
+    /// Prose.
+    Prose(#[serde(deserialize_with = "kept::text")] &'static Text),
+    /// Prose with arguments of its own.
+    Sentence(Box<Sentence>),
+    /// The words of a library or of the operating system, which are English: quoted in other languages.
+    Foreign(Box<str>),
 }
 
 impl Value {
+    /// A name or a piece of source text.
+    pub fn quoted(text: impl AsRef<str>) -> Self {
+        Self::Quoted(text.as_ref().into())
+    }
+
+    /// What a library or the operating system says of an error.
+    pub fn foreign(text: impl fmt::Display) -> Self {
+        Self::Foreign(text.to_string().into())
+    }
+
     fn number(&self) -> Option<Number> {
         match self {
             Self::Number(number) => Some(*number),
@@ -110,35 +145,25 @@ impl Value {
     /// Renders the value for a message: on one line, with special characters escaped.
     pub fn render(&self, lang: Lang) -> String {
         match self {
-            Self::Text(text) => shown::line(text).into_owned(),
+            Self::Quoted(text) => shown::line(text).into_owned(),
             Self::Number(number) => number.prose(lang),
             Self::Count(count) => count.to_string(),
             Self::Point(point) => format!("({}, {})", point.x, point.y),
-            Self::List(items) if items.is_empty() => Self::Word(&crate::words::NONE).render(lang),
+            Self::List(items) if items.is_empty() => crate::words::NONE.in_lang(lang).to_owned(),
             Self::List(items) => shown::line(&items.join(", ")).into_owned(),
-            Self::Word(word) => match lang {
-                Lang::En => word.en.to_owned(),
-                Lang::De => word.de.to_owned(),
-            },
+            Self::Prose(text) => text.in_lang(lang).to_owned(),
+            Self::Sentence(sentence) => fill(sentence.text.in_lang(lang), &sentence.arguments, lang),
+            Self::Foreign(text) => {
+                let text = shown::line(text);
+                lang.choose(text.to_string(), format!("„{text}“"))
+            }
         }
-    }
-}
-
-impl From<&str> for Value {
-    fn from(text: &str) -> Self {
-        Self::Text(text.into())
-    }
-}
-
-impl From<String> for Value {
-    fn from(text: String) -> Self {
-        Self::Text(text.into())
     }
 }
 
 impl From<char> for Value {
     fn from(letter: char) -> Self {
-        Self::Text(letter.to_string().into())
+        Self::Quoted(letter.to_string().into())
     }
 }
 
@@ -166,9 +191,15 @@ impl From<Point> for Value {
     }
 }
 
-impl From<&'static Word> for Value {
-    fn from(word: &'static Word) -> Self {
-        Self::Word(word)
+impl From<&'static Text> for Value {
+    fn from(text: &'static Text) -> Self {
+        Self::Prose(text)
+    }
+}
+
+impl From<Sentence> for Value {
+    fn from(sentence: Sentence) -> Self {
+        Self::Sentence(Box::new(sentence))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Reasons why a file cannot be read or written. The system's wording depends on platform and locale; ours does not.
 
+use std::fmt;
 use std::io::{Error, ErrorKind};
 
-use crate::message::{Value, Word};
+use crate::message::{Text, Value};
 use crate::words::words;
 
 words! {
@@ -50,7 +51,19 @@ words! {
     IN_STRANGERS_TREE: "it lies in a tree that is not trusted", "es liegt in einem Baum, dem nicht getraut wird";
     /// A directory that is not a cache.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is no cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
-    /// Error of the operating system.
+    /// Likewise: what is to be kept.
+    TOO_MUCH_TO_KEEP: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
+    /// Likewise.
+    TAG_UNREADABLE: "its CACHEDIR.TAG cannot be read", "seine CACHEDIR.TAG ist nicht lesbar";
+    /// Names of temporary files that are all taken.
+    TOO_MANY_TEMPORARY: "there are too many temporary files beside it", "daneben liegen zu viele temporäre Dateien";
+    /// A drawing that another program writes.
+    CHANGES_WHILE_READ: "it changes while it is being read", "sie ändert sich, während sie gelesen wird";
+    /// Pictures.
+    PICTURE_TOO_LARGE: "the picture is too large", "das Bild ist zu groß";
+    /// Programs without pictures.
+    WITHOUT_PICTURES: "this pathbuild was built without the feature `pictures`: .html and .svg are left", "dieses pathbuild wurde ohne das Feature `pictures` gebaut: es bleiben .html und .svg";
+    /// As systems say it.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
     /// Error of the operating system.
     EXISTS: "file exists", "es gibt sie schon";
@@ -70,18 +83,36 @@ words! {
     BAD_NAME: "the system allows no such file name", "das System lässt den Dateinamen nicht zu";
 }
 
-/// The reason of an IO error, in our wording if there is one.
-pub fn reason(error: &Error) -> Value {
-    match error.get_ref() {
-        // An error created by this program.
-        Some(said) => said.to_string().into(),
-        None if is_held(error) => Value::Word(&HELD),
-        None if is_no_name(error) => Value::Word(&NO_FILE),
-        None => by_kind(error.kind()).map_or_else(|| Value::from(of_system(error)), Value::Word),
+/// An error of ours that [`reason`] gives back in every language.
+pub fn error(kind: ErrorKind, text: &'static Text) -> Error {
+    Error::new(kind, Ours(text))
+}
+
+#[derive(Debug)]
+struct Ours(&'static Text);
+
+impl fmt::Display for Ours {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.en)
     }
 }
 
-fn by_kind(kind: ErrorKind) -> Option<&'static Word> {
+impl std::error::Error for Ours {}
+
+/// What a system's error says, in the program's words where it has some.
+pub fn reason(error: &Error) -> Value {
+    match error.get_ref() {
+        Some(inner) => match inner.downcast_ref::<Ours>() {
+            Some(Ours(text)) => Value::Prose(text),
+            None => Value::foreign(inner),
+        },
+        None if is_held(error) => Value::Prose(&HELD),
+        None if is_no_name(error) => Value::Prose(&NO_FILE),
+        None => by_kind(error.kind()).map_or_else(|| Value::foreign(of_system(error)), Value::Prose),
+    }
+}
+
+fn by_kind(kind: ErrorKind) -> Option<&'static Text> {
     Some(match kind {
         ErrorKind::NotFound => &NO_FILE,
         ErrorKind::IsADirectory => &DIRECTORY_OF_THAT_NAME,
@@ -125,9 +156,11 @@ mod tests {
         let denied = || Error::from(ErrorKind::PermissionDenied);
         assert_eq!(said(denied(), Lang::En), "permission denied");
         assert_eq!(said(denied(), Lang::De), "keine Berechtigung");
-        assert_eq!(said(Error::new(ErrorKind::PermissionDenied, "Said by us."), Lang::De), "Said by us.");
-        assert_eq!(said(ErrorKind::TimedOut.into(), Lang::De), "timed out");
-        // An error number that no system uses.
+        assert_eq!(said(error(ErrorKind::Other, &IS_LINK), Lang::De), IS_LINK.de);
+        assert_eq!(said(Error::other("By a library."), Lang::De), "„By a library.“");
+        assert_eq!(said(ErrorKind::TimedOut.into(), Lang::En), "timed out");
+        assert_eq!(said(ErrorKind::TimedOut.into(), Lang::De), "„timed out“");
+        // A number that no system has.
         let unknown = said(Error::from_raw_os_error(54_321), Lang::En);
         assert!(!unknown.contains("os error") && !unknown.ends_with('.'), "{unknown}");
     }

@@ -1,14 +1,21 @@
 //! Names of things in messages, in every language. (Glossary in book: reference/glossary)
 
-use crate::message::Word;
-
-/// Declares documented words.
+/// Declares texts, each with its documentation, and the list of them.
 macro_rules! words {
     ($($(#[$doc:meta])* $key:ident: $en:literal, $de:literal;)*) => {
-        $($(#[$doc])* pub static $key: Word = Word { en: $en, de: $de };)*
+        $($(#[$doc])* pub static $key: crate::Text = crate::Text { en: $en, de: $de };)*
+
+        /// The texts of this subject.
+        pub(crate) static TEXTS: &[&crate::Text] = &[$(&$key),*];
     };
 }
 pub(crate) use words;
+
+/// Every text that messages put in, those of other crates aside.
+pub fn all() -> impl Iterator<Item = &'static crate::Text> {
+    let texts = [TEXTS, crate::reasons::TEXTS, crate::limits::TEXTS, crate::messages::configuration::TEXTS];
+    texts.into_iter().flatten().copied()
+}
 
 words! {
     /// An empty list.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::{Diagnostic, Lang, messages};
+use pathbuild_diagnostic::{Diagnostic, Lang, Value, limits, messages};
 
 #[test]
 fn each_message_has_a_key_of_its_own() {
@@ -32,4 +32,23 @@ fn numbers_of_one_message_are_told_apart() {
     assert!(said(8.000_000_01, 8.0).contains("diameter 8.00000001 mm"));
     assert!(said(8.000_000_000_01, 8.0).contains("diameter 8 mm"), "nobody sees that");
     assert!(said(8.0, 8.0).contains("diameter 8 mm"));
+}
+
+/// A library speaks English only: another language quotes it.
+#[test]
+fn words_of_a_library_are_quoted_in_german() {
+    let problem =
+        Diagnostic::new(&messages::configuration::TOML_SYNTAX).with("reason", Value::foreign("invalid key"));
+    assert_eq!(problem.text(Lang::En), "this is not TOML: invalid key");
+    assert_eq!(problem.text(Lang::De), "das ist kein TOML: „invalid key“");
+}
+
+#[test]
+fn a_sentence_within_a_message_is_in_its_language() {
+    let problem = limits::file_too_large(17_219, 1000, "file-size");
+    assert_eq!(problem.text(Lang::En), "the file's size of 17219 bytes exceeds the limit of 1000 bytes");
+    assert_eq!(
+        problem.text(Lang::De),
+        "die Dateigröße von 17219 Bytes überschreitet die Grenze von 1000 Bytes"
+    );
 }

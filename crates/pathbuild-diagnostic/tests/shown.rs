@@ -64,5 +64,5 @@ fn json_means_the_same() {
 fn values_of_messages_are_shown_on_one_line() {
     let list: Value = ["a\nb", "\u{1b}"].into_iter().collect();
     assert_eq!(list.render(Lang::En), "a\\nb, \\u{1b}");
-    assert_eq!(Value::from("\r\u{9b}").render(Lang::En), "\\r\\u{9b}");
+    assert_eq!(Value::quoted("\r\u{9b}").render(Lang::En), "\\r\\u{9b}");
 }

@@ -7,9 +7,9 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use pathbuild_diagnostic::messages::files::LIMIT;
+use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
 use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE};
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Word};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Value};
 use smol_str::SmolStr;
 
 use crate::curves::{NoPieces, Tolerance};
@@ -166,9 +166,9 @@ impl<'d> Collector<'d> {
     fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &EntityError<'_>) -> Result<(), Fatal> {
         let diagnostic = match trouble {
             EntityError::Group(group) => group.diagnostic(placed.kind),
-            EntityError::Tilted => Diagnostic::new(&TILTED).with("entity", placed.kind.name()),
-            EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).with("entity", placed.kind.name()),
-            EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).with("block", &**block),
+            EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
+            EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).quoting("entity", placed.kind.name()),
+            EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).quoting("block", &**block),
             EntityError::LeftOut { message, point, block } => {
                 self.count()?;
                 self.leave_out(placed, layer, message, *point, block.as_deref());
@@ -176,7 +176,7 @@ impl<'d> Collector<'d> {
             }
             EntityError::TooManyParts => return Err(self.too_many()),
             EntityError::TextTooLong => {
-                let diagnostic = limit(&TEXT_LENGTH, self.limits.text, "text-length");
+                let diagnostic = exceeded(&TEXT_LENGTH, self.limits.text, "text-length");
                 return Err(Box::new(self.located(diagnostic, placed, layer)));
             }
         };
@@ -198,8 +198,8 @@ impl<'d> Collector<'d> {
     ) {
         let kind = placed.kind;
         let point = point.map(|point| placed.point(point));
-        let mut diagnostic = Diagnostic::new(message).with("entity", kind.name());
-        diagnostic.arguments.extend(block.map(|block| ("block", block.into())));
+        let mut diagnostic = Diagnostic::new(message).quoting("entity", kind.name());
+        diagnostic.arguments.extend(block.map(|block| ("block", Value::quoted(block))));
         diagnostic.place.point = point;
         let diagnostic = self.located(diagnostic, placed, layer);
         self.drawing.left_out.push(OmittedCurve { layer, kind, point, diagnostic });
@@ -209,7 +209,7 @@ impl<'d> Collector<'d> {
     pub(crate) fn ignore(&mut self, placed: &Placed<'_>) {
         let layer = self.layer(placed);
         if !std::mem::replace(&mut self.has_ignored, true) {
-            let diagnostic = Diagnostic::new(&NOT_COMPATIBLE).with("entity", placed.kind.name());
+            let diagnostic = Diagnostic::new(&NOT_COMPATIBLE).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
@@ -217,7 +217,7 @@ impl<'d> Collector<'d> {
 
     fn note_invisible(&mut self, placed: &Placed<'_>, layer: u32) {
         if self.with_invisible.insert(layer) {
-            let diagnostic = Diagnostic::new(&INVISIBLE).with("entity", placed.kind.name());
+            let diagnostic = Diagnostic::new(&INVISIBLE).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
@@ -277,13 +277,5 @@ impl<'d> Collector<'d> {
 /// PB005 with this limit of entities.
 #[cold]
 pub(crate) fn too_many_entities(most: usize) -> Fatal {
-    Box::new(limit(&ENTITIES, most, "entities"))
-}
-
-static ENTITIES: Word = Word { en: "the number of entities", de: "die Zahl der Elemente" };
-static TEXT_LENGTH: Word =
-    Word { en: "the length of a text in bytes", de: "die Länge eines Textes in Bytes" };
-
-fn limit(what: &'static Word, limit: usize, key: &'static str) -> Diagnostic {
-    Diagnostic::new(&LIMIT).with("what", what).with("limit", limit).with("key", key)
+    Box::new(exceeded(&ENTITIES, most, "entities"))
 }

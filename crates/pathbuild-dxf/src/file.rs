@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::messages::files::{EMPTY_FILE, NOT_DXF};
 use pathbuild_diagnostic::messages::reading::{NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED};
-use pathbuild_diagnostic::{Diagnostic, Word};
+use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::binary::to_ascii;
 use crate::collect::{Collector, Limits};
@@ -168,11 +168,11 @@ fn not_dxf(bytes: &[u8]) -> Fatal {
 }
 
 /// Guesses from its first bytes what a file that is not DXF is.
-fn kind_of_file(bytes: &[u8]) -> &'static Word {
-    static DWG: Word = Word { en: "a DWG drawing", de: "eine DWG-Zeichnung" };
-    static BLANK: Word = Word { en: "nothing but blanks", de: "nur Leerraum" };
-    static BINARY: Word = Word { en: "binary data", de: "binäre Daten" };
-    static TEXT: Word = Word { en: "a text without sections", de: "ein Text ohne Abschnitte" };
+fn kind_of_file(bytes: &[u8]) -> &'static Text {
+    static DWG: Text = Text { en: "a DWG drawing", de: "eine DWG-Zeichnung" };
+    static BLANK: Text = Text { en: "nothing but blanks", de: "nur Leerraum" };
+    static BINARY: Text = Text { en: "binary data", de: "binäre Daten" };
+    static TEXT: Text = Text { en: "a text without sections", de: "ein Text ohne Abschnitte" };
     const BEGINNING: usize = 1024;
     let beginning = &bytes[..bytes.len().min(BEGINNING)];
     match beginning {

@@ -52,7 +52,7 @@ impl BadGroup<'_> {
         let entity = kind.name();
         match self {
             Self::Missing { code } => {
-                Diagnostic::new(&GROUP_MISSING).with("entity", entity).with("code", code.to_string())
+                Diagnostic::new(&GROUP_MISSING).quoting("entity", entity).quoting("code", code.to_string())
             }
             Self::Number { code, value, reason } => {
                 bad_value(entity, *code, value.bytes, *reason).at_line(value.line.saturating_add(1), None)
@@ -61,9 +61,9 @@ impl BadGroup<'_> {
                 let text = shown(value.bytes);
                 let fault = TextFault::new(&text, 0..text.len());
                 Diagnostic::new(&NOT_POSITIVE)
-                    .with("entity", entity)
-                    .with("code", code.to_string())
-                    .with("value", text)
+                    .quoting("entity", entity)
+                    .quoting("code", code.to_string())
+                    .quoting("value", text)
                     .with_text(fault)
                     .at_line(value.line.saturating_add(1), None)
             }

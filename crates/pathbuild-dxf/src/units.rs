@@ -1,7 +1,7 @@
 //! Converts `$INSUNITS` to millimetres. (book: reference/dxf; book: reference/configuration, `units`)
 
 use pathbuild_diagnostic::messages::files::WRONG_UNITS;
-use pathbuild_diagnostic::{Diagnostic, Word};
+use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::Units;
 use crate::faults::Fatal;
@@ -23,20 +23,20 @@ pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fata
     }
 }
 
-fn wrong_units(number: i64, name: &'static Word) -> Diagnostic {
-    Diagnostic::new(&WRONG_UNITS).with("unit", name).with("number", number.to_string())
+fn wrong_units(number: i64, name: &'static Text) -> Diagnostic {
+    Diagnostic::new(&WRONG_UNITS).with("unit", name).quoting("number", number.to_string())
 }
 
 /// The name of a unit and its length in millimetres.
-fn unit(number: i64) -> Option<(&'static Word, f64)> {
+fn unit(number: i64) -> Option<(&'static Text, f64)> {
     let index = usize::try_from(number).ok()?;
     UNITS.get(index).map(|(name, factor)| (name, *factor))
 }
 
-static UNKNOWN: Word = Word { en: "unknown", de: "unbekannt" };
+static UNKNOWN: Text = Text { en: "unknown", de: "unbekannt" };
 
 /// By number. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts, rounded to f64.
-static UNITS: [(Word, f64); 25] = [
+static UNITS: [(Text, f64); 25] = [
     (word("none", "keine"), 1.0),
     (word("inches", "Zoll"), 25.4),
     (word("feet", "Fuß"), 304.8),
@@ -64,6 +64,6 @@ static UNITS: [(Word, f64); 25] = [
     (word("US survey miles", "US-Vermessungsmeilen"), 6_336_000_000.0 / 3937.0),
 ];
 
-const fn word(en: &'static str, de: &'static str) -> Word {
-    Word { en, de }
+const fn word(en: &'static str, de: &'static str) -> Text {
+    Text { en, de }
 }

@@ -116,5 +116,5 @@ fn range(written: &str) -> Option<Result<AllowedValues, Box<Diagnostic>>> {
 }
 
 fn invalid(message: &'static pathbuild_diagnostic::Message, written: &str) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(message).with("definition", written))
+    Box::new(Diagnostic::new(message).quoting("definition", written))
 }

@@ -1,7 +1,7 @@
 //! Effective parameters: the value of a letter on an element, and what provides it. Binding, the fold, closures and the lists of parameters
 //! all use this module, so that each rule has a single implementation. (book: language/letters)
 
-use pathbuild_diagnostic::{Word, words};
+use pathbuild_diagnostic::{Text, words};
 
 use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
@@ -84,7 +84,7 @@ impl Provider {
     }
 
     /// The name in messages.
-    pub fn word(&self) -> &'static Word {
+    pub fn word(&self) -> &'static Text {
         match self {
             Self::Own => &words::OWN_TEXT,
             Self::Chain => &words::CHAIN_TEXT,

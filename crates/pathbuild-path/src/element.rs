@@ -1,7 +1,7 @@
 //! The elements of a path: their shapes and their meanings. (book: language/line-types, book: language/markers)
 
 use pathbuild_diagnostic::words;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Word};
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Text};
 use smol_str::SmolStr;
 
 use crate::approx::{at_least, near};
@@ -135,7 +135,7 @@ impl Shape {
     }
 
     /// Its name in messages.
-    pub fn word(&self) -> &'static Word {
+    pub fn word(&self) -> &'static Text {
         match self {
             Self::Curve(Curve::Line(_)) => &words::LINE,
             Self::Curve(Curve::Arc(_)) => &words::ARC,
@@ -171,7 +171,7 @@ impl Cut {
 
 impl ElementClass {
     /// Its name in messages.
-    pub fn word(self) -> &'static Word {
+    pub fn word(self) -> &'static Text {
         match self {
             Self::PathStart => &words::PATH_START,
             Self::Mill => &words::MILLING_SEGMENT,

@@ -24,9 +24,10 @@ pub fn judge_file_name(
     let keys: Vec<PathKey> = held.iter().filter_map(key).collect();
     let is_held = |name: &PathName| key(name).is_some_and(|key| keys.iter().any(|held| held.is_like(&key)));
     let promised = promised(stem, files, paths).into_iter().filter(|name| !is_held(name));
-    let broken = promised.map(|name| Diagnostic::new(&messages::PROMISED_PATH).with("name", name.as_str()));
+    let broken =
+        promised.map(|name| Diagnostic::new(&messages::PROMISED_PATH).quoting("name", name.as_str()));
     let strays = held.iter().filter(|name| !is_covered(name)).map(|name| {
-        let stray = Diagnostic::new(&messages::STRAY_PATH).with("name", name.as_str());
+        let stray = Diagnostic::new(&messages::STRAY_PATH).quoting("name", name.as_str());
         stray.in_path(name.as_str())
     });
     broken.chain(strays).collect()

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::{Number, Word, words};
+use pathbuild_diagnostic::{Number, Text, words};
 use smol_str::{SmolStr, ToSmolStr};
 
 use crate::bind::bind;
@@ -23,7 +23,7 @@ pub struct ElementParameters {
     /// The location of the element.
     pub origin: Origin,
     /// Its name in messages.
-    pub what: &'static Word,
+    pub what: &'static Text,
     /// The parameters in alphabetical order of their letters.
     pub parameters: Vec<Parameter>,
 }

@@ -42,7 +42,7 @@ mod values;
 mod variables;
 mod walk;
 
-pub use bind::{ExaminedPath, bind, examine};
+pub use bind::{ExaminedPath, bind, examine, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep};
 pub use combinations::Combinations;
 pub use definition::{AllowedValues, Definition};

@@ -61,7 +61,7 @@ impl Limits<'_> {
                 let problem = Diagnostic::new(&messages::NOT_POSITIVE)
                     .with("letter", letter.as_char())
                     .with("value", value)
-                    .with("example", example(*letter));
+                    .quoting("example", example(*letter));
                 self.problems.push(self.own.underline(*letter, problem));
             }
         }

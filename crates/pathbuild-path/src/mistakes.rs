@@ -43,7 +43,7 @@ fn commas(text: ParameterText<'_>) -> Option<Diagnostic> {
     let separated = string
         .char_indices()
         .map(|(at, character)| if character == ',' && is_separator(string, at) { ' ' } else { character });
-    let problem = Diagnostic::new(&messages::COMMAS).with("text", separated.collect::<String>());
+    let problem = Diagnostic::new(&messages::COMMAS).quoting("text", separated.collect::<String>());
     Some(problem.with_text(text.fault(piece)))
 }
 
@@ -66,7 +66,7 @@ fn lower_case(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic
         None => format!("{}{}", text.letter(piece).unwrap_or_default(), text.value(piece)),
     };
     let written = text.pieces().iter().map(written).collect::<Vec<_>>().join(" ");
-    Some(Diagnostic::new(&messages::LOWER_CASE_TEXT).with("text", written).with_text(text.whole()))
+    Some(Diagnostic::new(&messages::LOWER_CASE_TEXT).quoting("text", written).with_text(text.whole()))
 }
 
 /// Recognises remarks: words without any effective parameter, such as `Deckel links` or `Halter rechts, 2 Stück`.
@@ -83,7 +83,8 @@ fn remark(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let is_parameter = |piece: &LetterValue| counts(piece) && !is_word(piece);
     let pieces = text.pieces();
     let is_remark = pieces.iter().any(is_word) && !pieces.iter().any(is_parameter);
-    is_remark.then(|| Diagnostic::new(&messages::REMARK).with("text", text.as_str()).with_text(text.whole()))
+    is_remark
+        .then(|| Diagnostic::new(&messages::REMARK).quoting("text", text.as_str()).with_text(text.whole()))
 }
 
 /// Recognises a number with a unit or a punctuation mark: `O3mm`.
@@ -96,7 +97,7 @@ pub(crate) fn unit(letter: Letter, value: &str) -> Option<Diagnostic> {
         return None;
     }
     let problem = Diagnostic::new(&messages::NUMBER_WITH_UNIT).with("letter", letter.as_char());
-    Some(problem.with("value", value).with("meant", format!("{}{number}", letter.as_char())))
+    Some(problem.quoting("value", value).quoting("meant", format!("{}{number}", letter.as_char())))
 }
 
 /// Suffixes of numbers in mm or mm/min.
@@ -110,7 +111,7 @@ pub(crate) fn equals_sign(letter: Letter, value: &str, problem: &Diagnostic) -> 
     }
     let mut problem = problem.clone();
     problem.message = &variables::EQUALS_SIGN;
-    Some(problem.with("meant", format!("{}{number}", letter.as_char())))
+    Some(problem.quoting("meant", format!("{}{number}", letter.as_char())))
 }
 
 /// Whether a letter stands alone or only with a sign, because a space separates it from its number.
@@ -145,5 +146,5 @@ pub(crate) fn in_piece(
         }
         _ => return None,
     };
-    Some(Diagnostic::new(message).with("meant", meant).with("element", class.word()))
+    Some(Diagnostic::new(message).quoting("meant", meant).with("element", class.word()))
 }

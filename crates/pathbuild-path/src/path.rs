@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_diagnostic::{EntityKind, Point, TextFault, Word, words};
+use pathbuild_diagnostic::{EntityKind, Point, Text, TextFault, words};
 use smol_str::SmolStr;
 
 use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
@@ -366,7 +366,7 @@ impl Segment {
 
 impl CutParameters {
     /// The name of such a segment in messages.
-    pub(crate) fn word(&self) -> &'static Word {
+    pub(crate) fn word(&self) -> &'static Text {
         match self.cut {
             Cut::Mill => &words::MILLING_SEGMENT,
             Cut::Mark => &words::MARKING_SEGMENT,

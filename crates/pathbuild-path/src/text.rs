@@ -273,7 +273,7 @@ impl<'t> ParameterText<'t> {
             Letter::D if counts(Letter::B) => Diagnostic::new(&messages::DEPTH_OF_MILLING),
             _ => return Diagnostic::new(&messages::WITHOUT_EFFECT).with("letter", letter.as_char()),
         };
-        problem.with("letter", letter.as_char()).with("value", self.value(piece))
+        problem.with("letter", letter.as_char()).quoting("value", self.value(piece))
     }
 
     fn twice(self, letter: Letter, piece: &LetterValue) -> Diagnostic {

@@ -215,5 +215,5 @@ fn no_number(letter: Letter, value: &str) -> Diagnostic {
         false => &messages::NOT_A_NUMBER,
     };
     let visible = value.replace('\u{a0}', "\u{2423}");
-    Diagnostic::new(message).with("letter", letter.as_char()).with("value", visible)
+    Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible)
 }

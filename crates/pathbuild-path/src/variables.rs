@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use pathbuild_diagnostic::messages::{files, variables as messages};
+use pathbuild_diagnostic::limits::{TEXT_WITH_VALUES, bytes, exceeded};
+use pathbuild_diagnostic::messages::variables as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use smol_str::SmolStr;
 
@@ -73,7 +74,7 @@ impl RawPath {
         let report = |definition: &Definition| {
             let problem = Diagnostic::new(&messages::MISSING_VALUE)
                 .with("variable", definition.name)
-                .with("definition", definition.to_string());
+                .quoting("definition", definition.to_string());
             let piece = self.parameters().pieces().iter().find(|piece| {
                 piece.letter == Some(Letter::Variable)
                     && self.parameters().value(piece).starts_with(definition.name)
@@ -118,7 +119,7 @@ impl Interpolation<'_> {
         } else {
             Diagnostic::new(&messages::ENDLESS)
         };
-        Box::new(problem.with("variable", name))
+        Box::new(problem.quoting("variable", name))
     }
 
     fn fill_once(&self, value: &str) -> Result<String, Problem> {
@@ -145,16 +146,12 @@ impl Interpolation<'_> {
         }
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
         let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
-            .with("variable", name.map(String::from).unwrap_or_default())
+            .quoting("variable", name.map(String::from).unwrap_or_default())
             .with("known", known);
         Some(Box::new(problem))
     }
 
     fn too_long(&self) -> Box<Diagnostic> {
-        let problem = Diagnostic::new(&files::LIMIT)
-            .with("what", "a text with its variables' values")
-            .with("limit", format!("{} bytes", self.limit))
-            .with("key", "text-length");
-        Box::new(problem)
+        Box::new(exceeded(&TEXT_WITH_VALUES, bytes(self.limit as u64), "text-length"))
     }
 }

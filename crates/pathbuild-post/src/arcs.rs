@@ -122,7 +122,7 @@ impl Rounding<'_> {
 fn not_round(arc: &Arc, radii: [f64; 2]) -> Box<Diagnostic> {
     let [start, end] = radii.map(|radius| format!("{radius:.4}"));
     let diagnostic = Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(arc.to[0], arc.to[1]));
-    Box::new(diagnostic.with("start", start).with("end", end))
+    Box::new(diagnostic.quoting("start", start).quoting("end", end))
 }
 
 /// The arc in that many equal pieces, each beginning where the one before ends.

@@ -97,10 +97,10 @@ pub fn load(name: &str) -> Result<Post, Vec<Diagnostic>> {
     let definitions = || BUILT_IN.iter().filter(|post| post.language != Language::Native);
     let Some(post) = definitions().find(|post| post.name == name) else {
         let diagnostic = match nearest(name, definitions().map(|post| post.name)) {
-            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_NEAREST).with("nearest", nearest),
+            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_NEAREST).quoting("nearest", nearest),
             None => Diagnostic::new(&posts::POST_UNKNOWN),
         };
-        return Err(vec![diagnostic.with("name", name)]);
+        return Err(vec![diagnostic.quoting("name", name)]);
     };
     let file = format!("{name}.{}", post.language.extension());
     Post::read(post.text.as_bytes(), Utf8Path::new(&file))

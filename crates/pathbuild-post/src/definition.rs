@@ -220,7 +220,7 @@ impl Post {
                         .with("index", u64::from(tool.index)),
                     _ => Diagnostic::new(&posts::SPINDLE_UNKNOWN).with("diameter", tool.diameter),
                 };
-                Err(Box::new(diagnostic.with("operation", &*operation.name)))
+                Err(Box::new(diagnostic.quoting("operation", &*operation.name)))
             }
             None => Ok(()),
         }
@@ -310,7 +310,7 @@ fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
             let diagnostic =
                 Diagnostic::new(&posts::ONE_SPEED_A_TOOL).with("index", u64::from(operation.tool.index));
             let diagnostic = diagnostic.with("speed", speed).with("other", other.speed.unwrap_or(0.0));
-            return Err(Box::new(diagnostic.with("operation", &*other.name)));
+            return Err(Box::new(diagnostic.quoting("operation", &*other.name)));
         }
     }
     Ok(())
@@ -318,10 +318,10 @@ fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
 
 fn unknown_dialect(name: &str) -> Diagnostic {
     let diagnostic = match nearest(name, Target::names()) {
-        Some(nearest) => Diagnostic::new(&posts::DIALECT_UNKNOWN_NEAREST).with("nearest", nearest),
+        Some(nearest) => Diagnostic::new(&posts::DIALECT_UNKNOWN_NEAREST).quoting("nearest", nearest),
         None => Diagnostic::new(&posts::DIALECT_UNKNOWN),
     };
-    diagnostic.with("name", name).with("known", Target::names().into_iter().collect::<Value>())
+    diagnostic.quoting("name", name).with("known", Target::names().into_iter().collect::<Value>())
 }
 
 impl Output {
@@ -346,6 +346,6 @@ impl Output {
     }
 
     fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
-        self.notes.push(Note { message, arguments: vec![(name, Value::from(value))] });
+        self.notes.push(Note { message, arguments: vec![(name, Value::quoted(value))] });
     }
 }

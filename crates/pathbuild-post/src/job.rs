@@ -37,7 +37,9 @@ impl Job {
             return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));
         }
         if let Some(broken) = self.operations.iter().find(|operation| !operation.is_finite()) {
-            return Err(Box::new(Diagnostic::new(&posts::JOB_NOT_FINITE).with("operation", &*broken.name)));
+            return Err(Box::new(
+                Diagnostic::new(&posts::JOB_NOT_FINITE).quoting("operation", &*broken.name),
+            ));
         }
         self.check_changes()
     }
@@ -53,7 +55,7 @@ impl Job {
                     if is_new && z < operation.surface.min(operation.clearance) && operation.cuts() =>
                 {
                     let diagnostic =
-                        Diagnostic::new(&posts::CUT_AFTER_CHANGE).with("operation", &*operation.name);
+                        Diagnostic::new(&posts::CUT_AFTER_CHANGE).quoting("operation", &*operation.name);
                     let diagnostic = diagnostic.with("z", z).with("surface", operation.surface);
                     return Err(Box::new(diagnostic.with("index", u64::from(operation.tool.index))));
                 }

@@ -94,6 +94,6 @@ pub struct NoFiles;
 
 impl PostFiles for NoFiles {
     fn read(&self, _: &Utf8Path) -> Result<Vec<u8>, Value> {
-        Err(Value::Word(&NO_DIRECTORY_OF_POST))
+        Err(Value::Prose(&NO_DIRECTORY_OF_POST))
     }
 }

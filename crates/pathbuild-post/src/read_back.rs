@@ -1,7 +1,7 @@
 //! Reading a post's text back, and comparing its moves with those of the job. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault};
+use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 
 use super::holes;
 use super::job::{Entry, Job, Operation, Plane};
@@ -65,11 +65,11 @@ pub(super) fn check(
         problems.extend(ways::check(&found, &wanted, clearance, tolerance).err().map(|it| as_post_s(*it)));
         for word in *unfollowed {
             let found =
-                Diagnostic::new(&gcode::NOT_FOLLOWED).with("word", &*word.word).at_line(word.line, None);
+                Diagnostic::new(&gcode::NOT_FOLLOWED).quoting("word", &*word.word).at_line(word.line, None);
             if word.is_dangerous {
                 problems.push(as_post_s(found));
             } else {
-                let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).with("word", &*word.word);
+                let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).quoting("word", &*word.word);
                 doubts.push(doubt.at_line(word.line, None));
             }
         }
@@ -102,7 +102,7 @@ fn chosen_offsets(steps: &[interpret::Step]) -> Vec<Diagnostic> {
             _ => continue,
         };
         if doubts.len() < MOST_DOUBTS {
-            let doubt = Diagnostic::new(&posts::OFFSET_CHOSEN).with("word", word);
+            let doubt = Diagnostic::new(&posts::OFFSET_CHOSEN).quoting("word", word);
             doubts.push(doubt.at_line(step.line, None));
         }
     }
@@ -153,7 +153,7 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
         problem.notes.push(Note { message: &posts::IN_OUTPUT, arguments });
     }
     if let Some(LineOrigin { section, line }) = origins.get(index) {
-        let mut arguments = vec![("section", (*section).into())];
+        let mut arguments = vec![("section", Value::quoted(section))];
         let message = if *line > 0 { &posts::WRITTEN_BY_LINE } else { &posts::WRITTEN_BY };
         arguments.extend((*line > 0).then(|| ("at", u64::from(*line).into())));
         problem.notes.push(Note { message, arguments });

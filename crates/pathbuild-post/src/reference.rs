@@ -19,7 +19,7 @@ pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
         "cambam-sections" => cambam::reference::sections(lang),
         "cambam-options" => cambam::reference::options(lang),
         "cambam-macros" => cambam::reference::macros(lang),
-        "cambam-calls" => cambam::reference::macros_with_arguments(),
+        "cambam-calls" => cambam::reference::macros_with_arguments(lang),
         _ => return None,
     })
 }

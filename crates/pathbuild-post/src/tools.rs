@@ -95,7 +95,7 @@ impl<'a> Fitter<'a> {
         let index = entry.and_then(|entry| entry.index).unwrap_or_else(|| self.free_index());
         if entry.is_none() && !self.table.entries.is_empty() {
             let warning = Diagnostic::new(&posts::TOOL_UNKNOWN).with("diameter", diameter).in_path(path);
-            self.warnings.push(warning.with("path", path).with("index", u64::from(index)));
+            self.warnings.push(warning.quoting("path", path).with("index", u64::from(index)));
         }
         let name = entry.map_or_else(
             || format!("{} mm", pathbuild_diagnostic::Number(diameter)),

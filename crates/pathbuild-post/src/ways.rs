@@ -9,7 +9,7 @@ mod tests;
 use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Value, Word};
+use pathbuild_diagnostic::{Diagnostic, Text, Value};
 use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -156,9 +156,9 @@ fn place_of(at: &Position) -> Value {
     let axis = |axis: usize| format!("{}{:.3}", ["X", "Y", "Z"][axis], at.at[axis]);
     let known: Vec<String> = known.map(axis).collect();
     if known.is_empty() {
-        return Value::Word(&Word { en: "an unknown place", de: "einem unbekannten Ort" });
+        return Value::Prose(&Text { en: "an unknown place", de: "einem unbekannten Ort" });
     }
-    known.join(" ").into()
+    Value::quoted(known.join(" "))
 }
 
 /// The job's rapid moves between two cuts.

@@ -1,6 +1,6 @@
 //! The way of the tool's tip in each move of a program.
 
-use pathbuild_diagnostic::{Word, words};
+use pathbuild_diagnostic::{Text, words};
 use pathbuild_path::{Arc, Curve, Line, Way, Xy};
 
 use crate::program::{Comment, Move, Program, Step};
@@ -19,7 +19,7 @@ impl<'p> Ways<'p> {
         Self { steps: program.steps.iter().enumerate(), at: Xy::origin(), z: program.start_height() }
     }
 
-    fn go(&mut self, to: &Move, length: f64) -> (&'static Word, Way) {
+    fn go(&mut self, to: &Move, length: f64) -> (&'static Text, Way) {
         let straight = |to: Xy| Curve::Line(Line { start: self.at, end: to });
         let (what, curve, z) = match to {
             Move::Sweep { to } => (&words::RAPID_MOVE, straight(*to), self.z),
@@ -41,7 +41,7 @@ impl<'p> Ways<'p> {
 }
 
 impl Iterator for Ways<'_> {
-    type Item = (usize, &'static Word, Way);
+    type Item = (usize, &'static Text, Way);
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {

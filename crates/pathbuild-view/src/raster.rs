@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, LazyLock};
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::reasons::PICTURE_TOO_LARGE;
+use pathbuild_diagnostic::{Lang, Value};
 use resvg::tiny_skia::{Pixmap, Transform};
 use usvg::fontdb::Database;
 use usvg::{Options, Tree};
@@ -34,36 +35,40 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
 ///
 /// # Errors
 /// The picture is too large for memory, or there is a bug.
-pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, String> {
+pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     let tree = tree(&svg(scene, shown))?;
-    let size = tree.size().to_int_size().scale_by(PIXELS).ok_or("the picture has no size")?;
-    let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the picture is too large")?;
+    let size = tree
+        .size()
+        .to_int_size()
+        .scale_by(PIXELS)
+        .ok_or_else(|| Value::foreign("the picture has no size"))?;
+    let mut pixels = Pixmap::new(size.width(), size.height()).ok_or(&PICTURE_TOO_LARGE)?;
     resvg::render(&tree, Transform::from_scale(PIXELS, PIXELS), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| error.to_string())
+    pixels.encode_png().map_err(Value::foreign)
 }
 
 /// Renders a scene as PDF.
 ///
 /// # Errors
 /// Only if there is a bug.
-pub fn pdf(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, String> {
+pub fn pdf(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     let tree = tree(&svg(scene, shown))?;
     let pdf = svg2pdf::to_pdf(&tree, svg2pdf::ConversionOptions::default(), svg2pdf::PageOptions::default());
-    pdf.map(|pdf| pages::in_order(&pdf)).map_err(|error| error.to_string())
+    pdf.map(|pdf| pages::in_order(&pdf)).map_err(Value::foreign)
 }
 
 /// Renders a setup sheet as PDF, with A4 pages.
 ///
 /// # Errors
 /// Only if there is a bug.
-pub fn sheet_pdf(sheet: &Sheet, lang: Lang) -> Result<Vec<u8>, String> {
+pub fn sheet_pdf(sheet: &Sheet, lang: Lang) -> Result<Vec<u8>, Value> {
     let pages = sheet_pages(sheet, lang);
     let trees: Vec<Tree> = pages.iter().map(|page| tree(page)).collect::<Result<_, _>>()?;
-    pages::joined(&trees, &xmp(&sheet.head))
+    pages::joined(&trees, &xmp(&sheet.head)).map_err(Value::foreign)
 }
 
-fn tree(svg: &str) -> Result<Tree, String> {
+fn tree(svg: &str) -> Result<Tree, Value> {
     let options =
         Options { font_family: FAMILY.to_owned(), fontdb: Arc::clone(&FONTS), ..Options::default() };
-    Tree::from_str(svg, &options).map_err(|error| error.to_string())
+    Tree::from_str(svg, &options).map_err(Value::foreign)
 }

@@ -7,11 +7,8 @@ use std::io::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::files;
-use pathbuild_diagnostic::reasons::{
-    IS_DIRECTORY, IS_THERE, LEADS_OUT, NO_DIRECTORY, NO_FILE, NOT_UTF_8, reason,
-};
+use pathbuild_diagnostic::reasons::{IS_THERE, LEADS_OUT, NO_DIRECTORY, NOT_UTF_8, reason};
 use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::workspace::Workspace;
@@ -36,13 +33,8 @@ pub fn size(file: &Utf8Path) -> Option<u64> {
 /// # Errors
 /// The reason why it cannot be read. It must be a regular file of at most `limit` bytes.
 pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, Value> {
-    let bytes = system.read(file, limit).map_err(|error| match error {
-        ReadError::Missing => Value::Word(&NO_FILE),
-        ReadError::IsDirectory => Value::Word(&IS_DIRECTORY),
-        ReadError::TooLarge { size } => format!("it has {size} bytes, the limit is {limit}").into(),
-        ReadError::Other(reason) => reason,
-    })?;
-    String::from_utf8(bytes).map_err(|_| Value::Word(&NOT_UTF_8))
+    let bytes = system.read(file, limit).map_err(|error| error.reason(limit))?;
+    String::from_utf8(bytes).map_err(|_| Value::Prose(&NOT_UTF_8))
 }
 
 /// Creates files together with their missing parent directories. If one of them exists already or cannot be written, none is created. In an
@@ -54,8 +46,11 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     let confined = context.settings.confined.as_ref();
     let leads_out =
         |(file, _): &&(Utf8PathBuf, &[u8])| confined.is_some_and(|confined| !confined.allows(file));
-    let outside: Vec<Diagnostic> =
-        files.iter().filter(leads_out).map(|(file, _)| cannot_write(file, Value::Word(&LEADS_OUT))).collect();
+    let outside: Vec<Diagnostic> = files
+        .iter()
+        .filter(leads_out)
+        .map(|(file, _)| cannot_write(file, Value::Prose(&LEADS_OUT)))
+        .collect();
     if !outside.is_empty() {
         return Err(outside);
     }
@@ -87,7 +82,7 @@ fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
 }
 
 fn already_there(file: &Utf8Path) -> Diagnostic {
-    cannot_write(file, Value::Word(&IS_THERE))
+    cannot_write(file, Value::Prose(&IS_THERE))
 }
 
 /// Atomically replaces a file. A device or a pipe cannot be replaced and is written to directly.
@@ -96,7 +91,7 @@ fn already_there(file: &Utf8Path) -> Diagnostic {
 /// A diagnostic with the reason why the file cannot be written.
 pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
-        return Err(Box::new(cannot_write(file, Value::Word(&NO_DIRECTORY))));
+        return Err(Box::new(cannot_write(file, Value::Prose(&NO_DIRECTORY))));
     }
     let is_stream = file.as_std_path().metadata().is_ok_and(|data| !data.is_file() && !data.is_dir());
     let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
@@ -125,29 +120,8 @@ fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
     fs::File::options().write(true).open(path)
 }
 
-/// Diagnostic for a file that cannot be read; `limit` is the value of `[limits] file-size`.
-pub fn unreadable(file: &Utf8Path, error: &ReadError, limit: u64) -> Diagnostic {
-    unreadable_by(file, error, limit, "file-size")
-}
-
-/// Like [`unreadable`], for a file whose size limit has this key.
-pub fn unreadable_by(file: &Utf8Path, error: &ReadError, limit: u64, key: &'static str) -> Diagnostic {
-    let diagnostic = match error {
-        ReadError::Missing => Diagnostic::new(&files::MISSING),
-        ReadError::IsDirectory => {
-            Diagnostic::new(&files::UNREADABLE).with("reason", Value::Word(&IS_DIRECTORY))
-        }
-        ReadError::Other(reason) => Diagnostic::new(&files::UNREADABLE).with("reason", reason.clone()),
-        ReadError::TooLarge { size } => Diagnostic::new(&files::LIMIT)
-            .with("what", format!("the file's size of {size} bytes"))
-            .with("limit", format!("{limit} bytes"))
-            .with("key", key),
-    };
-    diagnostic.in_file(file)
-}
-
-/// PB004: a file cannot be written.
+/// PB004.
 pub fn cannot_write(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
-    Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason).in_file(file)
+    Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason).in_file(file)
 }

@@ -318,8 +318,8 @@ impl<'db> Walk<'db> {
                 if has_errors {
                     // Errors in the embedded path may hide whether it fits.
                     let problem = Diagnostic::new(&messages::HAS_ERRORS)
-                        .with("name", self.name_of(*child))
-                        .with("file", child.file(self.db).path(self.db).as_str())
+                        .quoting("name", self.name_of(*child))
+                        .quoting("file", child.file(self.db).path(self.db).as_str())
                         .in_path(outer.as_str());
                     return self.report_all(instance, &[origin.at(problem)]);
                 }
@@ -339,8 +339,8 @@ impl<'db> Walk<'db> {
         names.push(frame.name.to_string());
         names.push(self.name_of(child));
         Diagnostic::new(&messages::CYCLE)
-            .with("name", self.name_of(child))
-            .with("chain", names.join(" > "))
+            .quoting("name", self.name_of(child))
+            .quoting("chain", names.join(" > "))
             .in_path(frame.name.as_str())
     }
 
@@ -352,9 +352,9 @@ impl<'db> Walk<'db> {
             _ => "?".to_owned(),
         };
         Diagnostic::new(&messages::TOO_DEEP)
-            .with("name", name)
+            .quoting("name", name)
             .with("limit", u64::from(DEEPEST))
-            .with("chain", names.join(" > "))
+            .quoting("chain", names.join(" > "))
             .in_path(frame.name.as_str())
     }
 
@@ -395,7 +395,7 @@ impl<'db> Walk<'db> {
             return false;
         }
         if !std::mem::replace(&mut self.is_full, true) {
-            let problem = Diagnostic::new(&files::TOO_MANY_PATHS).with("key", "embedded-paths");
+            let problem = Diagnostic::new(&files::TOO_MANY_PATHS).quoting("key", "embedded-paths");
             self.report_limit(instance, problem.with("limit", paths));
         }
         true
@@ -438,9 +438,9 @@ impl<'db> Walk<'db> {
 fn size_limit_problem(count: u64, limits: Limits) -> Option<Diagnostic> {
     let size = memory(count);
     let problem = if count > limits.moves {
-        Diagnostic::new(&files::TOO_MANY_MOVES).with("key", "embedding-moves").with("limit", limits.moves)
+        Diagnostic::new(&files::TOO_MANY_MOVES).quoting("key", "embedding-moves").with("limit", limits.moves)
     } else if size > limits.memory {
-        let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).with("key", "program-memory");
+        let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).quoting("key", "program-memory");
         problem.with("size", size).with("limit", limits.memory)
     } else {
         return None;

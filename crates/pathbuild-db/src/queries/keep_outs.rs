@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::walk as messages;
-use pathbuild_diagnostic::{Diagnostic, Number, Point, TraceStep, Word};
+use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, TraceStep};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap, KeepOuts};
 use pathbuild_toolpath::{Drawn, Ways};
 use rustc_hash::FxHashSet;
@@ -112,7 +112,7 @@ struct Entry {
 
 /// Number of moves, and their lowest Z in mm.
 struct Extent {
-    what: &'static Word,
+    what: &'static Text,
     moves: u64,
     lowest: f64,
 }
@@ -166,7 +166,7 @@ impl<'t> Search<'t> {
         let (part, clamp) = (&parts[around.id], &self.clamps[entry.clamp]);
         let found = Diagnostic::new(&messages::MOVES_INTO_CLAMP)
             .with("tool", program.largest_cutter())
-            .with("layer", clamp.drawn.layer.as_str())
+            .quoting("layer", clamp.drawn.layer.as_str())
             .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
             .with("height", clamp.placed.height - around.raised)
             .with("what", extent.what)

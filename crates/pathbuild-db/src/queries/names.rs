@@ -68,7 +68,7 @@ pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     let reason = match fault {
         ReadError::Other(reason) => reason.clone(),
         ReadError::Missing | ReadError::IsDirectory | ReadError::TooLarge { .. } => {
-            Value::Word(&NO_DIRECTORY)
+            Value::Prose(&NO_DIRECTORY)
         }
     };
     let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };

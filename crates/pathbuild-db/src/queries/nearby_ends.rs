@@ -76,8 +76,8 @@ impl<'a> LayerEnds<'a> {
         let (layer, kind, end, distance) =
             distances.reduce(|best, other| if other.3 < best.3 { other } else { best })?;
         let arguments = vec![
-            ("layer", layer.into()),
-            ("element", kind.name().into()),
+            ("layer", Value::quoted(layer)),
+            ("element", Value::quoted(kind.name())),
             ("point", Point::new(end.x, end.y).into()),
             ("distance", distance.into()),
         ];
@@ -106,7 +106,10 @@ impl<'a> LayerEnds<'a> {
         let (layer, entity) = self.all().entity(markers[which]?)?;
         let Geometry::Circle(circle) = &entity.geometry else { return None };
         let centre = Point::new(circle.centre.x, circle.centre.y);
-        Some((Note { message, arguments: vec![("layer", layer.into()), ("point", centre.into())] }, 0.0))
+        Some((
+            Note { message, arguments: vec![("layer", Value::quoted(layer)), ("point", centre.into())] },
+            0.0,
+        ))
     }
 
     /// The element on another layer that is nearest to a text.
@@ -129,8 +132,11 @@ impl<'a> LayerEnds<'a> {
             others.filter_map(|(layer, entity)| Some((layer, entity, gap(&text, &entity.geometry)?)));
         let (layer, entity, gap) =
             distances.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
-        let arguments =
-            vec![("layer", layer.into()), ("element", entity.kind.name().into()), ("distance", gap.into())];
+        let arguments = vec![
+            ("layer", Value::quoted(layer)),
+            ("element", Value::quoted(entity.kind.name())),
+            ("distance", gap.into()),
+        ];
         (gap <= WORTH_NAMING).then_some((Note { message: &drawing::NEAR_ON_OTHER_LAYER, arguments }, gap))
     }
 }

@@ -48,7 +48,12 @@ pub(super) fn read<R>(
                 db.system().read_into(path, limit, &mut scratch.bytes).map(|bytes| (bytes, Stamp::UNKNOWN))
             }
         })?;
-        let (bytes, stamp) = read.map_err(|error| Box::new(unreadable(error, limit)))?;
+        let (bytes, stamp) = read.map_err(|error| {
+            Box::new(match error {
+                ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
+                error => error.diagnostic(limit, "file-size"),
+            })
+        })?;
         Ok(work(bytes, stamp, &mut scratch.drawing))
     })
 }
@@ -77,16 +82,4 @@ pub(super) fn read_entities(
         compatible: reading.compatible,
     };
     pathbuild_dxf::read_into(drawing, bytes, &options);
-}
-
-fn unreadable(error: ReadError, limit: u64) -> Diagnostic {
-    match error {
-        ReadError::Missing => Diagnostic::new(&messages::MISSING),
-        ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
-        ReadError::Other(reason) => Diagnostic::new(&messages::UNREADABLE).with("reason", reason),
-        ReadError::TooLarge { size } => Diagnostic::new(&messages::LIMIT)
-            .with("what", format!("the file's size of {size} bytes"))
-            .with("limit", format!("{limit} bytes"))
-            .with("key", "file-size"),
-    }
 }

@@ -104,13 +104,13 @@ impl ConfinedSystem {
     }
 
     fn allowed(&self, path: &Utf8Path) -> Result<&dyn System, ReadError> {
-        if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(Value::Word(&LEADS_OUT))) }
+        if self.allows(path) { Ok(&*self.below) } else { Err(ReadError::Other(Value::Prose(&LEADS_OUT))) }
     }
 
     /// Checks the parent directory, since writing replaces a link instead of following it.
     fn changeable(&self, path: &Utf8Path) -> Result<&dyn System, Value> {
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
-        if self.allows(directory) { Ok(&*self.below) } else { Err(Value::Word(&LEADS_OUT)) }
+        if self.allows(directory) { Ok(&*self.below) } else { Err(Value::Prose(&LEADS_OUT)) }
     }
 }
 

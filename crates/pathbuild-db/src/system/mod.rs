@@ -15,7 +15,10 @@ use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Stamp;
-use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::limits::{file_too_large, too_many_bytes};
+use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::reasons::{IS_DIRECTORY, NO_FILE};
+use pathbuild_diagnostic::{Diagnostic, Value};
 
 pub use confined::ConfinedSystem;
 pub use listing::{Entry, EntryKind, Listing, Names};
@@ -166,4 +169,25 @@ pub enum ReadError {
     },
     /// Any other reason.
     Other(Value),
+}
+
+impl ReadError {
+    /// The diagnostic about a file that cannot be read, without a place; `key` is that of the limit of its size.
+    pub fn diagnostic(self, limit: u64, key: &str) -> Diagnostic {
+        match self {
+            Self::Missing => Diagnostic::new(&files::MISSING),
+            Self::TooLarge { size } => file_too_large(size, limit, key),
+            other => Diagnostic::new(&files::UNREADABLE).with("reason", other.reason(limit)),
+        }
+    }
+
+    /// The reason why a file cannot be read, to stand in a message about what it was needed for.
+    pub fn reason(self, limit: u64) -> Value {
+        match self {
+            Self::Missing => (&NO_FILE).into(),
+            Self::IsDirectory => (&IS_DIRECTORY).into(),
+            Self::Other(reason) => reason,
+            Self::TooLarge { size } => too_many_bytes(size, limit).into(),
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Messages about pathbuild.toml and the values of options. (PB003; book: reference/configuration)
 
-use crate::message::Word;
+use crate::words::words;
 
 messages! {
     /// The configuration is missing or unreadable.
@@ -211,31 +211,44 @@ messages! {
     }
 }
 
-/// Declares descriptions of valid values, in every language.
-macro_rules! expectations {
-    ($($key:ident: $en:literal, $de:literal;)*) => {
-        $(#[doc = $en] pub static $key: Word = Word { en: $en, de: $de };)*
-    };
-}
-
-expectations! {
+// What a value must be.
+words! {
+    /// A number.
     NUMBER: "a number", "eine Zahl";
+    /// A number greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
+    /// A number of at least 0.
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
+    /// 0 or a number of at least 0.1.
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
+    /// A whole number from 1 up.
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
+    /// Regular expressions.
     REGEXES: "regular expressions", "reguläre Ausdrücke";
+    /// Patterns of names.
     GLOBS: "patterns of names", "Namensmuster";
+    /// A size such as "256 MiB" and more than 0.
     SIZE: "a size such as \"256 MiB\" and more than 0", "eine Größe wie \"256 MiB\" und mehr als 0";
+    /// A time such as "50 ms\.
     DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";
+    /// A text.
     TEXT: "a text", "ein Text";
+    /// An absolute path.
     ABSOLUTE: "an absolute path", "ein absoluter Pfad";
+    /// A list of absolute paths.
     ABSOLUTES: "a list of absolute paths", "eine Liste absoluter Pfade";
+    /// A text that is not empty.
     NOT_EMPTY: "a text that is not empty", "ein nicht leerer Text";
+    /// A list of texts.
     LIST_OF_TEXTS: "a list of texts", "eine Liste von Texten";
+    /// True or false.
     SWITCH: "true or false", "true oder false";
+    /// A table.
     TABLE: "a table", "eine Tabelle";
+    /// A list of tables.
     LIST_OF_TABLES: "a list of tables", "eine Liste von Tabellen";
+    /// A list of three numbers greater than 0.
     AXES: "a list of three numbers greater than 0", "eine Liste von drei Zahlen größer als 0";
+    /// A list of two numbers, the smaller first.
     EXTENT: "a list of two numbers, the smaller first", "eine Liste von zwei aufsteigenden Zahlen";
 }

@@ -217,6 +217,6 @@ messages! {
 }
 
 /// A word for [`ODD`].
-pub static HIGHER: crate::Word = crate::Word { en: "higher", de: "höher" };
+pub static HIGHER: crate::Text = crate::Text { en: "higher", de: "höher" };
 /// A word for [`ODD`].
-pub static LOWER: crate::Word = crate::Word { en: "lower", de: "niedriger" };
+pub static LOWER: crate::Text = crate::Text { en: "lower", de: "niedriger" };

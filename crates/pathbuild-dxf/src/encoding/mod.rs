@@ -123,7 +123,7 @@ fn has_other(characters: [u8; 8]) -> bool {
 fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {
     let message = if matches!(charset, Charset::Unknown) { &UNKNOWN_CODE_PAGE } else { &UNDECODABLE };
     let fault = TextFault::new(text, 0..text.len());
-    Diagnostic::new(message).with("encoding", encoding).at_line(line, None).with_text(fault)
+    Diagnostic::new(message).quoting("encoding", encoding).at_line(line, None).with_text(fault)
 }
 
 fn standard<'b>(encoding: &'static Encoding, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {

@@ -67,7 +67,7 @@ impl Check<'_, '_> {
         let fault = |message| {
             let all = 0..line.line.content().len();
             let file = self.inputs.program.file.file_name().unwrap_or_default();
-            line.line.fault(message, all).with("probe", u64::from(line.probe)).with("file", file)
+            line.line.fault(message, all).with("probe", u64::from(line.probe)).quoting("file", file)
         };
         let Some(made) = self.table.probes.get(&line.probe) else {
             return Err(Box::new(fault(&messages::PROBE_OF_OTHER_PROGRAM)));
@@ -80,7 +80,9 @@ impl Check<'_, '_> {
         if is_moved || pairs.into_iter().any(is_other) {
             let there = described(made.place, made.height, made.at.filter(|_| line.at.is_some()));
             let here = described(line.place, height, line.at);
-            return Err(Box::new(fault(&messages::OTHER_PROBE).with("here", here).with("there", there)));
+            return Err(Box::new(
+                fault(&messages::OTHER_PROBE).quoting("here", here).quoting("there", there),
+            ));
         }
         Ok(())
     }
@@ -106,7 +108,7 @@ impl Check<'_, '_> {
         let unknown = self.survey.probes.iter().filter(|(probe, _)| !known.contains(probe));
         let unknown = unknown.filter(|(_, used)| told.insert(used.line.number)).map(|(probe, used)| {
             let problem = used.line.fault(&messages::UNKNOWN_PROBE, used.at.clone());
-            problem.with("probe", u64::from(*probe)).with("file", file)
+            problem.with("probe", u64::from(*probe)).quoting("file", file)
         });
         unknown.collect()
     }
@@ -120,7 +122,7 @@ impl Check<'_, '_> {
         let unused = lines.iter().filter(|line| !self.survey.probes.contains_key(&line.probe));
         let unused = unused.filter(is_stated).map(|line| {
             let problem = line.line.fault(&messages::UNUSED, 0..line.line.content().len());
-            problem.with("probe", u64::from(line.probe)).with("file", file)
+            problem.with("probe", u64::from(line.probe)).quoting("file", file)
         });
         unused.collect()
     }

@@ -43,7 +43,7 @@ pub(super) fn fill<'a>(
     if measured.len() != probes.len() {
         let problem = Diagnostic::new(&messages::LOG_COUNT).in_file(log.file).with("found", measured.len());
         let file = values.file.file_name().unwrap_or_default();
-        problems.push(problem.with("file", file).with("expected", probes.len()));
+        problems.push(problem.quoting("file", file).with("expected", probes.len()));
         return give_up(probes);
     }
     let mut in_order: Vec<&mut ProbeLine<'_>> = probes.iter_mut().collect();

@@ -47,7 +47,7 @@ impl<'a> Survey<'a> {
 /// A fault in a line as it is told.
 pub(super) fn located(line: Line<'_>, fault: &Fault) -> Diagnostic {
     let found = String::from_utf8_lossy(line.content().get(fault.at.clone()).unwrap_or_default());
-    line.fault(fault.message, fault.at.clone()).with("found", &*found).with("limit", DEPTH_LIMIT)
+    line.fault(fault.message, fault.at.clone()).quoting("found", &*found).with("limit", DEPTH_LIMIT)
 }
 
 /// A formula's fault as one of its line.

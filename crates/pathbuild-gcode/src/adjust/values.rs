@@ -63,7 +63,7 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
             read.value = Entered::Wrong;
         } else if read.value == Entered::Wrong {
             let entered = String::from_utf8_lossy(&line.content()[read.value_at.1.clone()]).into_owned();
-            problems.push(read.value_fault(&messages::NOT_A_VALUE).with("found", entered));
+            problems.push(read.value_fault(&messages::NOT_A_VALUE).quoting("found", entered));
         }
         found.push(read);
     }

@@ -27,7 +27,7 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         if self.rules.arcs.axis_word && coordinates[first].is_none() && coordinates[second].is_none() {
             let axes = plane_words(plane, ["X", "Y", "Z"]);
-            self.report(block, &say::ARC_WITHOUT_END, whole_line(block), |d| d.with("axes", axes));
+            self.report(block, &say::ARC_WITHOUT_END, whole_line(block), |d| d.quoting("axes", axes));
         }
         if !self.rules.arcs.helix
             && coordinates[plane.third()].is_some_and(|slot| self.leaves_plane(slot, plane))
@@ -95,20 +95,22 @@ impl Interpreter<'_> {
         let radius = self.words.values.take_slot(b'R');
         match (offsets, radius) {
             ([None, None], None) => {
-                self.report(block, &say::ARC_WITHOUT_CENTRE, whole_line(block), |d| d.with("centre", words));
+                self.report(block, &say::ARC_WITHOUT_CENTRE, whole_line(block), |d| {
+                    d.quoting("centre", words)
+                });
                 None
             }
             ([None, None], Some(radius)) => self.centre_by_radius(block, plane, clockwise, from, to, radius),
             (_, Some(radius)) => {
                 self.report(block, &say::ARC_WITH_CENTRE_AND_RADIUS, radius.span, |d| {
-                    d.with("centre", words)
+                    d.quoting("centre", words)
                 });
                 Some(self.centre_by_offsets(plane, from, offsets))
             }
             ([None, _] | [_, None], None) if !self.state.incremental_centres => {
                 let word = "G90.1";
                 self.report(block, &say::NEEDS, whole_line(block), |d| {
-                    d.with("word", word).with("missing", words)
+                    d.quoting("word", word).quoting("missing", words)
                 });
                 None
             }
@@ -143,7 +145,7 @@ impl Interpreter<'_> {
         let chord = [end[0] - start[0], end[1] - start[1]];
         let length = libm::hypot(chord[0], chord[1]);
         if length == 0.0 {
-            self.report(block, &say::RADIUS_FULL_CIRCLE, slot.span, |d| d.with("centre", words));
+            self.report(block, &say::RADIUS_FULL_CIRCLE, slot.span, |d| d.quoting("centre", words));
             return None;
         }
         let half = length / 2.0;

@@ -56,7 +56,7 @@ impl Interpreter<'_> {
     ) {
         let dialect = self.rules.dialect.name();
         self.problems.add(message, At::block(block, span), |d| {
-            d.with("first", first).with("second", second).with("dialect", dialect)
+            d.quoting("first", first).quoting("second", second).quoting("dialect", dialect)
         });
     }
 

@@ -54,7 +54,7 @@ impl Interpreter<'_> {
         let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { old }, ..hole };
         if f64::from(repeats) * moves_of(&hole) > MOST_MOVES {
             return self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.with("word", "Q, L")
+                d.quoting("word", "Q, L")
                     .with("value", f64::from(repeats))
                     .with("limits", &limits::MOVES_OF_A_CYCLE)
             });
@@ -117,7 +117,7 @@ impl Interpreter<'_> {
         if let Some((letter, _)) = missing.into_iter().find(|(_, is_missing)| *is_missing) {
             let word = codes::name('G', self.state.motion_code);
             self.report(block, &say::NEEDS, Span::new(0, block.text.len()), |d| {
-                d.with("word", word).with("missing", letter)
+                d.quoting("word", word).quoting("missing", letter)
             });
             return None;
         }
@@ -126,14 +126,14 @@ impl Interpreter<'_> {
         if step <= 0.0 || dwell < 0.0 {
             let (word, value) = if step <= 0.0 { ("Q", step) } else { ("P", dwell) };
             self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.with("word", word).with("value", value).with("limits", &limits::POSITIVE)
+                d.quoting("word", word).with("value", value).with("limits", &limits::POSITIVE)
             });
             return None;
         }
         let (r, bottom) = (r?, z?);
         if bottom > r {
             self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
-                d.with("word", "R").with("value", r).with("limits", &limits::NOT_BELOW_Z)
+                d.quoting("word", "R").with("value", r).with("limits", &limits::NOT_BELOW_Z)
             });
             return None;
         }

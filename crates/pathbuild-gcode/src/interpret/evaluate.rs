@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 use crate::read::{Binary, Block, Code, Function, Op, Span};
 
@@ -11,7 +11,7 @@ const EQUAL: f64 = 1e-6;
 
 /// Why an expression has no value.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fault(pub(super) &'static Word);
+pub(super) struct Fault(pub(super) &'static Text);
 
 /// The parameters of a program. Those that were never set are 0 by number, and nothing by name.
 #[derive(Debug, Default)]
@@ -151,21 +151,21 @@ fn combine(operator: Binary, left: f64, right: f64) -> Result<f64, Fault> {
     }
 }
 
-const NOT_FINITE: Fault = Fault(&Word { en: "the result is too large", de: "das Ergebnis ist zu groß" });
+const NOT_FINITE: Fault = Fault(&Text { en: "the result is too large", de: "das Ergebnis ist zu groß" });
 const NEVER_SET: Fault =
-    Fault(&Word { en: "the parameter was never set", de: "der Parameter wurde nie gesetzt" });
+    Fault(&Text { en: "the parameter was never set", de: "der Parameter wurde nie gesetzt" });
 const NO_SUCH_PARAMETER: Fault =
-    Fault(&Word { en: "there is no parameter of that number", de: "es gibt keinen Parameter dieser Nummer" });
+    Fault(&Text { en: "there is no parameter of that number", de: "es gibt keinen Parameter dieser Nummer" });
 const OUTSIDE_ONE: Fault =
-    Fault(&Word { en: "the number is not between -1 and 1", de: "die Zahl liegt nicht zwischen -1 und 1" });
-const LOGARITHM: Fault = Fault(&Word {
+    Fault(&Text { en: "the number is not between -1 and 1", de: "die Zahl liegt nicht zwischen -1 und 1" });
+const LOGARITHM: Fault = Fault(&Text {
     en: "the logarithm of a number that is not positive",
     de: "der Logarithmus einer nicht positiven Zahl",
 });
 const NEGATIVE_ROOT: Fault =
-    Fault(&Word { en: "the root of a negative number", de: "die Wurzel einer negativen Zahl" });
-const NEGATIVE_POWER: Fault = Fault(&Word {
+    Fault(&Text { en: "the root of a negative number", de: "die Wurzel einer negativen Zahl" });
+const NEGATIVE_POWER: Fault = Fault(&Text {
     en: "a negative number to a power that is not whole",
     de: "eine negative Zahl mit einem nicht ganzen Exponenten",
 });
-const DIVISION_BY_ZERO: Fault = Fault(&Word { en: "division by zero", de: "Division durch null" });
+const DIVISION_BY_ZERO: Fault = Fault(&Text { en: "division by zero", de: "Division durch null" });

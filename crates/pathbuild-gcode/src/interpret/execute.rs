@@ -57,7 +57,7 @@ impl<'i> Interpreter<'i> {
                 Percent::Start | Percent::Title => "M30",
                 Percent::Refused => "M2, M30",
             };
-            self.problems.add_at_line(&say::NO_END, last_line, |d| d.with("words", words));
+            self.problems.add_at_line(&say::NO_END, last_line, |d| d.quoting("words", words));
         }
         self.problems
     }
@@ -91,7 +91,7 @@ impl<'i> Interpreter<'i> {
     /// Some controls obey what a comment begins with.
     fn check_active(&mut self, block: &Block<'_>, text: Span) {
         if let Some(word) = beginning_of(&block.text_of(text), self.rules.spelling.active_comments) {
-            self.report(block, &say::ACTIVE_COMMENT, text, |d| d.with("word", word.trim_end_matches(',')));
+            self.report(block, &say::ACTIVE_COMMENT, text, |d| d.quoting("word", word.trim_end_matches(',')));
         }
     }
 
@@ -103,7 +103,7 @@ impl<'i> Interpreter<'i> {
         let begins_lost = it.from.known != Axes::ALL && it.pace != Pace::Rapid;
         if let Some((line, code)) = self.state.lost.filter(|_| begins_lost) {
             let word = codes::name('G', code);
-            self.problems.add_at_line(&say::POSITION_UNKNOWN, line, |d| d.with("word", word));
+            self.problems.add_at_line(&say::POSITION_UNKNOWN, line, |d| d.quoting("word", word));
         }
         if begins_lost || it.to.known == Axes::ALL {
             self.state.lost = None;
@@ -120,7 +120,7 @@ impl<'i> Interpreter<'i> {
         values: impl FnOnce(Diagnostic) -> Diagnostic,
     ) {
         let dialect = self.rules.dialect.name();
-        self.problems.add(message, At::block(block, span), |d| values(d).with("dialect", dialect));
+        self.problems.add(message, At::block(block, span), |d| values(d).quoting("dialect", dialect));
     }
 
     /// Reports what the dialect does not know: a warning where it passes over such things.
@@ -134,7 +134,7 @@ impl<'i> Interpreter<'i> {
         let severity = if self.rules.words.lenient { Severity::Warning } else { Severity::Error };
         self.report(block, message, span, |mut diagnostic| {
             diagnostic.severity = severity;
-            diagnostic.with("word", word)
+            diagnostic.quoting("word", word)
         });
     }
 

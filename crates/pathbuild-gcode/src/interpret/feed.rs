@@ -1,6 +1,6 @@
 //! F, S, units: what numbers count.
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::gcode as say;
 
 use super::codes::{self, Command, FeedUnit, Group};
@@ -12,8 +12,8 @@ use super::switches::{SPINDLE, TOOL};
 use crate::dialect::FeedMode;
 use crate::read::{Block, Span};
 
-const MILLIMETRES: Word = Word { en: "millimetres", de: "Millimeter" };
-const INCHES: Word = Word { en: "inches", de: "Zoll" };
+const MILLIMETRES: Text = Text { en: "millimetres", de: "Millimeter" };
+const INCHES: Text = Text { en: "inches", de: "Zoll" };
 
 impl Interpreter<'_> {
     pub(super) fn feed_mode(&mut self, block: &Block<'_>) {
@@ -78,7 +78,7 @@ impl Interpreter<'_> {
         if said != inches {
             let (taken, comment) = if inches { (&INCHES, &MILLIMETRES) } else { (&MILLIMETRES, &INCHES) };
             self.report(block, &say::UNITS_CONTRADICTED, span, |d| {
-                d.with("word", codes::name('G', code)).with("unit", taken).with("comment", comment)
+                d.quoting("word", codes::name('G', code)).with("unit", taken).with("comment", comment)
             });
         }
     }
@@ -120,7 +120,7 @@ impl Interpreter<'_> {
                 self.report(block, &say::FEED_PER_TURN_WITHOUT_SPEED, whole, |d| d);
             }
             (_, Some((line, code))) => self.report(block, &say::FEED_CLEARED, whole, |d| {
-                d.with("word", codes::name('G', code)).with("line", u64::from(line))
+                d.quoting("word", codes::name('G', code)).with("line", u64::from(line))
             }),
             _ => self.report(block, &say::NO_FEED, whole, |d| d),
         }

@@ -1,7 +1,7 @@
 //! Which dialect a file is in, and why that is thought. (book: program/reading, "Dialects")
 
 use memchr::memmem;
-use pathbuild_diagnostic::{Code, Word};
+use pathbuild_diagnostic::{Code, Text};
 
 use super::{Options, interpret_each};
 use crate::dialect::Dialect;
@@ -22,7 +22,7 @@ pub struct Guess {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Evidence {
     /// A phrase such as "it has correction formulas".
-    pub reason: &'static Word,
+    pub reason: &'static Text,
     /// The line that shows it, from 1.
     pub line: Option<u32>,
 }
@@ -36,28 +36,28 @@ pub fn guess(text: &[u8]) -> Guess {
 /// What pathbuild wrote names its dialect.
 fn by_header(head: &[u8]) -> Option<Guess> {
     let (provenance, _) = Provenance::of_head(head)?;
-    let reason = &Word { en: "its header names it", de: "sein Kopf nennt es" };
+    let reason = &Text { en: "its header names it", de: "sein Kopf nennt es" };
     Some(Guess { dialect: provenance.dialect?, evidence: Evidence { reason, line: None } })
 }
 
 /// A sign of a dialect: whether a line has it.
-type Sign = (Dialect, fn(&[u8]) -> bool, &'static Word);
+type Sign = (Dialect, fn(&[u8]) -> bool, &'static Text);
 
 const SIGNS: &[Sign] = &[
     (
         Dialect::Native,
         |line| has(line, b"(=") && line.first().is_some_and(u8::is_ascii_alphabetic),
-        &Word { en: "it has correction formulas", de: "es hat Korrekturformeln" },
+        &Text { en: "it has correction formulas", de: "es hat Korrekturformeln" },
     ),
     (
         Dialect::Native,
         |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
-        &Word { en: "it has the native program's head", de: "es hat den Kopf des eigenen Programms" },
+        &Text { en: "it has the native program's head", de: "es hat den Kopf des eigenen Programms" },
     ),
     (
         Dialect::Xpertmill,
         |line| without_round_comments(line).windows(2).any(|pair| pair == b"//"),
-        &Word { en: "it has comments with //", de: "es hat Kommentare mit //" },
+        &Text { en: "it has comments with //", de: "es hat Kommentare mit //" },
     ),
     (
         Dialect::Xpertmill,
@@ -65,7 +65,7 @@ const SIGNS: &[Sign] = &[
             line.starts_with(b"M6 ") && is_number(&line[3..])
                 || line.starts_with(b"M06 ") && is_number(&line[4..])
         },
-        &Word {
+        &Text {
             en: "it has a tool number without T behind M6",
             de: "es hat hinter M6 eine Werkzeugnummer ohne T",
         },
@@ -73,12 +73,12 @@ const SIGNS: &[Sign] = &[
     (
         Dialect::Din,
         is_title,
-        &Word { en: "its first line is `%` and a name", de: "seine erste Zeile ist `%` und ein Name" },
+        &Text { en: "its first line is `%` and a name", de: "seine erste Zeile ist `%` und ein Name" },
     ),
     (
         Dialect::Fanuc,
         |line| matches!(line, [b'O', b'0'..=b'9', ..]) && !ends_in_keyword(line),
-        &Word { en: "it has a program number", de: "es hat eine Programmnummer" },
+        &Text { en: "it has a program number", de: "es hat eine Programmnummer" },
     ),
     (
         Dialect::Marlin,
@@ -87,22 +87,22 @@ const SIGNS: &[Sign] = &[
                 .iter()
                 .any(|word| line.starts_with(word))
         },
-        &Word { en: "it has words of Marlin", de: "es hat Wörter von Marlin" },
+        &Text { en: "it has words of Marlin", de: "es hat Wörter von Marlin" },
     ),
     (
         Dialect::LinuxCnc,
         |line| has(line, b"#<"),
-        &Word { en: "it has parameters with names", de: "es hat Parameter mit Namen" },
+        &Text { en: "it has parameters with names", de: "es hat Parameter mit Namen" },
     ),
     (
         Dialect::LinuxCnc,
         |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
-        &Word { en: "it has O words", de: "es hat O-Wörter" },
+        &Text { en: "it has O words", de: "es hat O-Wörter" },
     ),
     (
         Dialect::Grbl,
         |line| matches!(line.first(), Some(b'(' | b';')) && has(&line.to_ascii_lowercase(), b"grbl"),
-        &Word { en: "a comment names it", de: "ein Kommentar nennt es" },
+        &Text { en: "a comment names it", de: "ein Kommentar nennt es" },
     ),
 ];
 
@@ -122,9 +122,9 @@ fn by_words(head: &[u8]) -> Guess {
     let dialect =
         candidates.into_iter().zip(strangers).find(|(_, count)| *count == fewest).map(|(dialect, _)| dialect);
     let reason = if fewest == 0 {
-        &Word { en: "it knows every word", de: "es kennt jedes Wort" }
+        &Text { en: "it knows every word", de: "es kennt jedes Wort" }
     } else {
-        &Word { en: "it knows most of the words", de: "es kennt die meisten Wörter" }
+        &Text { en: "it knows most of the words", de: "es kennt die meisten Wörter" }
     };
     Guess { dialect: dialect.unwrap_or(Dialect::Rs274), evidence: Evidence { reason, line: None } }
 }

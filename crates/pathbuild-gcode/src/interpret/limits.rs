@@ -1,10 +1,10 @@
 //! Limits of values, as PB725 names them. (book: reference/diagnostics)
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 macro_rules! limits {
     ($($key:ident: $en:literal, $de:literal;)*) => {
-        $(pub(super) static $key: Word = Word { en: $en, de: $de };)*
+        $(pub(super) static $key: Text = Text { en: $en, de: $de };)*
     };
 }
 
@@ -14,6 +14,7 @@ limits! {
     MOVES_OF_A_CYCLE: "at most 100000 moves in all", "höchstens 100000 Bewegungen insgesamt";
     NOT_BELOW_Z: "not below Z", "nicht unter Z";
     NOT_NEGATIVE: "0 or more", "0 oder mehr";
+    NUMBER_OF_LAYER: "the number of a layer", "die Nummer eines Layers";
     OFFSETS: "0 to 9", "0 bis 9";
     POSITIVE: "more than 0", "größer als 0";
     POSITIVE_COUNT: "a whole number, 1 or more", "eine ganze Zahl ab 1";

@@ -180,7 +180,7 @@ fn no_g_code(text: &[u8]) -> Diagnostic {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let first = lines.into_iter().find(|line| !line.is_empty()).unwrap_or_default();
     let shown: String = String::from_utf8_lossy(&first[..first.len().min(SHOWN)]).escape_debug().collect();
-    Diagnostic::new(&NOT_G_CODE).with("found", format!("`{shown}`")).at_line(1, None)
+    Diagnostic::new(&NOT_G_CODE).quoting("found", format!("`{shown}`")).at_line(1, None)
 }
 
 /// As much of a line as shows what the file is, in bytes.

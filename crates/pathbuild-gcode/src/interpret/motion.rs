@@ -48,7 +48,7 @@ impl Interpreter<'_> {
         let motion = if let Command::Motion(motion) = command {
             motion
         } else {
-            self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", codes::name('G', code)));
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", codes::name('G', code)));
             Motion::Unfollowed
         };
         if motion != self.state.motion {
@@ -77,23 +77,25 @@ impl Interpreter<'_> {
         let span = self.coordinates_span(block);
         if !std::mem::replace(&mut self.state.stated.units, true) {
             let [inch, mm] = self.rules.unit_words.map(|code| codes::name('G', code));
-            self.report(block, &say::UNITS_NOT_STATED, span, |d| d.with("inch", inch).with("mm", mm));
+            self.report(block, &say::UNITS_NOT_STATED, span, |d| d.quoting("inch", inch).quoting("mm", mm));
         }
         if !motion_is_stated && motion != Motion::None && self.rules.motion_is_stated {
             let word = codes::name('G', self.state.motion_code);
-            self.report(block, &say::MOTION_NOT_STATED, span, |d| d.with("word", word));
+            self.report(block, &say::MOTION_NOT_STATED, span, |d| d.quoting("word", word));
         }
         if self.rules.layers {
             return;
         }
         if !std::mem::replace(&mut self.state.stated.distance, true) {
             self.report(block, &say::MODES_NOT_STATED, span, |d| {
-                d.with("words", "G90, G91").with("taken", "G90")
+                d.quoting("words", "G90, G91").quoting("taken", "G90")
             });
         }
         let depends_on_plane = matches!(motion, Motion::Arc { .. }) && !self.rules.one_command;
         if depends_on_plane && !std::mem::replace(&mut self.state.stated.plane, true) {
-            self.report(block, &say::MODES_NOT_STATED, span, |d| d.with("words", "G17").with("taken", "G17"));
+            self.report(block, &say::MODES_NOT_STATED, span, |d| {
+                d.quoting("words", "G17").quoting("taken", "G17")
+            });
         }
     }
 

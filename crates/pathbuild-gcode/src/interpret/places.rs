@@ -61,15 +61,15 @@ impl Interpreter<'_> {
         let system = number.and_then(WorkSystem::from_number);
         let (Some(kind @ (2 | 20)), Some(number)) = (kind, number) else {
             self.use_all_words();
-            return self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", "G10"));
+            return self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G10"));
         };
         if number > 9 {
             return self.report(block, &say::OUT_OF_RANGE, span, |d| {
-                d.with("word", "P").with("value", f64::from(number)).with("limits", &limits::OFFSETS)
+                d.quoting("word", "P").with("value", f64::from(number)).with("limits", &limits::OFFSETS)
             });
         }
         if self.words.values.take(b'R').is_some() {
-            self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", "G10 R"));
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G10 R"));
         }
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(coordinate) = slot.map(|slot| self.millimetres(slot)) else { continue };
@@ -131,7 +131,7 @@ impl Interpreter<'_> {
 
     fn set_origins(&mut self, block: &Block<'_>, span: Span) {
         if !self.words.values.has_coordinates() {
-            self.report(block, &say::NEEDS, span, |d| d.with("word", "G92").with("missing", "X, Y, Z"));
+            self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G92").quoting("missing", "X, Y, Z"));
         }
         for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
             if let Some(slot) = slot {
@@ -160,7 +160,7 @@ impl Interpreter<'_> {
         }
         if !self.state.offsets.select(system) {
             self.report(block, &say::OFFSET_UNKNOWN, span, |d| {
-                d.with("system", system.name()).with("base", before.name())
+                d.quoting("system", system.name()).quoting("base", before.name())
             });
         }
         self.step(block, Action::System(system));

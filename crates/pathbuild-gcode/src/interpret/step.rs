@@ -1,6 +1,6 @@
 //! The canonical steps that a program consists of.
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 use super::codes::{Group, Plane, WorkSystem};
 
@@ -225,11 +225,11 @@ impl Pace {
     }
 
     /// What a move at this pace is called in messages.
-    pub fn word(self) -> &'static Word {
+    pub fn word(self) -> &'static Text {
         match self {
-            Self::Rapid => &Word { en: "a rapid move", de: "eine Eilgangbewegung" },
-            Self::Feed(_) => &Word { en: "a cutting move", de: "eine Fräsbewegung" },
-            Self::Probe { .. } => &Word { en: "a probing move", de: "eine Messbewegung" },
+            Self::Rapid => &Text { en: "a rapid move", de: "eine Eilgangbewegung" },
+            Self::Feed(_) => &Text { en: "a cutting move", de: "eine Fräsbewegung" },
+            Self::Probe { .. } => &Text { en: "a probing move", de: "eine Messbewegung" },
         }
     }
 }

@@ -35,7 +35,7 @@ impl Interpreter<'_> {
         let Some((_, span)) = change else { return };
         if self.rules.layers && self.state.tool.is_none() {
             return self.report(block, &say::NEEDS, span, |d| {
-                d.with("word", "M6").with("missing", "the number of a layer")
+                d.quoting("word", "M6").with("missing", &limits::NUMBER_OF_LAYER)
             });
         }
         self.step(block, Action::ChangeTool(self.state.tool));
@@ -98,7 +98,7 @@ impl Interpreter<'_> {
         if let Some((code, span)) =
             self.words.m_codes.iter().find(|(code, _)| self.is_unfollowed(*code)).copied()
         {
-            self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", codes::name('M', code)));
+            self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", codes::name('M', code)));
             self.use_all_words();
         }
     }
@@ -116,7 +116,9 @@ impl Interpreter<'_> {
         {
             Some((slot, time)) if time < 0.0 => self.out_of_range(block, "P", slot, &limits::SECONDS),
             Some((_, time)) => self.step(block, Action::Dwell(time)),
-            None => self.report(block, &say::NEEDS, span, |d| d.with("word", "G4").with("missing", "P")),
+            None => {
+                self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G4").quoting("missing", "P"));
+            }
         }
     }
 
@@ -137,7 +139,7 @@ impl Interpreter<'_> {
             return self.out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
         }
         if std::mem::replace(&mut self.state.stated.program_number, true) {
-            self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.with("word", "O"));
+            self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.quoting("word", "O"));
         }
     }
 
@@ -163,7 +165,9 @@ impl Interpreter<'_> {
                 Command::RetractToR(to_r) => self.state.retract_to_r = to_r,
                 Command::System(system) => self.select_system(block, system, span),
                 Command::NotFollowed(group) if group != Group::Motion => {
-                    self.report(block, &say::NOT_FOLLOWED, span, |d| d.with("word", codes::name('G', code)));
+                    self.report(block, &say::NOT_FOLLOWED, span, |d| {
+                        d.quoting("word", codes::name('G', code))
+                    });
                     self.use_all_words();
                 }
                 _ => {}
@@ -229,7 +233,7 @@ impl Interpreter<'_> {
 
     pub(super) fn check_stop_before_motion(&mut self, block: &Block<'_>) {
         if let Some((code, span)) = self.words.m_code(&[50, 90]) {
-            self.report(block, &say::STOP_BEFORE_MOTION, span, |d| d.with("word", codes::name('M', code)));
+            self.report(block, &say::STOP_BEFORE_MOTION, span, |d| d.quoting("word", codes::name('M', code)));
         }
     }
 }

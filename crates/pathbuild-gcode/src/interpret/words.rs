@@ -79,13 +79,13 @@ impl Interpreter<'_> {
         let is_command = |word: &Word| matches!(word.letter, b'G' | b'M' | b'T');
         if let Some(first) = block.words.first().filter(|word| !is_command(word)) {
             let name = block.text_of(first.span).into_owned();
-            self.report(block, &say::NO_COMMAND, first.span, |d| d.with("word", name));
+            self.report(block, &say::NO_COMMAND, first.span, |d| d.quoting("word", name));
         }
         let mut commands = block.words.iter().filter(|word| is_command(word));
         if let (Some(first), Some(second)) = (commands.next(), commands.next()) {
             let [first, name] = [first, second].map(|word| block.text_of(word.span).into_owned());
             self.report(block, &say::SECOND_COMMAND, second.span, |d| {
-                d.with("first", first).with("word", name)
+                d.quoting("first", first).quoting("word", name)
             });
         }
     }
@@ -98,7 +98,7 @@ impl Interpreter<'_> {
                 let [first, name] = [first, second].map(|word| block.text_of(word.span).into_owned());
                 let letter = char::from(letter);
                 self.report(block, &say::SECOND_WORD, second.span, |d| {
-                    d.with("letter", letter).with("first", first).with("word", name)
+                    d.with("letter", letter).quoting("first", first).quoting("word", name)
                 });
             }
         }
@@ -111,7 +111,7 @@ impl Interpreter<'_> {
         let has_point = block.slice(slot.span).contains(&b'.');
         if is_length && !has_point && slot.value != 0.0 {
             let name = block.text_of(slot.span).into_owned();
-            self.report(block, &say::NO_DECIMAL_POINT, slot.span, |d| d.with("word", name));
+            self.report(block, &say::NO_DECIMAL_POINT, slot.span, |d| d.quoting("word", name));
         }
     }
 
@@ -144,10 +144,10 @@ impl Interpreter<'_> {
         block: &Block<'_>,
         word: &'static str,
         slot: Slot,
-        limits: &'static pathbuild_diagnostic::Word,
+        limits: &'static pathbuild_diagnostic::Text,
     ) {
         self.report(block, &say::OUT_OF_RANGE, slot.span, |d| {
-            d.with("word", word).with("value", slot.value).with("limits", limits)
+            d.quoting("word", word).with("value", slot.value).with("limits", limits)
         });
     }
 
@@ -169,7 +169,7 @@ impl Interpreter<'_> {
             Acceptance::Unknown if self.rules.words.lenient && codes::is_cycle(code) => {
                 let name = codes::name('G', code);
                 self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));
-                self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.with("word", name));
+                self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.quoting("word", name));
             }
             Acceptance::Unknown => {
                 self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('G', code));
@@ -200,7 +200,7 @@ impl Interpreter<'_> {
     }
 
     fn ignored(&mut self, block: &Block<'_>, letter: char, code: u16, span: Span) {
-        self.report(block, &say::IGNORED, span, |d| d.with("word", codes::name(letter, code)));
+        self.report(block, &say::IGNORED, span, |d| d.quoting("word", codes::name(letter, code)));
     }
 
     /// Hands on every G and M word of the block that is no motion.

@@ -35,8 +35,8 @@ fn not_drawn(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic
     let none = || "-".to_owned();
     let line = found.as_ref().map(|found| found.line);
     let problem = Diagnostic::new(&say::FORMULA_NOT_DRAWN)
-        .with("found", found.map_or_else(none, |found| found.text))
-        .with("expected", expected.unwrap_or_else(none));
+        .quoting("found", found.map_or_else(none, |found| found.text))
+        .quoting("expected", expected.unwrap_or_else(none));
     line.map_or_else(|| problem.clone(), |line| problem.clone().at_line(line, None))
 }
 
@@ -48,8 +48,8 @@ fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
         format!("#{number} [{x} {y}] T={} X{at_x} Y{at_y}", f3(probe.height))
     });
     let problem = |found: &str, expected: &str| {
-        let problem = Diagnostic::new(&say::PROBE_NOT_DRAWN).with("found", found.to_owned());
-        problem.with("expected", expected.to_owned())
+        let problem = Diagnostic::new(&say::PROBE_NOT_DRAWN).quoting("found", found);
+        problem.quoting("expected", expected)
     };
     loop {
         return match (stated.next(), drawn.next()) {

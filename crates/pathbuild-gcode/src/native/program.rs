@@ -165,7 +165,7 @@ pub fn program_within(
 
 /// PB005: a program comes to more than so many bytes.
 pub fn too_large(most: usize) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(&files::OUTPUT_TOO_LARGE).with("limit", most).with("key", "output-size"))
+    Box::new(Diagnostic::new(&files::OUTPUT_TOO_LARGE).with("limit", most).quoting("key", "output-size"))
 }
 
 struct Writer<'a> {

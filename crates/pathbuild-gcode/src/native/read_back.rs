@@ -1,7 +1,7 @@
 //! Reading a native text back, and comparing its moves with the program it was made from. (book: program/reading)
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
 
 use super::arc_end::{LAST_DIGIT, is_doubtful};
@@ -155,5 +155,5 @@ fn told(problem: &Diagnostic) -> Box<Diagnostic> {
 }
 
 fn internal(reason: &str) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(&files::INTERNAL).with("reason", reason))
+    Box::new(Diagnostic::new(&files::INTERNAL).with("reason", Value::foreign(reason)))
 }

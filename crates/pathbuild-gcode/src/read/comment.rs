@@ -95,7 +95,9 @@ impl Line<'_> {
             Style::Usual => Ok(()),
             Style::Doubtful => {
                 let comment = comment_sign(self.spelling());
-                self.report(&say::FOREIGN_COMMENT, span, |d| d.with("sign", sign).with("comment", comment));
+                self.report(&say::FOREIGN_COMMENT, span, |d| {
+                    d.quoting("sign", sign).quoting("comment", comment)
+                });
                 Ok(())
             }
             Style::Unknown => self.unknown_character(),

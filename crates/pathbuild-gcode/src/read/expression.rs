@@ -262,7 +262,7 @@ impl Line<'_> {
             return Ok(());
         }
         Err(self.fault(&say::OPERATOR_EXPECTED, self.here(), |d| {
-            d.with("bracket", char::from(closing)).with("operators", "+ - * / ** MOD AND OR XOR")
+            d.with("bracket", char::from(closing)).quoting("operators", "+ - * / ** MOD AND OR XOR")
         }))
     }
 

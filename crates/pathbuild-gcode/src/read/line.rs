@@ -137,7 +137,7 @@ impl Line<'_> {
     ) {
         let dialect = self.rules.dialect.name();
         let at = At { line: self.number, text: self.bytes, span };
-        self.problems.add(message, at, |diagnostic| values(diagnostic).with("dialect", dialect));
+        self.problems.add(message, at, |diagnostic| values(diagnostic).quoting("dialect", dialect));
     }
 
     pub(super) fn spelling(&self) -> &'static Spelling {
@@ -170,9 +170,9 @@ impl Line<'_> {
         let span = self.here();
         let found = decode(&self.bytes[span.range()]).into_owned();
         if !self.rules.words.lenient {
-            return Err(self.fault(&say::UNKNOWN_CHARACTER, span, |d| d.with("found", found)));
+            return Err(self.fault(&say::UNKNOWN_CHARACTER, span, |d| d.quoting("found", found)));
         }
-        self.report(&say::UNKNOWN_CHARACTER_PASSED, span, |d| d.with("found", found));
+        self.report(&say::UNKNOWN_CHARACTER_PASSED, span, |d| d.quoting("found", found));
         self.at = span.end as usize;
         Ok(())
     }

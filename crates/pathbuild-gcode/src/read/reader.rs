@@ -271,7 +271,7 @@ impl<'t> BlockReader<'t> {
         let at = At { line: self.line, text: line, span: Span::new(byte, byte + 1) };
         let dialect = self.rules.dialect.name();
         self.problems.add(&say::REAL_TIME_CHARACTER, at, |d| {
-            d.with("dialect", dialect).with("found", found).with("effect", effect)
+            d.quoting("dialect", dialect).quoting("found", found).with("effect", effect)
         });
     }
 
@@ -312,7 +312,7 @@ impl<'t> BlockReader<'t> {
     ) {
         let at = At { line: self.line, text: line, span: Span::new(0, line.len()) };
         let dialect = self.rules.dialect.name();
-        self.problems.add(message, at, |diagnostic| values(diagnostic).with("dialect", dialect));
+        self.problems.add(message, at, |diagnostic| values(diagnostic).quoting("dialect", dialect));
     }
 }
 

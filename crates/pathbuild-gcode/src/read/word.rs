@@ -97,7 +97,7 @@ impl Line<'_> {
             Err(malformed) => {
                 let end = malformed.end.max(start + 1);
                 let found = decode(&self.bytes[start..end]).into_owned();
-                Err(self.fault(&say::NO_NUMBER, Span::new(start, end), |d| d.with("found", found)))
+                Err(self.fault(&say::NO_NUMBER, Span::new(start, end), |d| d.quoting("found", found)))
             }
         }
     }
@@ -113,7 +113,7 @@ impl Line<'_> {
             Oddity::BlankInside => &say::BLANK_IN_NUMBER,
             Oddity::DecimalComma => &say::COMMA_FOR_POINT,
         };
-        self.report(message, span, |d| d.with("letter", letter).with("number", number));
+        self.report(message, span, |d| d.quoting("letter", letter).quoting("number", number));
     }
 
     fn block_number(&mut self, value: Value, span: Span) -> Result<(), Broken> {
@@ -130,7 +130,7 @@ impl Line<'_> {
             _ => {
                 let found = decode(&self.bytes[span.range()]).into_owned();
                 Err(self.fault(&say::BLOCK_NUMBER, span, |d| {
-                    d.with("found", found).with("most", u64::from(most))
+                    d.quoting("found", found).with("most", u64::from(most))
                 }))
             }
         }
@@ -150,8 +150,9 @@ impl Line<'_> {
         }
         let found = decode(&self.bytes[span.range()]).into_owned();
         let comment = comment_sign(self.spelling());
-        Err(self
-            .fault(&say::NUMBER_WITHOUT_LETTER, span, |d| d.with("found", found).with("comment", comment)))
+        Err(self.fault(&say::NUMBER_WITHOUT_LETTER, span, |d| {
+            d.quoting("found", found).quoting("comment", comment)
+        }))
     }
 
     pub(super) fn setting(&mut self) -> Result<(), Broken> {

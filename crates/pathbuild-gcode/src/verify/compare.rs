@@ -139,8 +139,8 @@ impl Difference {
         let diagnostic = match (&self.found, &self.expected) {
             (Some((_, found)), Some((_, expected))) => match self.kind {
                 DifferenceKind::Place => drawn(&say::DRAWN_ELSEWHERE)
-                    .with("found", place(&found.to))
-                    .with("expected", place(&expected.to)),
+                    .quoting("found", place(&found.to))
+                    .quoting("expected", place(&expected.to)),
                 DifferenceKind::Shape => drawn(&say::DRAWN_OTHERWISE),
                 DifferenceKind::Pace => drawn(&say::DRAWN_AT_ANOTHER_PACE)
                     .with("found", found.pace.word())
@@ -149,8 +149,10 @@ impl Difference {
                     .with("found", found.pace.feed().unwrap_or(0.0))
                     .with("expected", expected.pace.feed().unwrap_or(0.0)),
             },
-            (None, Some((_, expected))) => drawn(&say::DRAWN_FURTHER).with("expected", place(&expected.to)),
-            (Some((_, found)), None) => drawn(&say::NOT_DRAWN).with("found", place(&found.to)),
+            (None, Some((_, expected))) => {
+                drawn(&say::DRAWN_FURTHER).quoting("expected", place(&expected.to))
+            }
+            (Some((_, found)), None) => drawn(&say::NOT_DRAWN).quoting("found", place(&found.to)),
             (None, None) => drawn(&say::DRAWN_OTHERWISE),
         };
         match self.found {
@@ -163,9 +165,9 @@ impl Difference {
 fn between(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
     let said = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
     match kind {
-        DifferenceKind::Place => {
-            said(&say::PATHS_DIFFER).with("found", place(&found.1.to)).with("expected", place(&expected.1.to))
-        }
+        DifferenceKind::Place => said(&say::PATHS_DIFFER)
+            .quoting("found", place(&found.1.to))
+            .quoting("expected", place(&expected.1.to)),
         DifferenceKind::Shape => said(&say::SHAPES_DIFFER),
         DifferenceKind::Pace => said(&say::KINDS_DIFFER)
             .with("found", found.1.pace.word())

@@ -32,7 +32,7 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
     if extent.pieces > stock.most_pieces() {
         let (line, limit) = (extent.line, stock.most_pieces());
         return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
-            d.with("count", extent.pieces).with("limit", limit).with("key", "verify-pieces")
+            d.with("count", extent.pieces).with("limit", limit).quoting("key", "verify-pieces")
         });
     }
     let Some(resolution) = extent.resolution(stock) else { return too_large(extent.line, stock, problems) };
@@ -61,7 +61,7 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
 
 fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     problems.add_at_line(&say::TOO_LARGE_TO_FOLLOW, line, |d| {
-        d.with("limit", stock.cells()).with("key", "verify-cells")
+        d.with("limit", stock.cells()).quoting("key", "verify-cells")
     });
 }
 

@@ -208,7 +208,7 @@ impl<'c> Rules<'c> {
                 if is_late {
                     diagnostic.severity = Severity::Error;
                 }
-                diagnostic.with("word", code_name('G', code))
+                diagnostic.quoting("word", code_name('G', code))
             });
         }
         let z = self.at.z();

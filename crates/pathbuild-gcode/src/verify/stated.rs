@@ -51,7 +51,7 @@ impl StatedStatistics {
             };
             if libm::fabs(stated - length) > SLACK + SHARE * length {
                 problems.add_at_line(&say::LENGTH_DIFFERS, line, |d| {
-                    d.with("label", label).with("stated", stated).with("length", libm::round(length))
+                    d.quoting("label", label).with("stated", stated).with("length", libm::round(length))
                 });
             }
         }

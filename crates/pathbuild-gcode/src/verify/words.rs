@@ -215,7 +215,8 @@ impl<'w> WordRules<'w> {
         }
         let severity = if self.is_strict { Severity::Error } else { Severity::Warning };
         self.problems.add_at_line(&say::FOREIGN_WORD, line, |d| {
-            let d = d.with("word", code_name(word.letter, word.code)).with("dialect", self.dialect.name());
+            let d =
+                d.quoting("word", code_name(word.letter, word.code)).quoting("dialect", self.dialect.name());
             Diagnostic { severity, ..d }
         });
     }

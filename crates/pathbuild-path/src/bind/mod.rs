@@ -9,8 +9,8 @@ mod segments;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use regex::Regex;
 use smol_str::SmolStr;
 
@@ -361,8 +361,8 @@ impl<'a> Binder<'a> {
 
 /// The last line of a regular expression error, which gives the reason. The lines before it show the position, which our own message shows
 /// already.
-pub(crate) fn regex_reason(error: &regex::Error) -> String {
+pub fn regex_reason(error: &regex::Error) -> Value {
     let text = error.to_string();
     let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
-    last.trim().trim_start_matches("error: ").to_owned()
+    Value::foreign(last.trim().trim_start_matches("error: "))
 }

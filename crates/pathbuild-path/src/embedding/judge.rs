@@ -62,8 +62,8 @@ impl<'a> Judge<'a> {
         if self.is_other_name(name, value) {
             return Vec::new();
         }
-        let warning = Diagnostic::new(&messages::MORE_THAN_NAME).with("value", &**value);
-        vec![as_warning(self.at_name(call, warning.with("name", name.as_str())))]
+        let warning = Diagnostic::new(&messages::MORE_THAN_NAME).quoting("value", &**value);
+        vec![as_warning(self.at_name(call, warning.quoting("name", name.as_str())))]
     }
 
     /// Whether the name is only part of a longer word, so that another path is meant.
@@ -81,18 +81,18 @@ impl<'a> Judge<'a> {
                 self.at(call, Diagnostic::new(&messages::MISSING_NAME), text.as_ref())
             }
             SubpathName::Invalid { value } => {
-                let problem = Diagnostic::new(&messages::INVALID_NAME).with("value", &**value);
-                self.at_name(call, problem.with("pattern", self.pattern.as_str()))
+                let problem = Diagnostic::new(&messages::INVALID_NAME).quoting("value", &**value);
+                self.at_name(call, problem.quoting("pattern", self.pattern.as_str()))
             }
             SubpathName::Found { name, has_more: Some(value) } if self.is_other_name(name, value) => {
-                let problem = Diagnostic::new(&messages::NAME_GOES_ON).with("value", &**value);
-                self.at_name(call, problem.with("name", name.as_str()))
+                let problem = Diagnostic::new(&messages::NAME_GOES_ON).quoting("value", &**value);
+                self.at_name(call, problem.quoting("name", name.as_str()))
             }
             SubpathName::Found { name, .. } => match self.broken_rule(name) {
                 None => return Ok(name),
                 Some(rule) => {
-                    let problem = Diagnostic::new(&messages::FORBIDDEN).with("name", name.as_str());
-                    self.at_name(call, problem.with("rule", rule))
+                    let problem = Diagnostic::new(&messages::FORBIDDEN).quoting("name", name.as_str());
+                    self.at_name(call, problem.quoting("rule", rule))
                 }
             },
         };
@@ -121,7 +121,7 @@ impl<'a> Judge<'a> {
         known: Vec<PathName>,
     ) -> Diagnostic {
         let problem = Diagnostic::new(&messages::NOT_FOUND)
-            .with("name", name.as_str())
+            .quoting("name", name.as_str())
             .with("directories", directories)
             .with("files", files);
         let near = near_names(name, known);
@@ -140,8 +140,8 @@ impl<'a> Judge<'a> {
         first: &str,
         second: &str,
     ) -> Diagnostic {
-        let problem = Diagnostic::new(&messages::DEFINED_TWICE).with("name", name.as_str());
-        self.at_name(call, problem.with("first", first).with("second", second))
+        let problem = Diagnostic::new(&messages::DEFINED_TWICE).quoting("name", name.as_str());
+        self.at_name(call, problem.quoting("first", first).quoting("second", second))
     }
 
     /// PB302 to PB304: problems with the values that a segment gives the variables of the embedded path. Nothing is reported for a path
@@ -157,9 +157,9 @@ impl<'a> Judge<'a> {
         let missing = missing.map(|definition| {
             let problem = Diagnostic::new(&variables::MISSING_VALUE_HERE)
                 .with("variable", definition.name)
-                .with("example", definition.check_value(0).as_str())
-                .with("name", inner.name.as_str());
-            self.at_name(call, problem.with("definition", definition.to_string()))
+                .quoting("example", definition.check_value(0).as_str())
+                .quoting("name", inner.name.as_str());
+            self.at_name(call, problem.quoting("definition", definition.to_string()))
         });
         wrong.chain(missing).collect()
     }
@@ -178,13 +178,13 @@ impl<'a> Judge<'a> {
             }
             Some(definition) if !definition.allows(&given.value) => {
                 Diagnostic::new(&variables::VALUE_NOT_ALLOWED)
-                    .with("value", &*given.value)
-                    .with("definition", definition.to_string())
+                    .quoting("value", &*given.value)
+                    .quoting("definition", definition.to_string())
             }
             Some(_) => return None,
         };
         let variable = given.variable.map(String::from).unwrap_or_default();
-        let problem = problem.with("variable", variable).with("name", inner.name.as_str());
+        let problem = problem.quoting("variable", variable).quoting("name", inner.name.as_str());
         Some(self.at(call, problem, Some(&given.text)))
     }
 
@@ -216,7 +216,7 @@ impl<'a> Judge<'a> {
             let problem = Diagnostic::new(&messages::SIZE_DIFFERS)
                 .with("segment", here)
                 .with("path", there)
-                .with("name", inner.name.as_str());
+                .quoting("name", inner.name.as_str());
             problems.push(self.at(call, problem, None));
         }
         problems
@@ -225,9 +225,9 @@ impl<'a> Judge<'a> {
     /// A program has a single cutter, that of the emitted path, regardless of the segment.
     fn other_cutter(&self, call: &SubpathCall, inner: &PathSignature) -> Diagnostic {
         let problem = Diagnostic::new(&messages::CUTTER_OF_PROJECT)
-            .with("outer", self.outer.name.as_str())
+            .quoting("outer", self.outer.name.as_str())
             .with("here", self.outer.tool)
-            .with("name", inner.name.as_str())
+            .quoting("name", inner.name.as_str())
             .with("there", inner.tool);
         let problem = self.at(call, problem, call.fault(Letter::O));
         if self.is_compatible { as_warning(problem) } else { problem }
@@ -239,14 +239,15 @@ impl<'a> Judge<'a> {
         }
         let place = match (&call.subpath.material, &inner.material) {
             (Some(here), Some(there)) => {
-                let differs = || self.differs(call, Letter::M, &(&**here).into(), &(&**there).into(), inner);
+                let differs =
+                    || self.differs(call, Letter::M, &Value::quoted(here), &Value::quoted(there), inner);
                 return (here != there).then(differs);
             }
             (None, None) => format!("{} / {}", self.outer.name, inner.name),
             (None, Some(_)) => self.outer.name.to_string(),
             (Some(_), None) => inner.name.to_string(),
         };
-        Some(self.at(call, Diagnostic::new(&parameters::MISSING_MATERIAL).with("where", place), None))
+        Some(self.at(call, Diagnostic::new(&parameters::MISSING_MATERIAL).quoting("where", place), None))
     }
 
     fn differs(
@@ -266,7 +267,7 @@ impl<'a> Judge<'a> {
             .with("letter", letter.as_char())
             .with("segment", here.clone())
             .with("path", there.clone())
-            .with("name", inner.name.as_str());
+            .quoting("name", inner.name.as_str());
         self.at(call, problem, call.fault(letter))
     }
 

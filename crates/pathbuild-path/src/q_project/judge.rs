@@ -58,12 +58,12 @@ impl<'a> Judge<'a> {
         let known = |name: PathName| self.component.raw(&name).map(|raw| (name, raw));
         let Some((name, raw)) = proxy.name(self.component.language).and_then(known) else {
             let names: Value = self.component.names().map(PathName::as_str).collect();
-            let problem = Diagnostic::new(&messages::PROXY_OF_NOTHING).with("name", written);
+            let problem = Diagnostic::new(&messages::PROXY_OF_NOTHING).quoting("name", written);
             return vec![problem.with("names", names).with_text(fault)];
         };
         if let Some(other) = self.other(proxy, &name) {
-            let problem = Diagnostic::new(&messages::PROXY_OF_OTHER).with("name", name.as_str());
-            return vec![problem.with("other", other.as_str()).with_text(fault)];
+            let problem = Diagnostic::new(&messages::PROXY_OF_OTHER).quoting("name", name.as_str());
+            return vec![problem.quoting("other", other.as_str()).with_text(fault)];
         }
         let Some(path) = self.component.path(raw, Some(proxy)) else { return Vec::new() };
         let differences = differences_from_path(proxy, &path).into_iter();
@@ -72,7 +72,7 @@ impl<'a> Judge<'a> {
             .collect();
         let (here, there) = (proxy.curve.chord(), (path.end - path.start).norm());
         if (here - there).abs() > LENGTH_TOLERANCE {
-            let problem = Diagnostic::new(&messages::PROXY_LENGTH_DIFFERS).with("name", name.as_str());
+            let problem = Diagnostic::new(&messages::PROXY_LENGTH_DIFFERS).quoting("name", name.as_str());
             problems.push(problem.with("here", here).with("there", there));
         }
         problems
@@ -104,8 +104,8 @@ impl<'a> Judge<'a> {
         }
         let of_name = |name: &PathName| match embedded.get(name) {
             None => {
-                let problem = Diagnostic::new(&messages::LACKS_PATH).with("name", name.as_str());
-                vec![problem.with("drawing", self.drawing)]
+                let problem = Diagnostic::new(&messages::LACKS_PATH).quoting("name", name.as_str());
+                vec![problem.quoting("drawing", self.drawing)]
             }
             Some(segments) => {
                 let of_segment = |&(path, segment, subpath): &(&Path, &Segment, &Subpath)| {
@@ -149,10 +149,10 @@ impl<'a> Judge<'a> {
         let mut problems: Vec<Diagnostic> = differing.collect();
         let (here, there) = ((subpath.end - subpath.start).norm(), proxy.curve.chord());
         if (here - there).abs() > LENGTH_TOLERANCE {
-            let problem = Diagnostic::new(&messages::Q_LENGTH_DIFFERS).with("name", name.as_str());
+            let problem = Diagnostic::new(&messages::Q_LENGTH_DIFFERS).quoting("name", name.as_str());
             problems.push(problem.with("here", here).with("there", there));
         }
-        problems.into_iter().map(|problem| problem.with("drawing", self.drawing)).collect()
+        problems.into_iter().map(|problem| problem.quoting("drawing", self.drawing)).collect()
     }
 }
 
@@ -168,7 +168,7 @@ fn differing(
     (letter, here, there, text): Difference,
     name: &PathName,
 ) -> Diagnostic {
-    let problem = Diagnostic::new(message).with("name", name.as_str()).with("letter", letter);
+    let problem = Diagnostic::new(message).quoting("name", name.as_str()).quoting("letter", letter);
     let problem = problem.with("here", here).with("there", there);
     match text {
         Some(text) => problem.with_text(text),
@@ -181,13 +181,13 @@ fn differences_from_path(proxy: &ProxyLine, path: &Path) -> Vec<Difference> {
     let number = |letter: Letter, there: f64| {
         let (here, fault) = proxy.value(letter)?;
         (!is_number(here, there))
-            .then(|| (letter.as_char().to_string(), here.into(), there.into(), Some(fault)))
+            .then(|| (letter.as_char().to_string(), Value::quoted(here), there.into(), Some(fault)))
     };
     let material = || {
         let (here, fault) = proxy.value(Letter::M)?;
         let expected = path.material.as_deref();
         (expected != Some(here))
-            .then(|| ("M".to_owned(), here.into(), expected.unwrap_or("-").into(), Some(fault)))
+            .then(|| ("M".to_owned(), Value::quoted(here), or_dash(expected), Some(fault)))
     };
     let numbers = [number(Letter::T, path.thickness), number(Letter::O, path.tool)];
     numbers.into_iter().flatten().chain(material()).collect()
@@ -199,13 +199,13 @@ fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> 
     let number = |letter: Letter, here: f64| {
         let (there, _) = proxy.value(letter)?;
         let name = letter.as_char();
-        (!is_number(there, here)).then(|| (name.to_string(), here.into(), there.into(), fault(letter)))
+        (!is_number(there, here))
+            .then(|| (name.to_string(), here.into(), Value::quoted(there), fault(letter)))
     };
     let material = || {
         let (there, _) = proxy.value(Letter::M)?;
         let here = subpath.material.as_deref();
-        (here != Some(there))
-            .then(|| ("M".to_owned(), here.unwrap_or("-").into(), there.into(), fault(Letter::M)))
+        (here != Some(there)).then(|| ("M".to_owned(), or_dash(here), Value::quoted(there), fault(Letter::M)))
     };
     let mut differences: Vec<Difference> =
         [number(Letter::T, subpath.thickness), number(Letter::O, subpath.tool), material()]
@@ -225,14 +225,20 @@ fn differing_variables(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> 
         given.push(variable);
         let other = on_proxy.get(&variable).copied();
         if other.is_none_or(|other| !is_same_value(&value.value, other)) {
-            let values = ((&*value.value).into(), other.unwrap_or("-").into());
+            let values = (Value::quoted(&value.value), or_dash(other));
             differences.push((format!(":{variable}"), values.0, values.1, Some(value.text.clone())));
         }
     }
     let missing = on_proxy.iter().filter(|(variable, _)| !given.contains(variable));
+    differences.extend(
+        missing.map(|(variable, value)| (format!(":{variable}"), or_dash(None), Value::quoted(value), None)),
+    );
     differences
-        .extend(missing.map(|(variable, value)| (format!(":{variable}"), "-".into(), (*value).into(), None)));
-    differences
+}
+
+/// A value as it is shown where there may be none.
+fn or_dash(value: Option<&str>) -> Value {
+    Value::quoted(value.unwrap_or("-"))
 }
 
 fn is_number(text: &str, number: f64) -> bool {

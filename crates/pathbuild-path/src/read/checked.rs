@@ -23,7 +23,9 @@ impl PathCheck<'_> {
             return;
         }
         let missing = |message| {
-            Diagnostic::new(message).with("name", self.raw.name.as_str()).with("layer", self.raw.layer())
+            Diagnostic::new(message)
+                .quoting("name", self.raw.name.as_str())
+                .quoting("layer", self.raw.layer())
         };
         let start = self.raw.start.is_none().then(|| missing(&messages::MISSING_START));
         let end = self.raw.end.is_none().then(|| missing(&messages::MISSING_END));

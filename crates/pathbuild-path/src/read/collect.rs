@@ -220,7 +220,7 @@ impl PathCollector<'_> {
     }
 
     fn report_hidden(&mut self, layer: &str) {
-        let mut diagnostic = Diagnostic::new(&messages::LAYER_NOT_VISIBLE).with("layer", layer);
+        let mut diagnostic = Diagnostic::new(&messages::LAYER_NOT_VISIBLE).quoting("layer", layer);
         diagnostic.place.layer = Some(layer.into());
         self.report(diagnostic);
     }
@@ -258,7 +258,7 @@ impl PathCollector<'_> {
 }
 
 /// The name of an element that takes texts, for messages.
-pub(crate) fn candidate_word(candidate: &Candidate) -> &'static pathbuild_diagnostic::Word {
+pub(crate) fn candidate_word(candidate: &Candidate) -> &'static pathbuild_diagnostic::Text {
     match candidate.owner {
         Owner::Start => &words::PATH_START,
         Owner::Probe(_) => &words::PROBE,

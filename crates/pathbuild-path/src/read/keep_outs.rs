@@ -105,7 +105,7 @@ impl Reading<'_> {
 
     /// PB003 if the layer is also a path layer.
     fn report_path(&mut self) {
-        let problem = Diagnostic::new(&configuration::KEEP_OUT_IS_PATH).with("layer", &*self.layer.name);
+        let problem = Diagnostic::new(&configuration::KEEP_OUT_IS_PATH).quoting("layer", &*self.layer.name);
         self.report(on_layer(&self.layer.name, problem));
     }
 
@@ -114,7 +114,7 @@ impl Reading<'_> {
         let faults = self.drawing.faults.iter().filter(|fault| fault.layer == self.number);
         let mut problems: Vec<Diagnostic> = faults.map(|fault| fault.diagnostic.clone()).collect();
         for left_out in self.drawing.left_out.iter().filter(|left_out| left_out.layer == self.number) {
-            let problem = Diagnostic::new(&messages::NO_OUTLINE).with("entity", left_out.kind.name());
+            let problem = Diagnostic::new(&messages::NO_OUTLINE).quoting("entity", left_out.kind.name());
             problems.push(Diagnostic { place: left_out.diagnostic.place.clone(), ..problem });
         }
         self.problems.append(&mut problems);
@@ -193,7 +193,7 @@ impl Reading<'_> {
             let way = Way { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
             let over = map.entered(&way, radius, 0.0);
             if over.is_empty() {
-                let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).with("text", one_line(text));
+                let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).quoting("text", one_line(text));
                 let problem = self.at(*number, centre, problem);
                 self.report(problem);
             }
@@ -229,7 +229,7 @@ impl Reading<'_> {
         let read = texts.first().unwrap_or_default();
         let height = height(read);
         if height.is_none() {
-            let problem = Diagnostic::new(&messages::NO_CLAMP_HEIGHT).with("text", one_line(text));
+            let problem = Diagnostic::new(&messages::NO_CLAMP_HEIGHT).quoting("text", one_line(text));
             let problem = self.at(number, text.anchor(), problem.with_text(read.whole()));
             self.report(problem);
         }

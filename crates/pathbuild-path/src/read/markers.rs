@@ -27,7 +27,7 @@ impl PathCollector<'_> {
         }
         let first = self.ends.first().map(|end| end.origin.point);
         for end in self.ends.iter().skip(1).map(|end| end.origin.clone()).collect::<Vec<_>>() {
-            let problem = Diagnostic::new(&messages::TWO_ENDS).with("name", self.name.as_str());
+            let problem = Diagnostic::new(&messages::TWO_ENDS).quoting("name", self.name.as_str());
             self.report(end.at(problem.with("first", first.unwrap_or(end.point))));
         }
     }
@@ -55,8 +55,8 @@ impl PathCollector<'_> {
             circles.into_iter().find(|(marker, radius)| texts.has_path_text(marker, *radius))?;
         let marker = marker.clone();
         let problem = Diagnostic::new(&messages::MISSING_START)
-            .with("name", self.name.as_str())
-            .with("layer", &*marker.origin.layer)
+            .quoting("name", self.name.as_str())
+            .quoting("layer", &*marker.origin.layer)
             .note(
                 &messages::MEANT_AS_START,
                 vec![("point", marker.origin.point.into()), ("diameter", (2.0 * radius).into())],

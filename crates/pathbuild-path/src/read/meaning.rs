@@ -100,7 +100,7 @@ impl<'d> PathCollector<'d> {
             CircleMeaning::UnknownLineType => self.add_unknown(found, shape),
             CircleMeaning::UnknownDiameter => {
                 let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
-                    .with("line_type", &*found.entity.line_type)
+                    .quoting("line_type", &*found.entity.line_type)
                     .with("diameter", exact(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
                 self.add_unclear(found, shape, MeantMarker::Other);
@@ -123,7 +123,7 @@ impl<'d> PathCollector<'d> {
         let marker = self.marker(found, shape.point());
         if let Some(first) = &self.start {
             let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
-                .with("name", self.name.as_str())
+                .quoting("name", self.name.as_str())
                 .with("first", first.origin.point);
             self.candidate(found, shape, Owner::Faulty);
             self.faults.has_second_start = true;
@@ -144,11 +144,11 @@ impl<'d> PathCollector<'d> {
             (None, None) => (&messages::UNKNOWN_LINE_TYPE, None),
         };
         let mut diagnostic = Diagnostic::new(message)
-            .with("line_type", name)
+            .quoting("line_type", name)
             .with("element", shape.word())
             .with("known", known);
         if let Some(like) = shown {
-            diagnostic = diagnostic.with("like", like);
+            diagnostic = diagnostic.quoting("like", like);
         }
         self.report_shared(name, self.origin(found.source, shape.point()).at(diagnostic));
         self.candidate(found, shape, Owner::Faulty);
@@ -171,7 +171,7 @@ impl<'d> PathCollector<'d> {
 /// A length with enough digits to distinguish it from a similar one: 1.0001, not 1.
 fn exact(length: f64) -> Value {
     let is_shown = (length * 1000.0 - (length * 1000.0).round()).abs() <= 1e-6;
-    if is_shown { length.into() } else { format!("{length:.9}").trim_end_matches('0').into() }
+    if is_shown { length.into() } else { Value::quoted(format!("{length:.9}").trim_end_matches('0')) }
 }
 
 pub(super) fn xy(point: Point3) -> Xy {

@@ -116,11 +116,12 @@ fn referenced<'s>(
     let name = PathName::new(text.value(piece));
     let Some((name, start)) = starts.get_key_value(&name) else {
         let known: Value = starts.keys().map(PathName::as_str).collect();
-        let problem = Diagnostic::new(&messages::AT_UNKNOWN).with("name", name.as_str()).with("known", known);
+        let problem =
+            Diagnostic::new(&messages::AT_UNKNOWN).quoting("name", name.as_str()).with("known", known);
         return Err(Box::new(problem));
     };
     if start.borrows {
-        return Err(Box::new(Diagnostic::new(&messages::AT_CHAINED).with("name", name.as_str())));
+        return Err(Box::new(Diagnostic::new(&messages::AT_CHAINED).quoting("name", name.as_str())));
     }
     Ok((name, start))
 }

@@ -132,9 +132,9 @@ fn stray_text(
         Some((path, taker))
     })?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
-        .with("text", read.as_str().replace('\n', " "))
-        .with("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
-        .with("path_layer", layer)
+        .quoting("text", read.as_str().replace('\n', " "))
+        .quoting("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
+        .quoting("path_layer", layer)
         .with("element", candidate_word(candidate))
         .with("point", shown(candidate.shape.point()))
         .with_text(read.whole());
@@ -180,8 +180,8 @@ fn near_layer(drawing: &Drawing, path: &PathName, layer: u32, entities: &[usize]
     }
     let elements: Value = counts.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     let problem = Diagnostic::new(&messages::NEARLY_PATH_LAYER)
-        .with("layer", &*drawing.layers[layer as usize].name)
-        .with("path", path.as_str())
+        .quoting("layer", &*drawing.layers[layer as usize].name)
+        .quoting("path", path.as_str())
         .with("elements", elements)
         .in_path(path.as_str());
     Some(at_entity(drawing, first, begin(&drawing.entities[first]), problem))

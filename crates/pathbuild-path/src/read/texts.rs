@@ -302,7 +302,7 @@ impl<'d> LayerTexts<'d> {
             .map(|(message, other, farther)| (message, &self.candidates[other], farther))
             .find(|(_, other, _)| is_possible(other))?;
         let mut doubt = Diagnostic::new(message)
-            .with("text", string.replace('\n', " "))
+            .quoting("text", string.replace('\n', " "))
             .with("element", candidate_word(element))
             .with("point", shown(element.shape.point()))
             .with("other", candidate_word(other))
@@ -323,7 +323,7 @@ impl<'d> LayerTexts<'d> {
     {
         let (string, circle) = (without_percent_codes(text.string()), text.circle());
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
-            .with("text", string.replace('\n', " "))
+            .quoting("text", string.replace('\n', " "))
             .with("centre", shown(circle.centre))
             .with("diameter", 2.0 * circle.radius);
         diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
@@ -349,7 +349,7 @@ impl<'d> LayerTexts<'d> {
         let found = find(circle, &self.candidates, &self.boxes, budget)?;
         let candidate = &self.candidates[found.candidate];
         Some(vec![
-            ("layer", (&*self.name).into()),
+            ("layer", Value::quoted(&self.name)),
             ("element", candidate_word(candidate).into()),
             ("point", shown(candidate.shape.point()).into()),
         ])

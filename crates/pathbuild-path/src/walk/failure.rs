@@ -1,7 +1,7 @@
 //! Explains why a walk cannot continue, with hints for finding the cause.
 
 use pathbuild_diagnostic::messages::walk as messages;
-use pathbuild_diagnostic::{Diagnostic, Word, words};
+use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
 use super::Walker;
 use super::twice::Curves;
@@ -151,10 +151,13 @@ impl Walker<'_> {
             .filter_map(|(kind, begin)| Some((kind, (*begin)?)))
             .reduce(|best, other| if distance(&other.1) < distance(&best.1) { other } else { best });
         let Some((kind, begin)) = nearest else { return problem };
-        problem.note(&messages::LEFT_OUT_HERE, vec![("kind", kind.name().into()), ("point", begin.into())])
+        problem.note(
+            &messages::LEFT_OUT_HERE,
+            vec![("kind", Value::quoted(kind.name())), ("point", begin.into())],
+        )
     }
 
-    fn word(&self, segment: usize) -> &'static Word {
+    fn word(&self, segment: usize) -> &'static Text {
         match &self.path.segments[segment].kind {
             SegmentKind::Cut(number) => self.path.cuts[*number as usize].word(),
             SegmentKind::Hole(_) => &words::DRILLED_HOLE,

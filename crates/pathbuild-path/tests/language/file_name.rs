@@ -13,7 +13,7 @@ fn said_with(file: &str, path: &str, stem: &str, held: &[&str]) -> Vec<String> {
     let held: Vec<PathName> = held.iter().map(|name| PathName::new(name)).collect();
     let found = judge_file_name(stem, &held, &files, &paths);
     let name = |found: &Diagnostic| match &found.arguments[0].1 {
-        Value::Text(name) => name.to_string(),
+        Value::Quoted(name) => name.to_string(),
         other => format!("{other:?}"),
     };
     let said = |found: &Diagnostic| format!("{} {}", found.code(), name(found));

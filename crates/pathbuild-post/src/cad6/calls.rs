@@ -152,8 +152,8 @@ impl<'a> Builder<'a> {
             }
             Step::Probe { .. } => {
                 let diagnostic =
-                    Diagnostic::new(&posts::NO_TEXT_FOR).with("operation", &*self.present().name);
-                Err(Box::new(diagnostic.with("text", "probe")))
+                    Diagnostic::new(&posts::NO_TEXT_FOR).quoting("operation", &*self.present().name);
+                Err(Box::new(diagnostic.quoting("text", "probe")))
             }
         }
     }
@@ -233,8 +233,8 @@ impl<'a> Builder<'a> {
     }
 
     fn no_z(&self, to: Point, kind: ControlTextKind) -> Box<Diagnostic> {
-        let diagnostic = Diagnostic::new(&posts::NO_Z_IN_TEXT).with("operation", &*self.present().name);
-        Box::new(diagnostic.with("from", self.at[2]).with("to", to[2]).with("text", kind.name()))
+        let diagnostic = Diagnostic::new(&posts::NO_Z_IN_TEXT).quoting("operation", &*self.present().name);
+        Box::new(diagnostic.with("from", self.at[2]).with("to", to[2]).quoting("text", kind.name()))
     }
 
     fn place(&mut self, feed: Option<f64>) -> ContourPosition {
@@ -263,7 +263,7 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         if self.abilities.arc && arc.to[2] != arc.from[2] && !self.abilities.line_z {
-            let diagnostic = Diagnostic::new(&posts::NO_Z_IN_ARC).with("operation", &*self.present().name);
+            let diagnostic = Diagnostic::new(&posts::NO_Z_IN_ARC).quoting("operation", &*self.present().name);
             return Err(Box::new(diagnostic.with("from", arc.from[2]).with("to", arc.to[2])));
         }
         let Some(count) = polar.chords(self.abilities.arc_tolerance) else {

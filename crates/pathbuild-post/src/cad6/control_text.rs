@@ -1,6 +1,6 @@
 //! The control texts of a definition: which there are, and when each is called. (section 1.6)
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 macro_rules! kinds {
     ($($variant:ident $name:literal $en:literal $de:literal;)*) => {
@@ -22,9 +22,9 @@ macro_rules! kinds {
             }
 
             /// When it is called, for the book.
-            pub(super) fn when(self) -> Word {
+            pub(super) fn when(self) -> Text {
                 match self {
-                    $(Self::$variant => Word { en: $en, de: $de },)*
+                    $(Self::$variant => Text { en: $en, de: $de },)*
                 }
             }
         }

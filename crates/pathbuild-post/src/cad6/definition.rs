@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Text};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -39,9 +40,9 @@ impl Definition {
         let table = match DeTable::parse(text) {
             Ok(table) => table,
             Err(error) => {
-                let reason = error.message().to_owned();
                 reader.report(
-                    Diagnostic::new(&posts::POST_SYNTAX).with("reason", reason),
+                    Diagnostic::new(&posts::POST_SYNTAX)
+                        .with("reason", pathbuild_diagnostic::Value::foreign(error.message())),
                     error.span().unwrap_or(0..0),
                 );
                 return Err(reader.findings.warnings().unwrap_or_else(|errors| errors));
@@ -178,7 +179,9 @@ impl ControlTextReader<'_> {
             aliases: Vec::new(),
         };
         self.each(root, "", &["post", "text", "alias"], |reader, key, value| {
-            let Some(table) = value.get_ref().as_table() else { return reader.refuse(key, value, "a table") };
+            let Some(table) = value.get_ref().as_table() else {
+                return reader.refuse(key, value, &Text { en: "a table", de: "eine Tabelle" });
+            };
             match key {
                 "post" => reader.settings(table, &mut definition.settings),
                 "text" => reader.texts(table, &mut definition.texts),
@@ -207,16 +210,16 @@ impl ControlTextReader<'_> {
 
     fn unknown_key(&mut self, key: &Spanned<Cow<'_, str>>, prefix: &str, known: &[&'static str]) {
         let diagnostic = match nearest(key.get_ref(), known.iter().copied()) {
-            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_KEY_NEAREST).with("nearest", nearest),
+            Some(nearest) => Diagnostic::new(&posts::POST_UNKNOWN_KEY_NEAREST).quoting("nearest", nearest),
             None => Diagnostic::new(&posts::POST_UNKNOWN_KEY),
         };
-        self.report(diagnostic.with("key", format!("{prefix}{}", key.get_ref())), key.span());
+        self.report(diagnostic.quoting("key", format!("{prefix}{}", key.get_ref())), key.span());
     }
 
-    fn refuse(&mut self, key: &str, value: &Value<'_>, expected: &'static str) {
+    fn refuse(&mut self, key: &str, value: &Value<'_>, expected: &'static Text) {
         let found =
             self.source.get(value.span()).unwrap_or("").lines().next().unwrap_or("").trim_matches('"');
-        let diagnostic = Diagnostic::new(&posts::POST_OPTION).with("option", key).with("value", found);
+        let diagnostic = Diagnostic::new(&posts::POST_OPTION).quoting("option", key).quoting("value", found);
         self.report(diagnostic.with("expected", expected), value.span());
     }
 
@@ -227,8 +230,8 @@ impl ControlTextReader<'_> {
             if (setting.set)(settings, value.get_ref()).is_none() {
                 reader.refuse(key, value, setting.expected);
             } else if key == "decimals" && settings.decimals < usize::from(FEWEST_DECIMALS) {
-                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).with("option", key);
-                let diagnostic = diagnostic.with("value", settings.decimals.to_string());
+                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).quoting("option", key);
+                let diagnostic = diagnostic.quoting("value", settings.decimals.to_string());
                 reader.report(diagnostic.with("decimals", settings.decimals as u64), value.span());
             }
         });
@@ -240,10 +243,17 @@ impl ControlTextReader<'_> {
             let Some(kind) = ControlTextKind::ALL.iter().find(|kind| kind.name() == key) else { return };
             match value.get_ref().as_str() {
                 Some(text) if text.contains(is_private) => {
-                    reader.refuse(key, value, "a text of ordinary characters");
+                    reader.refuse(
+                        key,
+                        value,
+                        &Text {
+                            en: "a text of ordinary characters",
+                            de: "ein Text aus gewöhnlichen Zeichen",
+                        },
+                    );
                 }
                 Some(text) => texts[*kind as usize] = Some(reader.control_text(text, value.span())),
-                None => reader.refuse(key, value, "a text"),
+                None => reader.refuse(key, value, &Text { en: "a text", de: "ein Text" }),
             }
         });
     }
@@ -270,7 +280,11 @@ impl ControlTextReader<'_> {
                     self.lint_alias(own);
                     aliases.push((name.into(), own.get_ref().as_ref().into()));
                 }
-                _ => self.refuse(own.get_ref(), other, "the name of a variable"),
+                _ => self.refuse(
+                    own.get_ref(),
+                    other,
+                    &Text { en: "the name of a variable", de: "der Name einer Variablen" },
+                ),
             }
         }
     }
@@ -278,7 +292,7 @@ impl ControlTextReader<'_> {
     fn lint_alias(&mut self, own: &Spanned<Cow<'_, str>>) {
         let name = own.get_ref().as_ref();
         if super::variables::Variable::named(name).is_none() && !super::variables::is_parameter(name) {
-            self.report(Diagnostic::new(&posts::ALIAS_UNKNOWN).with("name", name), own.span());
+            self.report(Diagnostic::new(&posts::ALIAS_UNKNOWN).quoting("name", name), own.span());
         }
     }
 }

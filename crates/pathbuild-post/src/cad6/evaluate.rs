@@ -119,7 +119,7 @@ impl<'a> Evaluator<'a> {
 
     fn undefined(&self, at: usize) -> Box<Fault> {
         let name = self.expanded.undefined_at(at);
-        Fault::new(&posts::VARIABLE_UNDEFINED, at..at + 1).with("name", name)
+        Fault::new(&posts::VARIABLE_UNDEFINED, at..at + 1).quoting("name", name)
     }
 
     fn escape(&mut self) -> Evaluated<()> {
@@ -153,7 +153,7 @@ impl<'a> Evaluator<'a> {
             return Err(self.undefined(start + 5 + at));
         }
         let content = super::insert::read(&name, self.surroundings.files).map_err(|reason| {
-            Fault::new(&posts::INSERTION_REFUSED, span).with("name", name.as_str()).with("reason", reason)
+            Fault::new(&posts::INSERTION_REFUSED, span).quoting("name", name.as_str()).with("reason", reason)
         })?;
         let line = self.line();
         line.is_inserted = true;
@@ -251,7 +251,7 @@ impl<'a> Evaluator<'a> {
             let found = self.surroundings.variables.text(text).unwrap_or("").to_owned();
             let is_number = found.trim().parse::<f64>().is_ok_and(f64::is_finite);
             if !is_number {
-                return Err(self.fault(&posts::TERM_IS_TEXT, length).with("found", found));
+                return Err(self.fault(&posts::TERM_IS_TEXT, length).quoting("found", found));
             }
             let value = self.term(self.at..self.at + length)?;
             self.at += length;
@@ -298,7 +298,7 @@ impl<'a> Evaluator<'a> {
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
         let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);
         if let Some(found) = found {
-            return Err(Fault::new(&posts::TERM_IS_TEXT, span).with("found", found));
+            return Err(Fault::new(&posts::TERM_IS_TEXT, span).quoting("found", found));
         }
         let term =
             evaluate(if is_number { &plain } else { text }).map_err(|fault| fault.shifted(span.start))?;

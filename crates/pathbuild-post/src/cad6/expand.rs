@@ -65,7 +65,7 @@ impl Expanded {
     fn variable(&mut self, name: &str, variables: &Variables, depth: usize) -> Evaluated<()> {
         if depth == MOST_DEPTH {
             return Err(Fault::new(&posts::VARIABLE_DEPTH, 0..0)
-                .with("name", name)
+                .quoting("name", name)
                 .with("limit", MOST_DEPTH));
         }
         self.resolved += 1;

@@ -30,6 +30,11 @@ impl Fault {
         self
     }
 
+    /// Sets a value of its message to a name or a piece of the text.
+    pub(super) fn quoting(self: Box<Self>, name: &'static str, text: impl AsRef<str>) -> Box<Self> {
+        self.with(name, pathbuild_diagnostic::Value::quoted(text))
+    }
+
     /// The fault in a text of which its own text is a part that begins at a byte.
     pub(super) fn shifted(mut self: Box<Self>, by: usize) -> Box<Self> {
         self.span = self.span.start + by..self.span.end + by;

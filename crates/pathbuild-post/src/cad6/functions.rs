@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::posts;
 
 use super::fault::Fault;
@@ -41,26 +41,26 @@ pub(super) struct Function {
     pub(super) name: &'static str,
     pub(super) rule: Rule,
     /// What it returns, for the book.
-    pub(super) about: Word,
+    pub(super) about: Text,
 }
 
 /// The functions, in the order in which they are documented.
 pub(super) static FUNCTIONS: &[Function] = &[
-    Function { name: "abs", rule: Rule::One(f64::abs), about: Word { en: "absolute value", de: "Betrag" } },
+    Function { name: "abs", rule: Rule::One(f64::abs), about: Text { en: "absolute value", de: "Betrag" } },
     Function {
         name: "sqrt",
         rule: Rule::One(f64::sqrt),
-        about: Word { en: "square root", de: "Quadratwurzel" },
+        about: Text { en: "square root", de: "Quadratwurzel" },
     },
     Function {
         name: "int",
         rule: Rule::One(f64::trunc),
-        about: Word { en: "without decimals", de: "ohne Nachkommastellen" },
+        about: Text { en: "without decimals", de: "ohne Nachkommastellen" },
     },
     Function {
         name: "round",
         rule: Rule::One(f64::round),
-        about: Word {
+        about: Text {
             en: "nearest whole number, halves away from 0",
             de: "nächste ganze Zahl, Hälften von 0 weg",
         },
@@ -68,52 +68,52 @@ pub(super) static FUNCTIONS: &[Function] = &[
     Function {
         name: "floor",
         rule: Rule::One(f64::floor),
-        about: Word { en: "next smaller whole number", de: "nächstkleinere ganze Zahl" },
+        about: Text { en: "next smaller whole number", de: "nächstkleinere ganze Zahl" },
     },
     Function {
         name: "ceil",
         rule: Rule::One(f64::ceil),
-        about: Word { en: "next larger whole number", de: "nächstgrößere ganze Zahl" },
+        about: Text { en: "next larger whole number", de: "nächstgrößere ganze Zahl" },
     },
     Function {
         name: "sin",
         rule: Rule::One(|x| libm::sin(x.to_radians())),
-        about: Word { en: "sine", de: "Sinus" },
+        about: Text { en: "sine", de: "Sinus" },
     },
     Function {
         name: "cos",
         rule: Rule::One(|x| libm::cos(x.to_radians())),
-        about: Word { en: "cosine", de: "Kosinus" },
+        about: Text { en: "cosine", de: "Kosinus" },
     },
     Function {
         name: "tan",
         rule: Rule::One(|x| libm::tan(x.to_radians())),
-        about: Word { en: "tangent", de: "Tangens" },
+        about: Text { en: "tangent", de: "Tangens" },
     },
     Function {
         name: "asin",
         rule: Rule::One(|x| libm::asin(x).to_degrees()),
-        about: Word { en: "arc sine", de: "Arkussinus" },
+        about: Text { en: "arc sine", de: "Arkussinus" },
     },
     Function {
         name: "acos",
         rule: Rule::One(|x| libm::acos(x).to_degrees()),
-        about: Word { en: "arc cosine", de: "Arkuskosinus" },
+        about: Text { en: "arc cosine", de: "Arkuskosinus" },
     },
     Function {
         name: "atan",
         rule: Rule::One(|x| libm::atan(x).to_degrees()),
-        about: Word { en: "arc tangent", de: "Arkustangens" },
+        about: Text { en: "arc tangent", de: "Arkustangens" },
     },
     Function {
         name: "atan2",
         rule: Rule::Two(|y, x| libm::atan2(y, x).to_degrees()),
-        about: Word { en: "angle of the point (second, first)", de: "Winkel des Punktes (zweites, erstes)" },
+        about: Text { en: "angle of the point (second, first)", de: "Winkel des Punktes (zweites, erstes)" },
     },
     Function {
         name: "mod",
         rule: Rule::Two(|a, b| a - b * (a / b).floor()),
-        about: Word {
+        about: Text {
             en: "remainder, with the sign of the second",
             de: "Rest, mit dem Vorzeichen des zweiten",
         },
@@ -121,12 +121,12 @@ pub(super) static FUNCTIONS: &[Function] = &[
     Function {
         name: "min",
         rule: Rule::Any(|all| all.iter().copied().fold(f64::INFINITY, f64::min)),
-        about: Word { en: "the smallest", de: "das Kleinste" },
+        about: Text { en: "the smallest", de: "das Kleinste" },
     },
     Function {
         name: "max",
         rule: Rule::Any(|all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
-        about: Word { en: "the largest", de: "das Größte" },
+        about: Text { en: "the largest", de: "das Größte" },
     },
 ];
 

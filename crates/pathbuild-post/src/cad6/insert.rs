@@ -36,7 +36,7 @@ fn names(text: &str) -> Vec<String> {
 
 /// The content of a file, without the end of its last line, or the reason why not.
 pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> {
-    let path = below(name).ok_or(Value::Word(&NOT_BELOW_POST))?;
+    let path = below(name).ok_or(Value::Prose(&NOT_BELOW_POST))?;
     let mut content = files.read(&path)?;
     for end in [b'\n', b'\r'] {
         if content.last() == Some(&end) {

@@ -17,7 +17,9 @@ pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
         let diagnostic = match definition.called_instead(kind)? {
             Uncalled::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
-            Uncalled::Instead(other) => Diagnostic::new(&posts::TEXT_NOT_CALLED).with("other", other.name()),
+            Uncalled::Instead(other) => {
+                Diagnostic::new(&posts::TEXT_NOT_CALLED).quoting("other", other.name())
+            }
         };
         Some(locate(diagnostic, kind, text, 0..text.line_around(0).1.len(), file))
     });
@@ -40,7 +42,7 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
             (is_number(name) && statements.open.is_empty()).then_some(&posts::NUMBER_UNFORMATTED)
         };
         if let Some(message) = message {
-            let diagnostic = Diagnostic::new(message).with("name", name);
+            let diagnostic = Diagnostic::new(message).quoting("name", name);
             diagnostics.push(locate(diagnostic, kind, text, at..at + name.len() + 2, file));
         }
         rest = after;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 use super::term::bits;
 use crate::number::NumberFormat;
@@ -41,25 +41,25 @@ pub(super) struct CForm {
 }
 
 /// The characters that choose a form, and what they do, for the book.
-pub(super) static FORMS: [(char, Form, Word); 7] = [
+pub(super) static FORMS: [(char, Form, Text); 7] = [
     (
         '\'',
         Form::Money,
-        Word { en: "two decimals, thousands apart", de: "zwei Dezimalen, Tausender getrennt" },
+        Text { en: "two decimals, thousands apart", de: "zwei Dezimalen, Tausender getrennt" },
     ),
-    ('%', Form::Rounded, Word { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
-    ('.', Form::Rounded, Word { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
-    (',', Form::Comma, Word { en: "rounded, with a decimal comma", de: "gerundet, mit Dezimalkomma" }),
-    ('+', Form::Signed, Word { en: "rounded, always with a sign", de: "gerundet, immer mit Vorzeichen" }),
+    ('%', Form::Rounded, Text { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
+    ('.', Form::Rounded, Text { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
+    (',', Form::Comma, Text { en: "rounded, with a decimal comma", de: "gerundet, mit Dezimalkomma" }),
+    ('+', Form::Signed, Text { en: "rounded, always with a sign", de: "gerundet, immer mit Vorzeichen" }),
     (
         '&',
         Form::SignedComma,
-        Word {
+        Text {
             en: "rounded, always with a sign, with a decimal comma",
             de: "gerundet, immer mit Vorzeichen, mit Dezimalkomma",
         },
     ),
-    ('#', Form::Whole, Word { en: "whole", de: "ganze Zahl" }),
+    ('#', Form::Whole, Text { en: "whole", de: "ganze Zahl" }),
 ];
 
 /// Wider numbers are a slip of the pen.

@@ -206,8 +206,8 @@ impl Caller<'_, '_> {
         if self.runner.definition.text(kind).is_some() {
             return Ok(());
         }
-        let diagnostic = Diagnostic::new(&posts::NO_TEXT_FOR).with("operation", &*operation.name);
-        Err(Box::new(diagnostic.with("text", kind.name())))
+        let diagnostic = Diagnostic::new(&posts::NO_TEXT_FOR).quoting("operation", &*operation.name);
+        Err(Box::new(diagnostic.quoting("text", kind.name())))
     }
 
     fn change_tool(&mut self, operation: &Operation) -> Called {

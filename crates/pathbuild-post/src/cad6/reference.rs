@@ -1,6 +1,6 @@
 //! The language of control texts as tables for the book. (book: reference/post-definitions)
 
-use pathbuild_diagnostic::{Lang, Word};
+use pathbuild_diagnostic::{Lang, Text};
 
 use super::control_text::ControlTextKind;
 use super::functions::{FUNCTIONS, Rule};
@@ -14,7 +14,7 @@ use crate::reference::{Row, code};
 /// The keys of `[post]`: name, what it takes, what it sets.
 pub(crate) fn settings(lang: Lang) -> Vec<Row> {
     let row = |it: &super::settings::Setting| {
-        vec![code(it.name), it.expected.to_owned(), it.about.in_lang(lang).to_owned()]
+        vec![code(it.name), it.expected.in_lang(lang).to_owned(), it.about.in_lang(lang).to_owned()]
     };
     SETTINGS.iter().map(row).collect()
 }
@@ -64,8 +64,8 @@ pub(crate) fn functions(lang: Lang) -> Vec<Row> {
     FUNCTIONS.iter().map(row).collect()
 }
 
-const SHORTEST: Word = Word { en: "as many decimals as there are", de: "so viele Dezimalen, wie es gibt" };
-const AS_IN_C: Word = Word {
+const SHORTEST: Text = Text { en: "as many decimals as there are", de: "so viele Dezimalen, wie es gibt" };
+const AS_IN_C: Text = Text {
     en: "as in C, also with `g`, `d`, `x`, `b` or `s`; flags, width and precision stand in front of the letter (pathbuild's own)",
     de: "wie in C, auch mit `g`, `d`, `x`, `b` oder `s`; Schalter, Breite und Genauigkeit stehen vor dem Buchstaben (Zusatz von pathbuild)",
 };

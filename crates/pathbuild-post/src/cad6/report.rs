@@ -19,7 +19,7 @@ pub(super) fn locate(
     let (start, content) = text.line_around(span.start);
     let fault = TextFault::new(content, span.start - start..span.end.saturating_sub(start));
     let mut diagnostic = diagnostic
-        .with("text", kind.name())
+        .quoting("text", kind.name())
         .with("line", u64::from(line))
         .with("column", u64::from(column))
         .with_text(fault)

@@ -134,9 +134,10 @@ impl<'a> Runner<'a> {
         for c in line.chars() {
             if let Some(text) = self.variables.text(c) {
                 let Some(text) = self.guard.put(&before, text) else {
-                    let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS).with("section", kind.name());
+                    let diagnostic =
+                        Diagnostic::new(&posts::TEXT_AMONG_WORDS).quoting("section", kind.name());
                     return Err(Box::new(
-                        diagnostic.with("macro", "~").with("text", text).in_file(self.file),
+                        diagnostic.quoting("macro", "~").quoting("text", text).in_file(self.file),
                     ));
                 };
                 self.text.extend_from_slice(text.as_bytes());
@@ -191,7 +192,7 @@ impl<'a> Runner<'a> {
                 nearest(name, VARIABLES.iter().map(|known| known.name).filter(|known| *known != name))
             }) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_NEAREST;
-                diagnostic = diagnostic.with("nearest", nearest);
+                diagnostic = diagnostic.quoting("nearest", nearest);
             }
             if name.as_deref().is_some_and(is_assigned) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_YET;

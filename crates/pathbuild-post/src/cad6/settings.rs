@@ -1,6 +1,6 @@
 //! What a definition sets beside its texts.
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use crate::Units;
@@ -49,110 +49,110 @@ pub(super) struct Setting {
     /// The key.
     pub(super) name: &'static str,
     /// What it takes.
-    pub(super) expected: &'static str,
+    pub(super) expected: &'static Text,
     /// Sets it; nothing where the value is no such thing.
     pub(super) set: fn(&mut Settings, &DeValue<'_>) -> Option<()>,
     /// What it sets, and what holds without it, for the book.
-    pub(super) about: Word,
+    pub(super) about: Text,
 }
 
 /// The keys of `[post]`.
 pub(super) static SETTINGS: &[Setting] = &[
     Setting {
         name: "name",
-        expected: "a text",
+        expected: &Text { en: "a text", de: "ein Text" },
         set: |s, v| put(&mut s.name, text(v)),
-        about: Word { en: "name of the post", de: "Name des Postprozessors" },
+        about: Text { en: "name of the post", de: "Name des Postprozessors" },
     },
     Setting {
         name: "description",
-        expected: "a text",
+        expected: &Text { en: "a text", de: "ein Text" },
         set: |_, v| v.as_str().map(drop),
-        about: Word { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
+        about: Text { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
     },
     Setting {
         name: "extension",
-        expected: "a file name's extension",
+        expected: &Text { en: "a file name's extension", de: "die Endung eines Dateinamens" },
         set: |s, v| put(&mut s.extension, extension(v)),
-        about: Word {
+        about: Text {
             en: "extension of the files that are written; `nc` without it",
             de: "Endung der geschriebenen Dateien; sonst `nc`",
         },
     },
     Setting {
         name: "end-of-line",
-        expected: "lf or crlf",
+        expected: &Text { en: "lf or crlf", de: "lf oder crlf" },
         set: |s, v| put(&mut s.end_of_line, end_of_line(v)),
-        about: Word { en: "line ends; `lf` without it", de: "Zeilenenden; sonst `lf`" },
+        about: Text { en: "line ends; `lf` without it", de: "Zeilenenden; sonst `lf`" },
     },
     Setting {
         name: "decimals",
-        expected: "a whole number up to 9",
+        expected: &Text { en: "a whole number up to 9", de: "eine ganze Zahl bis 9" },
         set: |s, v| put(&mut s.decimals, decimals(v)),
-        about: Word {
+        about: Text {
             en: "decimals of rounded numbers; 3 without it",
             de: "Dezimalen gerundeter Zahlen; sonst 3",
         },
     },
     Setting {
         name: "units",
-        expected: "mm or inch",
+        expected: &Text { en: "mm or inch", de: "mm oder inch" },
         set: |s, v| put(&mut s.units, units(v).map(Some)),
-        about: Word {
+        about: Text {
             en: "unit of all lengths; that of the program without it",
             de: "Einheit aller Längen; sonst die des Programms",
         },
     },
     Setting {
         name: "number-lines",
-        expected: "true or false",
+        expected: &Text { en: "true or false", de: "true oder false" },
         set: |s, v| put(&mut s.number_lines, v.as_bool()),
-        about: Word {
+        about: Text {
             en: "whether `line-number` is called; `true` without it",
             de: "ob `line-number` gerufen wird; sonst `true`",
         },
     },
     Setting {
         name: "trim",
-        expected: "true or false",
+        expected: &Text { en: "true or false", de: "true oder false" },
         set: |s, v| put(&mut s.trim, v.as_bool()),
-        about: Word {
+        about: Text {
             en: "whether blanks at line ends are taken away; `true` without it",
             de: "ob Leerzeichen am Zeilenende entfallen; sonst `true`",
         },
     },
     Setting {
         name: "dialect",
-        expected: "a text",
+        expected: &Text { en: "a text", de: "ein Text" },
         set: |s, v| put(&mut s.dialect, text(v).map(Some)),
-        about: Word {
+        about: Text {
             en: "the dialect in which the output is read back",
             de: "der Dialekt, in dem die Ausgabe zurückgelesen wird",
         },
     },
     Setting {
         name: "arc-tolerance",
-        expected: "mm above 0",
+        expected: &Text { en: "mm above 0", de: "mm über 0" },
         set: |s, v| put(&mut s.arc_tolerance, positive(v)),
-        about: Word {
+        about: Text {
             en: "greatest distance of a line from the arc that it stands for; 0.01 without it",
             de: "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01",
         },
     },
     Setting {
         name: "arc-sweep",
-        expected: "degrees from 10 to 360",
+        expected: &Text { en: "degrees from 10 to 360", de: "Grad von 10 bis 360" },
         set: |s, v| put(&mut s.arc_sweep, sweep(v)),
-        about: Word {
+        about: Text {
             en: "widest angle of an arc, wider ones are divided; 360 without it",
             de: "größter Winkel eines Bogens, größere werden geteilt; sonst 360",
         },
     },
     Setting {
         name: "lift-between-passes",
-        expected: "true or false",
+        expected: &Text { en: "true or false", de: "true oder false" },
         set: |s, v| put(&mut s.lift_between_passes, v.as_bool()),
-        about: Word {
+        about: Text {
             en: "whether the tool may be lifted out between two passes instead of going down in the cut; `false` without it",
             de: "ob das Werkzeug zwischen zwei Zustellungen herausgehoben werden darf, statt im Schnitt abwärts zu fahren; sonst `false`",
         },

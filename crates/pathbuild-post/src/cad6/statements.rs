@@ -1,6 +1,6 @@
 //! Statements that hold other statements: assignments, conditions, comparisons.
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::posts;
 
 use super::evaluate::Evaluator;
@@ -26,7 +26,7 @@ pub(super) struct StatementForm {
     /// How it is spelt, for the book.
     pub(super) form: &'static str,
     /// What it gives, for the book.
-    pub(super) about: Word,
+    pub(super) about: Text,
 }
 
 /// The statements that are no numbers.
@@ -35,7 +35,7 @@ pub(super) static STATEMENTS: &[StatementForm] = &[
         sign: '=',
         kind: StatementKind::Assignment,
         form: "{=Name {…}}",
-        about: Word {
+        about: Text {
             en: "gives a variable the result of a statement; later calls see it",
             de: "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es",
         },
@@ -44,7 +44,7 @@ pub(super) static STATEMENTS: &[StatementForm] = &[
         sign: '?',
         kind: StatementKind::Condition,
         form: "{?Term {…}{…}}",
-        about: Word {
+        about: Text {
             en: "the first statement if the term is not 0, else the second, which may be missing",
             de: "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf",
         },
@@ -53,7 +53,7 @@ pub(super) static STATEMENTS: &[StatementForm] = &[
         sign: '"',
         kind: StatementKind::Comparison,
         form: "{\"{…}{…} {…}{…}}",
-        about: Word {
+        about: Text {
             en: "the third statement if the first two give the same text, else the fourth, which may be missing",
             de: "die dritte Anweisung, wenn die ersten zwei denselben Text ergeben, sonst die vierte, die fehlen darf",
         },
@@ -62,7 +62,7 @@ pub(super) static STATEMENTS: &[StatementForm] = &[
         sign: '!',
         kind: StatementKind::NonExistence,
         form: "{!Name {…}{…}}",
-        about: Word {
+        about: Text {
             en: "the first statement if the variable has no value, else the second, which may be missing",
             de: "die erste Anweisung, wenn die Variable keinen Wert hat, sonst die zweite, die fehlen darf",
         },
@@ -71,19 +71,19 @@ pub(super) static STATEMENTS: &[StatementForm] = &[
         sign: '$',
         kind: StatementKind::Text,
         form: "{$…}",
-        about: Word { en: "the text, with statements in it", de: "der Text, mit Anweisungen darin" },
+        about: Text { en: "the text, with statements in it", de: "der Text, mit Anweisungen darin" },
     },
     StatementForm {
         sign: '*',
         kind: StatementKind::Remark,
         form: "{*…}",
-        about: Word { en: "nothing: a remark", de: "nichts: eine Bemerkung" },
+        about: Text { en: "nothing: a remark", de: "nichts: eine Bemerkung" },
     },
     StatementForm {
         sign: '§',
         kind: StatementKind::VariableName,
         form: "{§…}",
-        about: Word {
+        about: Text {
             en: "refused: its meaning is not known",
             de: "abgelehnt: Die Bedeutung ist nicht bekannt",
         },

@@ -71,7 +71,7 @@ impl Parser<'_> {
         if found.is_empty() {
             return Fault::new(&posts::TERM_ENDS, self.at..end);
         }
-        Fault::new(&posts::TERM_UNEXPECTED, self.at..end).with("found", found)
+        Fault::new(&posts::TERM_UNEXPECTED, self.at..end).quoting("found", found)
     }
 
     fn doubt(&mut self, doubt: Doubt) {
@@ -166,7 +166,7 @@ impl Parser<'_> {
         let span = self.at..self.at + length;
         let number = &self.text[span.clone()];
         self.at = span.end;
-        number.parse().map_err(|_| Fault::new(&posts::TERM_NUMBER, span).with("found", number))
+        number.parse().map_err(|_| Fault::new(&posts::TERM_NUMBER, span).quoting("found", number))
     }
 
     fn function(&mut self) -> Evaluated<f64> {
@@ -180,7 +180,7 @@ impl Parser<'_> {
             return Ok(std::f64::consts::PI);
         }
         let arguments = self.arguments()?;
-        functions::call(name, &arguments).map_err(|wrong| wrong.at(span).with("name", name))
+        functions::call(name, &arguments).map_err(|wrong| wrong.at(span).quoting("name", name))
     }
 
     fn arguments(&mut self) -> Evaluated<Vec<f64>> {

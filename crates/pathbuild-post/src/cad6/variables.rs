@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 use super::marks::{MOST_TEXTS, char_of_text, is_private, text_of};
 
@@ -17,7 +17,7 @@ pub(super) struct Variable {
     /// Where it has a value.
     pub(super) presence: Presence,
     /// What it holds.
-    pub(super) about: Word,
+    pub(super) about: Text,
 }
 
 /// Where a variable has a value. (book: reference/post-definitions)
@@ -40,8 +40,8 @@ pub(super) enum Presence {
 
 impl Presence {
     /// What the book says of it.
-    pub(super) fn word(self) -> Word {
-        let word = |en, de| Word { en, de };
+    pub(super) fn word(self) -> Text {
+        let word = |en, de| Text { en, de };
         match self {
             Self::Always => word("everywhere", "überall"),
             Self::FirstMove => word("from the first move on", "ab der ersten Bewegung"),
@@ -66,11 +66,11 @@ impl Presence {
 
 impl Variable {
     const fn number(name: &'static str, presence: Presence, en: &'static str, de: &'static str) -> Self {
-        Self { name, is_text: false, presence, about: Word { en, de } }
+        Self { name, is_text: false, presence, about: Text { en, de } }
     }
 
     const fn text(name: &'static str, presence: Presence, en: &'static str, de: &'static str) -> Self {
-        Self { name, is_text: true, presence, about: Word { en, de } }
+        Self { name, is_text: true, presence, about: Text { en, de } }
     }
 
     /// The variable of a name.
@@ -224,31 +224,31 @@ pub(super) static VARIABLES: &[Variable] = &[
 ];
 
 /// Why a variable that pathbuild sets has no value at some places; `None` if it sets no variable of that name.
-pub(super) fn reason(name: &str) -> Option<&'static Word> {
+pub(super) fn reason(name: &str) -> Option<&'static Text> {
     let reason = match name {
-        "MillingSpindleRate" => &Word {
+        "MillingSpindleRate" => &Text {
             en: "the tool has no spindle speed (spindle in [tool.NAME])",
             de: "das Werkzeug hat keine Spindeldrehzahl (spindle in [tool.NAME])",
         },
-        "Date" => &Word { en: "--date is not given", de: "--date ist nicht angegeben" },
-        "MachineToolNo" => &Word { en: "the program names no tool", de: "das Programm nennt kein Werkzeug" },
+        "Date" => &Text { en: "--date is not given", de: "--date ist nicht angegeben" },
+        "MachineToolNo" => &Text { en: "the program names no tool", de: "das Programm nennt kein Werkzeug" },
         "MovingVel" | "LoweringVel" => {
-            &Word { en: "the program says no feed here", de: "das Programm sagt hier keinen Vorschub" }
+            &Text { en: "the program says no feed here", de: "das Programm sagt hier keinen Vorschub" }
         }
         "XC" | "YC" | "IRel" | "JRel" | "Radius" | "StartAngle" | "EndAngle" | "SweepAngle" | "ArcDir" => {
-            &Word { en: "only the text arc has it", de: "nur der Text arc hat sie" }
+            &Text { en: "only the text arc has it", de: "nur der Text arc hat sie" }
         }
-        "XB1" | "YB1" | "XB2" | "YB2" => &Word {
+        "XB1" | "YB1" | "XB2" | "YB2" => &Text {
             en: "only curves have it, and no program has any",
             de: "nur Kurven haben sie, und kein Programm hat welche",
         },
-        "PeckDepth" => &Word { en: "only cycle and point have it", de: "nur cycle und point haben sie" },
+        "PeckDepth" => &Text { en: "only cycle and point have it", de: "nur cycle und point haben sie" },
         "DwellTime" => {
-            &Word { en: "only cycle, point and dwell have it", de: "nur cycle, point und dwell haben sie" }
+            &Text { en: "only cycle, point and dwell have it", de: "nur cycle, point und dwell haben sie" }
         }
-        "CommentText" => &Word { en: "only the text comment has it", de: "nur der Text comment hat sie" },
+        "CommentText" => &Text { en: "only the text comment has it", de: "nur der Text comment hat sie" },
         _ if Variable::named(name).is_some() => {
-            &Word { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
+            &Text { en: "no move has been made yet", de: "es gab noch keine Bewegung" }
         }
         _ => return None,
     };

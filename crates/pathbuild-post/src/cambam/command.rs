@@ -27,8 +27,8 @@ pub(super) fn post_build(
         let argument = argument.replace("{$outfile}", &output).replace("{$cbfile.name}", &job.name);
         if let Some(start) = argument.find("{$") {
             let name = argument[start + 2..].split('}').next().unwrap_or("");
-            let diagnostic = Diagnostic::new(&posts::UNKNOWN_MACRO).with("macro", framed(name));
-            return Err(Box::new(diagnostic.with("section", "PostBuildCommandArgs").in_file(file)));
+            let diagnostic = Diagnostic::new(&posts::UNKNOWN_MACRO).quoting("macro", framed(name));
+            return Err(Box::new(diagnostic.quoting("section", "PostBuildCommandArgs").in_file(file)));
         }
         words.push(argument);
     }

@@ -3,7 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::macros::{Macro, State, Value};
@@ -72,7 +73,7 @@ impl Definition {
         let root = document.root_element();
         if root.tag_name().name() != "PostProcessor" {
             let found = root.tag_name().name();
-            return Err(vec![Diagnostic::new(&posts::POST_WRONG_ROOT).with("found", found).in_file(file)]);
+            return Err(vec![Diagnostic::new(&posts::POST_WRONG_ROOT).quoting("found", found).in_file(file)]);
         }
         let mut reader = CbppReader::new(file, LineStarts::of(text));
         root.children().filter(Node::is_element).for_each(|element| reader.element(element));
@@ -162,8 +163,10 @@ impl Definition {
 
 fn syntax(error: &roxmltree::Error, file: &Utf8Path) -> Diagnostic {
     let at = error.pos();
-    let reason = error.to_string();
-    Diagnostic::new(&posts::POST_SYNTAX).with("reason", reason).in_file(file).at_line(at.row, Some(at.col))
+    Diagnostic::new(&posts::POST_SYNTAX)
+        .with("reason", pathbuild_diagnostic::Value::foreign(error))
+        .in_file(file)
+        .at_line(at.row, Some(at.col))
 }
 
 struct CbppReader<'a> {
@@ -206,7 +209,7 @@ impl<'a> CbppReader<'a> {
 
     fn notice_repetition(&mut self, name: &str, line: u32) {
         if !self.seen.insert(name.to_owned()) {
-            self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).with("element", name), line);
+            self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).quoting("element", name), line);
         }
     }
 
@@ -215,7 +218,7 @@ impl<'a> CbppReader<'a> {
         for nested in element.children().filter(Node::is_element) {
             let line = self.lines.line(nested.range().start);
             let name = nested.tag_name().name();
-            self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).with("element", name), line);
+            self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).quoting("element", name), line);
         }
     }
 
@@ -242,9 +245,10 @@ impl<'a> CbppReader<'a> {
         for (name, line) in template.in_braces() {
             if is_built_in(name) {
                 let diagnostic = Diagnostic::new(&posts::MACRO_WITHOUT_SIGN);
-                let diagnostic =
-                    diagnostic.with("macro", format!("{{{name}}}")).with("nearest", format!("{{${name}}}"));
-                self.report(diagnostic.with("section", template.section.name()), line);
+                let diagnostic = diagnostic
+                    .quoting("macro", format!("{{{name}}}"))
+                    .quoting("nearest", format!("{{${name}}}"));
+                self.report(diagnostic.quoting("section", template.section.name()), line);
             }
         }
     }
@@ -255,13 +259,13 @@ impl<'a> CbppReader<'a> {
             match user_macro(definition) {
                 None => {
                     self.report(
-                        Diagnostic::new(&posts::POST_MACRO_LINE).with("text", definition.trim()),
+                        Diagnostic::new(&posts::POST_MACRO_LINE).quoting("text", definition.trim()),
                         line,
                     );
                 }
                 Some((name, _)) if is_built_in(name) => {
                     self.report(
-                        Diagnostic::new(&posts::POST_SHADOWED_MACRO).with("macro", format!("${name}")),
+                        Diagnostic::new(&posts::POST_SHADOWED_MACRO).quoting("macro", format!("${name}")),
                         line,
                     );
                 }
@@ -278,16 +282,16 @@ impl<'a> CbppReader<'a> {
         match self.definition.options.set(name, text) {
             Ok(()) if name == "NumberFormat" && self.definition.decimals() < FEWEST_DECIMALS => {
                 let decimals = u64::from(self.definition.decimals());
-                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).with("option", name);
-                self.report(diagnostic.with("value", text.trim()).with("decimals", decimals), line);
+                let diagnostic = Diagnostic::new(&posts::COARSE_NUMBERS).quoting("option", name);
+                self.report(diagnostic.quoting("value", text.trim()).with("decimals", decimals), line);
             }
             Ok(()) => {}
             Err(Refusal::Unknown) => {
-                self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).with("element", name), line);
+                self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).quoting("element", name), line);
             }
             Err(Refusal::Expected(expected)) => {
-                let diagnostic = Diagnostic::new(&posts::POST_OPTION).with("option", name);
-                self.report(diagnostic.with("value", text.trim()).with("expected", expected), line);
+                let diagnostic = Diagnostic::new(&posts::POST_OPTION).quoting("option", name);
+                self.report(diagnostic.quoting("value", text.trim()).with("expected", expected), line);
             }
         }
     }
@@ -330,8 +334,8 @@ pub(super) fn template_error(section: Section, error: &TemplateError, file: &Utf
     let diagnostic = match &error.fault {
         Fault::Unclosed => Diagnostic::new(&posts::POST_UNCLOSED_MACRO),
         Fault::Arguments(MacroArguments { call, expected }) => Diagnostic::new(&posts::POST_MACRO_ARGUMENTS)
-            .with("macro", format!("{{${call}}}"))
+            .quoting("macro", format!("{{${call}}}"))
             .with("expected", *expected),
     };
-    diagnostic.with("section", section.name()).in_file(file).at_line(error.line, None)
+    diagnostic.quoting("section", section.name()).in_file(file).at_line(error.line, None)
 }

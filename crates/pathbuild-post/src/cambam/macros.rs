@@ -1,6 +1,6 @@
 //! What the macros of CamBam definitions stand for.
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 use super::registers::{Code, Form, Register};
 use super::section::Section;
@@ -130,8 +130,8 @@ impl Value {
 
 impl Value {
     /// What it stands for, for the book.
-    pub(super) fn word(self) -> Word {
-        let word = |en, de| Word { en, de };
+    pub(super) fn word(self) -> Text {
+        let word = |en, de| Text { en, de };
         match self {
             Self::FileName => word("the program's name", "der Name des Programms"),
             Self::ProgramNumber => word(
@@ -217,8 +217,8 @@ impl Value {
 
 impl Block {
     /// What it stands for, for the book.
-    pub(super) fn word(self) -> Word {
-        let word = |en, de| Word { en, de };
+    pub(super) fn word(self) -> Text {
+        let word = |en, de| Text { en, de };
         match self {
             Self::Mops => {
                 word("each operation through the section `MOP`", "jeden Vorgang durch den Abschnitt `MOP`")
@@ -259,8 +259,8 @@ impl Block {
 
 impl State {
     /// What it stands for, for the book.
-    pub(super) fn word(self) -> Word {
-        let word = |en, de| Word { en, de };
+    pub(super) fn word(self) -> Text {
+        let word = |en, de| Text { en, de };
         match self {
             Self::Velocity => word(
                 "`VelocityMode...` that the operation wants, where it changes",
@@ -281,8 +281,8 @@ impl State {
 
 impl Choice {
     /// What it stands for, for the book.
-    pub(super) fn word(self) -> Word {
-        let word = |en, de| Word { en, de };
+    pub(super) fn word(self) -> Text {
+        let word = |en, de| Text { en, de };
         match self {
             Self::Units => word(
                 "`UnitsMM` or `UnitsInches`, by the program",

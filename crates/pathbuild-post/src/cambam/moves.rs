@@ -161,7 +161,7 @@ impl Writer<'_> {
         }
         let radius = self.operation().surface;
         if radius <= 0.0 {
-            let diagnostic = Diagnostic::new(&posts::NO_RADIUS).with("operation", &*self.operation().name);
+            let diagnostic = Diagnostic::new(&posts::NO_RADIUS).quoting("operation", &*self.operation().name);
             return Err(Box::new(diagnostic.in_file(self.plan.file)));
         }
         let replaced = 1 - rotary.along;

@@ -1,5 +1,7 @@
 //! The names of macros and their arguments.
 
+use pathbuild_diagnostic::Text;
+
 use super::macros::{Argument, Block, Choice, Macro, State, Value};
 use super::registers::{Code, Form, Register};
 use super::section::{Section, coolant_section, spindle_section};
@@ -12,7 +14,7 @@ pub(super) struct MacroArguments {
     /// The call without its frame.
     pub(super) call: Box<str>,
     /// What it takes.
-    pub(super) expected: &'static str,
+    pub(super) expected: &'static Text,
 }
 
 impl Value {
@@ -38,7 +40,7 @@ impl Macro {
             };
         }
         match (without_arguments(name), arguments) {
-            (Some(_), Some(_)) => refuse("no arguments"),
+            (Some(_), Some(_)) => refuse(&Text { en: "no arguments", de: "keine Argumente" }),
             (Some(what), None) => Ok(what),
             (None, Some(_)) => Ok(Self::User(call.into())),
             (None, None) => Ok(Self::User(name.into())),
@@ -81,7 +83,7 @@ fn register(name: &str) -> Option<Macro> {
 /// A macro that takes arguments.
 pub(super) struct With {
     pub(super) name: &'static str,
-    pub(super) expected: &'static str,
+    pub(super) expected: &'static Text,
     read: fn(Option<&str>) -> Option<Macro>,
 }
 
@@ -91,12 +93,35 @@ fn with_arguments(name: &str) -> Option<&'static With> {
 
 /// The macros that take arguments.
 pub(super) static WITH: &[With] = &[
-    With { name: "cuttercomp", expected: "off, L or R", read: cutter_compensation },
-    With { name: "toolchange", expected: "nothing or first", read: tool_change },
-    With { name: "spindle", expected: "nothing, up, cw, ccw or off", read: spindle },
-    With { name: "coolant", expected: "nothing, flood, mist or off", read: coolant },
-    With { name: "check", expected: "three coordinates", read: check },
-    With { name: "set", expected: "x, y or z and a number or NaN, or tool", read: set },
+    With {
+        name: "cuttercomp",
+        expected: &Text { en: "off, L or R", de: "off, L oder R" },
+        read: cutter_compensation,
+    },
+    With {
+        name: "toolchange",
+        expected: &Text { en: "nothing or first", de: "nichts oder first" },
+        read: tool_change,
+    },
+    With {
+        name: "spindle",
+        expected: &Text { en: "nothing, up, cw, ccw or off", de: "nichts, up, cw, ccw oder off" },
+        read: spindle,
+    },
+    With {
+        name: "coolant",
+        expected: &Text { en: "nothing, flood, mist or off", de: "nichts, flood, mist oder off" },
+        read: coolant,
+    },
+    With { name: "check", expected: &Text { en: "three coordinates", de: "drei Koordinaten" }, read: check },
+    With {
+        name: "set",
+        expected: &Text {
+            en: "x, y or z and a number or NaN, or tool",
+            de: "x, y oder z und eine Zahl oder NaN, oder tool",
+        },
+        read: set,
+    },
 ];
 
 fn cutter_compensation(argument: Option<&str>) -> Option<Macro> {

@@ -1,6 +1,6 @@
 //! The elements of a CamBam definition that hold a value instead of a template.
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 use crate::number::NumberFormat;
 
@@ -98,7 +98,7 @@ pub(super) enum Refusal {
     /// No option has that name.
     Unknown,
     /// The value is not one of these.
-    Expected(&'static str),
+    Expected(&'static Text),
 }
 
 /// An element that holds a value.
@@ -112,7 +112,7 @@ pub(super) struct ElementOption {
     /// Whether CamBam does not know it.
     pub(super) is_own: bool,
     /// What it sets, for the book.
-    pub(super) about: Word,
+    pub(super) about: Text,
 }
 
 /// The elements that hold values.
@@ -122,70 +122,70 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.number_format, pattern(v.trim())),
         default: "0.0###",
         is_own: false,
-        about: Word { en: "pattern of all numbers", de: "Muster aller Zahlen" },
+        about: Text { en: "pattern of all numbers", de: "Muster aller Zahlen" },
     },
     ElementOption {
         element: "EndOfLine",
         set: |o, v| put(&mut o.end_of_line, end_of_line(v)),
         default: "\\r\\n",
         is_own: false,
-        about: Word { en: "line ends", de: "Zeilenenden" },
+        about: Text { en: "line ends", de: "Zeilenenden" },
     },
     ElementOption {
         element: "UpperCase",
         set: |o, v| put(&mut o.upper_case, boolean(v.trim())),
         default: "false",
         is_own: false,
-        about: Word { en: "whether lines are written in capitals", de: "ob Zeilen groß geschrieben werden" },
+        about: Text { en: "whether lines are written in capitals", de: "ob Zeilen groß geschrieben werden" },
     },
     ElementOption {
         element: "AddLineNumbers",
         set: |o, v| put(&mut o.add_line_numbers, boolean(v.trim())),
         default: "false",
         is_own: false,
-        about: Word { en: "whether lines are numbered", de: "ob Zeilen nummeriert werden" },
+        about: Text { en: "whether lines are numbered", de: "ob Zeilen nummeriert werden" },
     },
     ElementOption {
         element: "LineNumberStart",
         set: |o, v| put(&mut o.numbering.start, count(v.trim())),
         default: "1",
         is_own: false,
-        about: Word { en: "first number", de: "erste Nummer" },
+        about: Text { en: "first number", de: "erste Nummer" },
     },
     ElementOption {
         element: "LineNumberIncrement",
         set: |o, v| put(&mut o.numbering.increment, count(v.trim())),
         default: "1",
         is_own: false,
-        about: Word { en: "from one number to the next", de: "von einer Nummer zur nächsten" },
+        about: Text { en: "from one number to the next", de: "von einer Nummer zur nächsten" },
     },
     ElementOption {
         element: "LineNumberPrefix",
         set: |o, v| put(&mut o.numbering.prefix, Ok(v.trim().into())),
         default: "N",
         is_own: false,
-        about: Word { en: "text in front of the number", de: "Text vor der Nummer" },
+        about: Text { en: "text in front of the number", de: "Text vor der Nummer" },
     },
     ElementOption {
         element: "LineNumberFormat",
         set: |o, v| put(&mut o.numbering.format, pattern(v.trim())),
         default: "0",
         is_own: false,
-        about: Word { en: "pattern of the number", de: "Muster der Nummer" },
+        about: Text { en: "pattern of the number", de: "Muster der Nummer" },
     },
     ElementOption {
         element: "LineNumberSpaceAfter",
         set: |o, v| put(&mut o.numbering.space_after, boolean(v.trim())),
         default: "true",
         is_own: false,
-        about: Word { en: "whether a blank follows the number", de: "ob der Nummer ein Leerzeichen folgt" },
+        about: Text { en: "whether a blank follows the number", de: "ob der Nummer ein Leerzeichen folgt" },
     },
     ElementOption {
         element: "LineNumberSkip",
         set: |o, v| put(&mut o.numbering.skip, Ok(v.trim().into())),
         default: "%O(:;",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "lines that begin with one of these have no number",
             de: "Zeilen mit einem dieser Anfänge haben keine Nummer",
         },
@@ -195,14 +195,14 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.arcs_as_lines, arc_output(v.trim())),
         default: "Normal",
         is_own: false,
-        about: Word { en: "whether arcs become lines", de: "ob Bögen zu Strecken werden" },
+        about: Text { en: "whether arcs become lines", de: "ob Bögen zu Strecken werden" },
     },
     ElementOption {
         element: "ArcCenterMode",
         set: |o, v| put(&mut o.absolute_centres, centre_mode(v.trim())),
         default: "Incremental",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "whether I and J are places or distances",
             de: "ob I und J Orte oder Abstände sind",
         },
@@ -212,7 +212,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.arc_tolerance, positive(v.trim())),
         default: "0.01",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "greatest distance of a line from its arc, in the program's unit",
             de: "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms",
         },
@@ -222,21 +222,27 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.least_arc_length, length(v.trim())),
         default: "0.0001",
         is_own: false,
-        about: Word { en: "shorter arcs become lines", de: "kürzere Bögen werden Strecken" },
+        about: Text { en: "shorter arcs become lines", de: "kürzere Bögen werden Strecken" },
     },
     ElementOption {
         element: "MaximumArcRadius",
         set: |o, v| put(&mut o.greatest_arc_radius, positive(v.trim())),
         default: "1000000",
         is_own: false,
-        about: Word { en: "larger arcs become lines", de: "größere Bögen werden Strecken" },
+        about: Text { en: "larger arcs become lines", de: "größere Bögen werden Strecken" },
     },
     ElementOption {
         element: "ClearancePlaneAxis",
-        set: |_, v| choice(v.trim(), "Z: lathes are not supported", &[("Z", ())]),
+        set: |_, v| {
+            choice(
+                v.trim(),
+                &Text { en: "Z: lathes are not supported", de: "Z: Drehmaschinen werden nicht unterstützt" },
+                &[("Z", ())],
+            )
+        },
         default: "Z",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "only this value: lathes are not supported",
             de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
         },
@@ -246,7 +252,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.invert_arcs, boolean(v.trim())),
         default: "false",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "whether arcs in G18 turn the other way",
             de: "ob Bögen in G18 andersherum drehen",
         },
@@ -256,7 +262,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.rapid_down, boolean(v.trim())),
         default: "true",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "whether the way down to the clearance plane is a rapid move",
             de: "ob der Weg abwärts zur Sicherheitsebene ein Eilgang ist",
         },
@@ -266,27 +272,45 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.suppress_parser_errors, boolean(v.trim())),
         default: "false",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "whether lines that are no G-code pass without a warning",
             de: "ob Zeilen, die kein G-Code sind, ohne Warnung bleiben",
         },
     },
     ElementOption {
         element: "LatheXMode",
-        set: |_, v| choice(v.trim(), "Radius: lathes are not supported", &[("Radius", ())]),
+        set: |_, v| {
+            choice(
+                v.trim(),
+                &Text {
+                    en: "Radius: lathes are not supported",
+                    de: "Radius: Drehmaschinen werden nicht unterstützt",
+                },
+                &[("Radius", ())],
+            )
+        },
         default: "Radius",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "only this value: lathes are not supported",
             de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
         },
     },
     ElementOption {
         element: "LatheToolRadiusOffset",
-        set: |_, v| choice(v.trim(), "false: lathes are not supported", &[("false", ())]),
+        set: |_, v| {
+            choice(
+                v.trim(),
+                &Text {
+                    en: "false: lathes are not supported",
+                    de: "false: Drehmaschinen werden nicht unterstützt",
+                },
+                &[("false", ())],
+            )
+        },
         default: "false",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "only this value: lathes are not supported",
             de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
         },
@@ -296,7 +320,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.rotary.wrap, boolean(v.trim())),
         default: "false",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "whether paths are wrapped round a cylinder",
             de: "ob Pfade um einen Zylinder gewickelt werden",
         },
@@ -306,28 +330,37 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.rotary.along, axis(v.trim())),
         default: "X",
         is_own: false,
-        about: Word { en: "the axis along the cylinder", de: "die Achse längs des Zylinders" },
+        about: Text { en: "the axis along the cylinder", de: "die Achse längs des Zylinders" },
     },
     ElementOption {
         element: "AxisOfSpin",
         set: |o, v| put(&mut o.rotary.along, axis(v.trim())),
         default: "X",
         is_own: false,
-        about: Word { en: "the same, as the manual calls it", de: "dasselbe, wie das Handbuch es nennt" },
+        about: Text { en: "the same, as the manual calls it", de: "dasselbe, wie das Handbuch es nennt" },
     },
     ElementOption {
         element: "RotaryAxis",
-        set: |o, v| put(&mut o.rotary.letter, choice(v.trim(), "A, B or C", &[("A", 0), ("B", 1), ("C", 2)])),
+        set: |o, v| {
+            put(
+                &mut o.rotary.letter,
+                choice(
+                    v.trim(),
+                    &Text { en: "A, B or C", de: "A, B oder C" },
+                    &[("A", 0), ("B", 1), ("C", 2)],
+                ),
+            )
+        },
         default: "A",
         is_own: false,
-        about: Word { en: "the letter of the angle", de: "der Buchstabe des Winkels" },
+        about: Text { en: "the letter of the angle", de: "der Buchstabe des Winkels" },
     },
     ElementOption {
         element: "PostBuildCommand",
         set: |o, v| put(&mut o.post_build_command, Ok(v.trim().into())),
         default: "",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "program that is run on the file, with `--run-post-build` alone",
             de: "Programm, das die Datei bearbeitet, nur mit `--run-post-build`",
         },
@@ -337,7 +370,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.post_build_arguments, Ok(v.trim().into())),
         default: "",
         is_own: false,
-        about: Word {
+        about: Text {
             en: "its arguments; no shell reads them",
             de: "seine Argumente; keine Shell liest sie",
         },
@@ -347,14 +380,14 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |_, _| Ok(()),
         default: "",
         is_own: false,
-        about: Word { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
+        about: Text { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
     },
     ElementOption {
         element: "Dialect",
         set: |o, v| put(&mut o.dialect, Ok((!v.trim().is_empty()).then(|| v.trim().into()))),
         default: "",
         is_own: true,
-        about: Word {
+        about: Text {
             en: "the dialect in which the output is read back",
             de: "der Dialekt, in dem die Ausgabe zurückgelesen wird",
         },
@@ -364,13 +397,13 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |o, v| put(&mut o.extension, extension(v.trim())),
         default: "nc",
         is_own: true,
-        about: Word { en: "extension of the files that are written", de: "Endung der geschriebenen Dateien" },
+        about: Text { en: "extension of the files that are written", de: "Endung der geschriebenen Dateien" },
     },
 ];
 
 impl ElementOption {
     /// What it takes, if not any text.
-    pub(super) fn expected(&self) -> Option<&'static str> {
+    pub(super) fn expected(&self) -> Option<&'static Text> {
         // No element that takes certain values takes this one.
         match (self.set)(&mut Options::default(), "\u{1}") {
             Err(Refusal::Expected(expected)) => Some(expected),
@@ -395,43 +428,59 @@ fn put<T>(option: &mut T, value: Read<T>) -> Read<()> {
 }
 
 /// Case and blanks do not count: files spell `Convert To Lines` in several ways.
-fn choice<T: Copy>(value: &str, expected: &'static str, choices: &[(&str, T)]) -> Read<T> {
+fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> Read<T> {
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
     let found = choices.iter().find(|(name, _)| plain(name) == plain(value));
     found.map(|(_, choice)| *choice).ok_or(Refusal::Expected(expected))
 }
 
 fn axis(value: &str) -> Read<usize> {
-    choice(value, "X or Y", &[("X", 0), ("Y", 1)])
+    choice(value, &Text { en: "X or Y", de: "X oder Y" }, &[("X", 0), ("Y", 1)])
 }
 
 fn boolean(value: &str) -> Read<bool> {
-    choice(value, "true or false", &[("true", true), ("false", false)])
+    choice(value, &Text { en: "true or false", de: "true oder false" }, &[("true", true), ("false", false)])
 }
 
 fn arc_output(value: &str) -> Read<bool> {
-    choice(value, "Normal or ConvertToLines", &[("Normal", false), ("ConvertToLines", true)])
+    choice(
+        value,
+        &Text { en: "Normal or ConvertToLines", de: "Normal oder ConvertToLines" },
+        &[("Normal", false), ("ConvertToLines", true)],
+    )
 }
 
 fn centre_mode(value: &str) -> Read<bool> {
-    choice(value, "Absolute or Incremental", &[("Absolute", true), ("Incremental", false)])
+    choice(
+        value,
+        &Text { en: "Absolute or Incremental", de: "Absolute oder Incremental" },
+        &[("Absolute", true), ("Incremental", false)],
+    )
 }
 
 fn pattern(value: &str) -> Read<NumberFormat> {
-    value.parse().map_err(|()| Refusal::Expected("a pattern of 0, # and at most one point"))
+    value.parse().map_err(|()| {
+        Refusal::Expected(&Text {
+            en: "a pattern of 0, # and at most one point",
+            de: "ein Muster aus 0, # und höchstens einem Punkt",
+        })
+    })
 }
 
 fn count(value: &str) -> Read<u32> {
-    value.parse().map_err(|_| Refusal::Expected("a whole number"))
+    value.parse().map_err(|_| Refusal::Expected(&Text { en: "a whole number", de: "eine ganze Zahl" }))
 }
 
 fn length(value: &str) -> Read<f64> {
     let number = value.parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
-    number.ok_or(Refusal::Expected("a number from 0"))
+    number.ok_or(Refusal::Expected(&Text { en: "a number from 0", de: "eine Zahl ab 0" }))
 }
 
 fn positive(value: &str) -> Read<f64> {
-    length(value).ok().filter(|length| *length > 0.0).ok_or(Refusal::Expected("a number above 0"))
+    length(value)
+        .ok()
+        .filter(|length| *length > 0.0)
+        .ok_or(Refusal::Expected(&Text { en: "a number above 0", de: "eine Zahl über 0" }))
 }
 
 /// `\r` and `\n` stand for themselves or for the characters that they name. Signs may stand in front, such as ` *` or `;`, but no words.
@@ -441,7 +490,10 @@ fn end_of_line(text: &str) -> Read<Box<str>> {
     let end = &value[sign.len()..];
     let is_sign = sign.len() <= 8 && sign.chars().all(|c| c.is_ascii_punctuation() || c == ' ');
     if !is_sign || end.is_empty() || end.len() > 2 {
-        return Err(Refusal::Expected("made of \\r and \\n, with at most signs in front"));
+        return Err(Refusal::Expected(&Text {
+            en: "made of \\r and \\n, with at most signs in front",
+            de: "aus \\r und \\n, davor höchstens Zeichen",
+        }));
     }
     // Blanks in front of a sign belong to it.
     let blanks = if sign.is_empty() { 0 } else { text.len() - text.trim_start_matches([' ', '\t']).len() };
@@ -449,5 +501,6 @@ fn end_of_line(text: &str) -> Read<Box<str>> {
 }
 
 fn extension(value: &str) -> Read<Box<str>> {
-    crate::extension(value).ok_or(Refusal::Expected("a file name's extension"))
+    crate::extension(value)
+        .ok_or(Refusal::Expected(&Text { en: "a file name's extension", de: "die Endung eines Dateinamens" }))
 }

@@ -107,15 +107,17 @@ impl<'a> Plan<'a> {
         let users = users.take(MOST_COMPARED);
         let bare = name.split('(').next().unwrap_or(name);
         let diagnostic = match nearest(bare, users).or_else(|| Macro::nearest(bare)) {
-            Some(nearest) => Diagnostic::new(&posts::UNKNOWN_MACRO_NEAREST).with("nearest", framed(nearest)),
+            Some(nearest) => {
+                Diagnostic::new(&posts::UNKNOWN_MACRO_NEAREST).quoting("nearest", framed(nearest))
+            }
             None => Diagnostic::new(&posts::UNKNOWN_MACRO),
         };
-        self.locate(diagnostic.with("macro", framed(name)), section, line)
+        self.locate(diagnostic.quoting("macro", framed(name)), section, line)
     }
 
     /// Puts a diagnostic where the definition has what it is about.
     pub(super) fn locate(&self, diagnostic: Diagnostic, section: Section, line: u32) -> Diagnostic {
-        let diagnostic = diagnostic.with("section", section.name()).in_file(self.file);
+        let diagnostic = diagnostic.quoting("section", section.name()).in_file(self.file);
         if line > 0 { diagnostic.at_line(line, None) } else { diagnostic }
     }
 }

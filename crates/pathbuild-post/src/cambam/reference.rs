@@ -1,6 +1,6 @@
 //! The language of CamBam definitions as tables for the book. (book: reference/post-definitions)
 
-use pathbuild_diagnostic::{Lang, Word};
+use pathbuild_diagnostic::{Lang, Text};
 
 use super::macros::Macro;
 use super::names::{FIXED, WITH};
@@ -22,7 +22,12 @@ pub(crate) fn options(lang: Lang) -> Vec<Row> {
     let row = |option: &super::options::ElementOption| {
         let own = if option.is_own { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
         let about = format!("{own}{}", option.about.in_lang(lang));
-        vec![code(option.element), option.expected().unwrap_or("").to_owned(), code(option.default), about]
+        vec![
+            code(option.element),
+            option.expected().map_or("", |text| text.in_lang(lang)).to_owned(),
+            code(option.default),
+            about,
+        ]
     };
     OPTIONS.iter().map(row).collect()
 }
@@ -33,17 +38,17 @@ pub(crate) fn macros(lang: Lang) -> Vec<Row> {
 }
 
 /// Macros with arguments: name, what it takes.
-pub(crate) fn macros_with_arguments() -> Vec<Row> {
+pub(crate) fn macros_with_arguments(lang: Lang) -> Vec<Row> {
     WITH.iter()
-        .map(|with| vec![code(&format!("{{${}(...)}}", with.name)), with.expected.to_owned()])
+        .map(|with| vec![code(&format!("{{${}(...)}}", with.name)), with.expected.in_lang(lang).to_owned()])
         .collect()
 }
 
-const OWN: Word = Word { en: "pathbuild's own", de: "Zusatz von pathbuild" };
-const TEXT_OF: Word = Word { en: "the text of the element", de: "der Text des Elements" };
-const SPEED: Word =
-    Word { en: "`S` with the speed, where one is given", de: "`S` mit der Drehzahl, wo eine vorliegt" };
-const OPEN: Word = Word { en: "; a user macro may give it", de: "; ein eigenes Makro kann es angeben" };
+const OWN: Text = Text { en: "pathbuild's own", de: "Zusatz von pathbuild" };
+const TEXT_OF: Text = Text { en: "the text of the element", de: "der Text des Elements" };
+const SPEED: Text =
+    Text { en: "`S` with the speed, where one is given", de: "`S` mit der Drehzahl, wo eine vorliegt" };
+const OPEN: Text = Text { en: "; a user macro may give it", de: "; ein eigenes Makro kann es angeben" };
 
 fn meaning(what: &Macro, lang: Lang) -> String {
     match what {

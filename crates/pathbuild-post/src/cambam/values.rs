@@ -90,9 +90,9 @@ impl Writer<'_> {
         }
         let message = if value.is_open() { &posts::VALUE_MISSING_OPEN } else { &posts::VALUE_MISSING };
         let diagnostic = Diagnostic::new(message)
-            .with("macro", framed(value.name()))
-            .with("name", value.name())
-            .with("operation", &*self.operation().name);
+            .quoting("macro", framed(value.name()))
+            .quoting("name", value.name())
+            .quoting("operation", &*self.operation().name);
         Err(Box::new(self.plan.locate(diagnostic, section, line)))
     }
 }

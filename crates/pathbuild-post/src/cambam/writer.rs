@@ -240,7 +240,7 @@ impl<'a> Writer<'a> {
     fn program(&mut self, block: Block, section: Section, line: u32) -> Written {
         if self.open.contains(&block) {
             let name = if block == Block::Mops { "mops" } else { "blocks" };
-            let diagnostic = Diagnostic::new(&posts::BLOCK_WITHIN_ITSELF).with("macro", framed(name));
+            let diagnostic = Diagnostic::new(&posts::BLOCK_WITHIN_ITSELF).quoting("macro", framed(name));
             return Err(Box::new(self.plan.locate(diagnostic, section, line)));
         }
         self.open.push(block);
@@ -329,8 +329,9 @@ impl<'a> Writer<'a> {
     /// Adds a text of a drawing, a file name or an option, so that no control acts on it.
     pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> Written {
         let Some(text) = self.guard.put(&self.line.text, text) else {
-            let diagnostic =
-                Diagnostic::new(&posts::TEXT_AMONG_WORDS).with("macro", framed(name)).with("text", text);
+            let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS)
+                .quoting("macro", framed(name))
+                .quoting("text", text);
             return Err(Box::new(self.plan.locate(diagnostic, section, line)));
         };
         self.text(&text)
@@ -358,7 +359,7 @@ impl<'a> Writer<'a> {
         let code = self.plan.target.map_or(text.len(), |target| target.code_length(&text));
         let found = words(&text[..code], &self.marks);
         if found.has_more && !self.plan.definition.options.suppress_parser_errors {
-            self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).with("line", text.as_str()));
+            self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).quoting("line", text.as_str()));
         }
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
@@ -382,9 +383,9 @@ impl<'a> Writer<'a> {
         let rotary = self.plan.definition.options.rotary;
         let axis = Register::AXES[1 - rotary.along].letter();
         if rotary.wrap && self.fault.is_none() && found.words.iter().any(|word| word.letter == axis) {
-            let diagnostic = Diagnostic::new(&posts::REPLACED_AXIS_WRITTEN).with("axis", axis.to_string());
-            let diagnostic = diagnostic.with("angle", ROTARY[rotary.letter].letter().to_string());
-            self.fault = Some(Box::new(diagnostic.with("line", line).in_file(self.plan.file)));
+            let diagnostic = Diagnostic::new(&posts::REPLACED_AXIS_WRITTEN).quoting("axis", axis.to_string());
+            let diagnostic = diagnostic.quoting("angle", ROTARY[rotary.letter].letter().to_string());
+            self.fault = Some(Box::new(diagnostic.quoting("line", line).in_file(self.plan.file)));
         }
     }
 

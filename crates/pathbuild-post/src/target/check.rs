@@ -71,14 +71,14 @@ impl Checker<'_> {
         if self.errors.len() >= MOST_ERRORS {
             return;
         }
-        let diagnostic = diagnostic.with("dialect", self.target.name).with("line", self.number);
+        let diagnostic = diagnostic.quoting("dialect", self.target.name).with("line", self.number);
         let diagnostic = diagnostic.at_line(u32::try_from(self.number).unwrap_or(u32::MAX), None);
         self.errors.push(diagnostic.with_text(TextFault::new(self.line, span)));
     }
 
     fn reject(&mut self, span: Range<usize>) {
         let word = self.line[span.clone()].trim().to_owned();
-        self.report(Diagnostic::new(&posts::WORD_REJECTED).with("word", word), span);
+        self.report(Diagnostic::new(&posts::WORD_REJECTED).quoting("word", word), span);
     }
 
     /// Some bytes act wherever they stand.

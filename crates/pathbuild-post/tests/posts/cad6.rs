@@ -463,7 +463,7 @@ struct Files(BTreeMap<&'static str, &'static [u8]>);
 
 impl PostFiles for Files {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
-        self.0.get(path.as_str()).map(|content| content.to_vec()).ok_or(Value::Word(&NO_FILE))
+        self.0.get(path.as_str()).map(|content| content.to_vec()).ok_or(Value::Prose(&NO_FILE))
     }
 }
 

@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::Lang;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, Word};
+use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value};
 
 use super::kinds::number::number_from_text;
 use super::kinds::pattern::{regex_fault, split_restriction};
@@ -25,7 +25,7 @@ pub struct SettingOption {
     /// The values it takes.
     pub values: OptionValues,
     /// Its help.
-    pub help: Word,
+    pub help: Text,
 }
 
 /// The values that an option takes, with their name in the help.
@@ -117,16 +117,16 @@ fn restriction(name: &str, text: &str) -> Result<Restriction, Box<Diagnostic>> {
     }
 }
 
-fn invalid(name: &str, text: &str, expected: &'static Word) -> Diagnostic {
+fn invalid(name: &str, text: &str, expected: &'static Text) -> Diagnostic {
     let fault = fault(&messages::INVALID_VALUE, name, text);
-    fault.with("expected", Value::Word(expected)).with("found", text)
+    fault.with("expected", Value::Prose(expected)).quoting("found", text)
 }
 
 fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
     let option = format!("--{name}");
     let shown = format!("{option}={text}");
     let span = option.len() + 1..shown.len();
-    Diagnostic::new(message).with("key", option).with_text(TextFault::new(&shown, span))
+    Diagnostic::new(message).quoting("key", option).with_text(TextFault::new(&shown, span))
 }
 
 /// Validates options and collects the diagnostics.

@@ -101,9 +101,10 @@ pub(super) fn confining<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a
 fn misplaced_input(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {
     let message =
         if used.is_some() { &messages::OTHER_CONFIGURATION } else { &messages::UNEXPECTED_CONFIGURATION };
-    let diagnostic = Diagnostic::new(message).with("argument", place.as_str()).with("other", other.as_str());
+    let diagnostic =
+        Diagnostic::new(message).quoting("argument", place.as_str()).quoting("other", other.as_str());
     match used {
-        Some(used) => diagnostic.with("used", used.as_str()),
+        Some(used) => diagnostic.quoting("used", used.as_str()),
         None => diagnostic,
     }
 }

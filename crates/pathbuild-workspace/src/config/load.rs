@@ -3,8 +3,8 @@ use std::sync::Arc;
 use camino::Utf8Path;
 use pathbuild_db::System;
 use pathbuild_db::system::ConfinedSystem;
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use toml::de::DeTable;
 
 use super::arguments::Overrides;
@@ -118,5 +118,5 @@ pub(super) fn read_table<T: Default>(
 
 fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
     let reason = error.message().lines().next().unwrap_or_default();
-    source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", reason)
+    source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", Value::foreign(reason))
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{ConfinedSystem, spelt};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Value, Word};
+use pathbuild_diagnostic::{Diagnostic, Message, Text, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -39,7 +39,7 @@ pub(super) enum LimitedKind {
 }
 
 impl LimitedKind {
-    fn most(self) -> (u64, &'static Word) {
+    fn most(self) -> (u64, &'static Text) {
         match self {
             Self::Regex => (400, &messages::REGEXES),
             Self::Glob => (10_000, &messages::GLOBS),
@@ -96,7 +96,7 @@ impl<'a> TomlReader<'a> {
             None => Some(path),
             Some(confined) => {
                 let fault = self.fault(&messages::OUTSIDE, value.span());
-                self.report(fault.with("root", confined.root().as_str()));
+                self.report(fault.quoting("root", confined.root().as_str()));
                 None
             }
         }
@@ -123,13 +123,13 @@ impl<'a> TomlReader<'a> {
 
     /// Reports that the table being read lacks a key.
     pub(super) fn missing(&mut self, name: &'static str, span: Range<usize>) {
-        let fault = self.fault(&messages::MISSING_KEY, span).with("missing", name);
+        let fault = self.fault(&messages::MISSING_KEY, span).quoting("missing", name);
         self.report(fault);
     }
 
     /// A diagnostic at a span, with the current key filled in.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
-        self.source.fault(message, span).with("key", self.key.as_str())
+        self.source.fault(message, span).quoting("key", self.key.as_str())
     }
 
     /// Counts another value of this kind. Returns whether the limit still permits it. Exceeding the limit is reported only once.
@@ -156,7 +156,7 @@ impl<'a> TomlReader<'a> {
         let fault = self
             .fault(&messages::INVALID_VALUE, value.span())
             .with("expected", expected)
-            .with("found", found);
+            .quoting("found", found);
         self.report(fault);
         None
     }
@@ -165,7 +165,7 @@ impl<'a> TomlReader<'a> {
     pub(super) fn text<'v>(&mut self, value: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
         match value.get_ref().as_str() {
             Some(text) => Some(text),
-            None => self.expected(Value::Word(&messages::TEXT), value),
+            None => self.expected(Value::Prose(&messages::TEXT), value),
         }
     }
 
@@ -214,7 +214,7 @@ impl<'a> Table<'_, '_, 'a> {
     pub(super) fn report_raised(&mut self, name: &'static str, default: &str) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
-        let fault = self.reader.fault(&messages::RAISED_LIMIT, value.span()).with("default", default);
+        let fault = self.reader.fault(&messages::RAISED_LIMIT, value.span()).quoting("default", default);
         self.reader.report(fault);
     }
 
@@ -229,7 +229,7 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.key = format!("{}{name}", self.prefix);
         match value.get_ref().as_table() {
             Some(table) => self.reader.table(table, &format!("{}{name}.", self.prefix), read),
-            None => self.reader.expected(Value::Word(&messages::TABLE), value).unwrap_or_default(),
+            None => self.reader.expected(Value::Prose(&messages::TABLE), value).unwrap_or_default(),
         }
     }
 
@@ -248,7 +248,7 @@ impl<'a> Table<'_, '_, 'a> {
             self.reader.key = format!("{}{}", self.prefix, short(key.get_ref()));
             let replaced = REPLACED.iter().find(|(old, _)| old == key.get_ref());
             if let Some((_, new)) = replaced.filter(|(_, new)| self.known.contains(new)) {
-                let fault = self.reader.fault(&messages::REPLACED_KEY, key.span()).with("new", *new);
+                let fault = self.reader.fault(&messages::REPLACED_KEY, key.span()).quoting("new", *new);
                 self.reader.report(fault);
                 continue;
             }
@@ -265,7 +265,7 @@ impl<'a> Table<'_, '_, 'a> {
             return placed(fault, &home, &messages::KEY_OF_TABLE, &messages::KEY_OF_TOP);
         }
         if let Some(near) = nearest(name, self.known.iter().copied()) {
-            return fault(&messages::UNKNOWN_KEY).with("near", near);
+            return fault(&messages::UNKNOWN_KEY).quoting("near", near);
         }
         match home {
             Some(home) => placed(fault, &home, &messages::NEAR_KEY_OF_TABLE, &messages::NEAR_KEY_OF_TOP),
@@ -282,7 +282,7 @@ fn placed(
     of_top: &'static Message,
 ) -> Diagnostic {
     match home.header {
-        Some(header) => fault(of_table).with("near", home.key).with("table", header),
-        None => fault(of_top).with("near", home.key),
+        Some(header) => fault(of_table).quoting("near", home.key).quoting("table", header),
+        None => fault(of_top).quoting("near", home.key),
     }
 }

@@ -2,7 +2,8 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use globset::{GlobBuilder, GlobSet};
-use pathbuild_diagnostic::{Code, Lang, Severity};
+use pathbuild_diagnostic::limits::text_too_long;
+use pathbuild_diagnostic::{Code, Lang, Severity, Value};
 use pathbuild_path::LineType;
 
 /// Declares a choice: an enum with the texts that stand for its variants.
@@ -158,15 +159,15 @@ impl Pattern {
     ///
     /// # Errors
     /// A description of the error.
-    pub fn new(text: &str) -> Result<Self, String> {
+    pub fn new(text: &str) -> Result<Self, Value> {
         if text.len() > LONGEST {
-            return Err(format!("it is longer than {LONGEST} bytes"));
+            return Err(text_too_long(LONGEST).into());
         }
         let glob = GlobBuilder::new(text).literal_separator(true).case_insensitive(true).build();
         // Build a set because a single matcher would panic where a set returns an error: if the expression is too large or its braces are
         // nested too deep.
         let set = glob.and_then(|glob| GlobSet::builder().add(glob).build());
-        set.map(|set| Self { text: text.into(), set }).map_err(|error| error.kind().to_string())
+        set.map(|set| Self { text: text.into(), set }).map_err(|error| Value::foreign(error.kind()))
     }
 
     /// Whether a name matches.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::WriteOutcome;
 use pathbuild_db::{Database, System, program};
+use pathbuild_diagnostic::limits::{exceeded, moves_cut};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Note, Point, Severity, Value};
 use pathbuild_gcode::native::{self, probe_name};
@@ -188,9 +189,9 @@ pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
 /// PB005: the output file is too large. Files on disk are not read beyond this limit either.
 fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
-        .with("name", output.path.file_name().unwrap_or_default())
+        .quoting("name", output.path.file_name().unwrap_or_default())
         .with("limit", writing.most_bytes)
-        .with("key", "output-size")
+        .quoting("key", "output-size")
         .in_file(job.drawing(db).path(db))
         .in_path(&job.path)
 }
@@ -293,11 +294,9 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     // The limit is defined for moves that each have a comment; these steps have none.
     let size = memory(steps) / 2;
     if moves > writing.most_moves {
-        let problem = Diagnostic::new(&files::LIMIT).with("key", "embedding-moves");
-        let what = format!("the number of moves, cut by z-split ({moves}),");
-        Some(problem.with("what", what).with("limit", writing.most_moves))
+        Some(exceeded(moves_cut(moves), writing.most_moves, "embedding-moves"))
     } else if size > writing.most_memory {
-        let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).with("key", "program-memory");
+        let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).quoting("key", "program-memory");
         Some(problem.with("count", moves).with("size", size).with("limit", writing.most_memory))
     } else {
         None
@@ -374,7 +373,7 @@ fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Ite
     let unused = native::unused_probes(program, correction).into_iter();
     unused.map(|probe| Diagnostic {
         severity: Severity::Warning,
-        ..Diagnostic::new(&probes::WILL_BE_UNUSED).with("probe", probe_name(&program.probes[probe]))
+        ..Diagnostic::new(&probes::WILL_BE_UNUSED).quoting("probe", probe_name(&program.probes[probe]))
     })
 }
 
@@ -382,7 +381,7 @@ fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Ite
 fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     let (number, line) = (1_u64..).zip(text.split('\n')).find(|(_, line)| line.len() > LONGEST_LINE)?;
     let problem = Diagnostic::new(&files::OUTPUT_LINE_TOO_LONG).with("line", number);
-    let problem = problem.with("name", path.file_name().unwrap_or_default());
+    let problem = problem.quoting("name", path.file_name().unwrap_or_default());
     Some(problem.with("length", line.len()).with("limit", LONGEST_LINE))
 }
 
@@ -430,7 +429,7 @@ fn write<'a>(
     if !force && let Some(lost) = values.find(|output| would_lose_values(system, output)) {
         let name = lost.path.file_name().unwrap_or_default();
         return Err(Box::new(
-            Diagnostic::new(&probes::VALUES_PRESENT).with("name", name).in_file(&lost.path),
+            Diagnostic::new(&probes::VALUES_PRESENT).quoting("name", name).in_file(&lost.path),
         ));
     }
     for (output, hash) in outputs {
@@ -471,5 +470,5 @@ fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
 
 /// PB004: a file cannot be written.
 pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
-    Diagnostic::new(&files::CANNOT_WRITE).with("name", name).with("reason", reason)
+    Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
 }

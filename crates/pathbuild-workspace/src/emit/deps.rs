@@ -36,7 +36,7 @@ pub(super) fn write(
         let sources = sources.chain(configuration.as_deref()).chain(post.as_deref());
         let sources: Vec<&Utf8Path> = sources.chain(inserted.iter().map(Utf8PathBuf::as_path)).collect();
         if let Some(name) = outputs.iter().chain(&sources).find(|name| has_no_spelling(name.as_str())) {
-            let problem = Diagnostic::new(&messages::UNNAMEABLE).with("name", name.as_str());
+            let problem = Diagnostic::new(&messages::UNNAMEABLE).quoting("name", name.as_str());
             return Some(problem.in_file(&file));
         }
         let all = |names: &[&Utf8Path]| names.iter().map(|name| escaped(name)).collect::<Vec<_>>().join(" ");

@@ -68,9 +68,9 @@ impl Job {
         if let Some(other) = other {
             let name = format!("{} ({})", other.name(db), other.file(db).path(db));
             let problem = Diagnostic::new(&messages::SAME_OUTPUT)
-                .with("name", self.files[0].1.file_name().unwrap_or_default())
-                .with("first", name)
-                .with("second", self.name(session))
+                .quoting("name", self.files[0].1.file_name().unwrap_or_default())
+                .quoting("first", name)
+                .quoting("second", self.name(session))
                 .in_file(self.drawing(db).path(db));
             diagnostics.push(problem);
             return false;
@@ -240,9 +240,9 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
         if owners.iter().any(|owner| !refused.contains(owner)) {
             let db = session.db();
             let problem = Diagnostic::new(&messages::SAME_OUTPUT)
-                .with("name", path.file_name().unwrap_or_default())
-                .with("first", jobs[owners[0]].name(session))
-                .with("second", jobs[owners[1]].name(session))
+                .quoting("name", path.file_name().unwrap_or_default())
+                .quoting("first", jobs[owners[0]].name(session))
+                .quoting("second", jobs[owners[1]].name(session))
                 .in_file(jobs[owners[0]].drawing(db).path(db));
             diagnostics.push(problem);
         }
@@ -254,7 +254,7 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
 /// Joins a file name to a directory, unless the system forbids the name. `rest` is the part that does not stem from the drawing's name.
 fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if stem_fault(name, rest) {
-        return Err(Box::new(cannot_write(name, Value::Word(&NO_FILE_NAME))));
+        return Err(Box::new(cannot_write(name, Value::Prose(&NO_FILE_NAME))));
     }
     Ok(join(directory, name))
 }

@@ -88,8 +88,8 @@ impl Listings {
 
 fn older(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutcome {
     let problem = Diagnostic::new(&messages::OLDER_OUTPUT)
-        .with("name", program.file_name().unwrap_or_default())
-        .with("path", path)
+        .quoting("name", program.file_name().unwrap_or_default())
+        .quoting("path", path)
         .in_file(&program);
     let is_compared = matches!(task, Task::Compare { .. });
     let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();

@@ -6,7 +6,7 @@ use pathbuild_db::{
     Database, Role, SourceFile, Target, check_file, keep_outs, path_names, placed_keep_outs, traced_program,
 };
 use pathbuild_diagnostic::messages::outputs as messages;
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Diagnostic, Lang, Value};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::summary::cutting_box;
@@ -102,7 +102,7 @@ fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Ve
 fn no_path(db: &Database, file: SourceFile) -> Vec<Diagnostic> {
     let mut found = check_file(db, file).to_vec();
     if !found.iter().any(Diagnostic::is_error) {
-        let problem = Diagnostic::new(&messages::NO_PATH).with("pattern", "path-pattern");
+        let problem = Diagnostic::new(&messages::NO_PATH).quoting("pattern", "path-pattern");
         found.push(problem.in_file(file.path(db)));
     }
     found
@@ -173,7 +173,7 @@ pub(super) fn bytes(
 ///
 /// # Errors
 /// If it cannot be rendered: because of a bug, or because the program has no pictures.
-pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec<u8>, String> {
+pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec<u8>, Value> {
     match format {
         SheetFormat::No => Ok(Vec::new()),
         SheetFormat::Svg => Ok(view::sheet_svg(sheet, lang).into_bytes()),

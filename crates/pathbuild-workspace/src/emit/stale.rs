@@ -50,17 +50,19 @@ impl StaleProgram {
         let problem = match &self.reason {
             Reason::Left => Diagnostic::new(&messages::STALE),
             Reason::Adjusted { clean } => {
-                Diagnostic::new(&messages::STALE_ADJUSTED).with("clean", name(clean))
+                Diagnostic::new(&messages::STALE_ADJUSTED).quoting("clean", name(clean))
             }
-            Reason::Edited { clean } => Diagnostic::new(&messages::STALE_EDITED).with("clean", name(clean)),
+            Reason::Edited { clean } => {
+                Diagnostic::new(&messages::STALE_EDITED).quoting("clean", name(clean))
+            }
             Reason::OtherValues { values } => {
-                Diagnostic::new(&messages::STALE_VALUES).with("values", name(values))
+                Diagnostic::new(&messages::STALE_VALUES).quoting("values", name(values))
             }
             Reason::OtherMoves { program } => {
-                Diagnostic::new(&messages::STALE_OTHER_MOVES).with("program", name(program))
+                Diagnostic::new(&messages::STALE_OTHER_MOVES).quoting("program", name(program))
             }
         };
-        problem.with("name", name(&self.path)).in_file(&self.path)
+        problem.quoting("name", name(&self.path)).in_file(&self.path)
     }
 
     /// Whether the path exists but has other moves now; a comparison reports such a program as out of date.
@@ -95,7 +97,7 @@ pub(super) fn settle(
             Ok(()) => dealt.removed.push(stale.path),
             Err(reason) => {
                 let name = stale.path.file_name().unwrap_or_default();
-                let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", name);
+                let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", name);
                 diagnostics.push(problem.with("reason", reason).in_file(&stale.path));
             }
         }

@@ -34,7 +34,7 @@ impl<'a> TargetPatterns<'a> {
         let targets = &self.settings.emit.targets;
         let unmatched = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);
         unmatched.map(|(pattern, _)| {
-            let problem = Diagnostic::new(&messages::NO_TARGET).with("pattern", pattern.text());
+            let problem = Diagnostic::new(&messages::NO_TARGET).quoting("pattern", pattern.text());
             match (&self.settings.file, targets.origin) {
                 (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
                 _ => problem,

@@ -155,6 +155,6 @@ fn several_paths(file: &Utf8Path, names: &[PathName]) -> Diagnostic {
     let list: Value = names.iter().map(PathName::as_str).collect();
     Diagnostic::new(&messages::SEVERAL_PATHS)
         .with("names", list)
-        .with("first", names[0].as_str())
+        .quoting("first", names[0].as_str())
         .in_file(file)
 }

@@ -6,8 +6,8 @@ mod stats;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::summary::{Extent, cutting_box};
 use pathbuild_path::{PathName, PathSignature};
@@ -167,7 +167,7 @@ impl Request<'_> {
         listed.diagnostics.extend(unmade);
         let unmatched = arguments
             .unmatched(&listed.paths)
-            .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).with("name", text));
+            .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).quoting("name", text));
         listed.diagnostics.extend(unmatched);
         listed.diagnostics = session.with_hints(std::mem::take(&mut listed.diagnostics));
         listed
@@ -237,10 +237,10 @@ fn compare(
     problems
 }
 
-fn not_a_pattern(session: &Session<'_>, name: &str, reason: &str) -> String {
+fn not_a_pattern(session: &Session<'_>, name: &str, reason: &Value) -> String {
     let what =
         session.workspace().phrase("`{}` is not a pattern of names", "`{}` ist kein Muster für Namen", name);
-    format!("{what}: {reason}")
+    format!("{what}: {}", reason.render(session.workspace().lang()))
 }
 
 /// The resolved arguments.
@@ -255,7 +255,7 @@ impl ListArguments {
         for (input, text) in inputs.iter().zip(&inputs.inputs) {
             match input {
                 Input::Name(name) if !session.is_directory(name.into()) => {
-                    let wrong = |reason: String| not_a_pattern(session, name, &reason);
+                    let wrong = |reason: Value| not_a_pattern(session, name, &reason);
                     patterns.push(Pattern::new(name).map_err(wrong)?);
                 }
                 Input::Name(name) => places.inputs.push(format!("./{name}")),

@@ -4,9 +4,8 @@ use std::cell::RefCell;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::Value;
-use pathbuild_diagnostic::reasons::{IS_DIRECTORY, LEADS_OUT_OF_POST, NO_FILE};
+use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
 use pathbuild_post::PostFiles;
 
 /// Access to a directory and everything below it.
@@ -51,13 +50,8 @@ impl PostFiles for DirectoryFiles<'_> {
             system.canonical(if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory });
         let file = system.canonical(&directory.join(path));
         if !file.starts_with(&base) && file.is_absolute() {
-            return Err(Value::Word(&LEADS_OUT_OF_POST));
+            return Err(Value::Prose(&LEADS_OUT_OF_POST));
         }
-        system.read(&file, LARGEST).map_err(|error| match error {
-            ReadError::Missing => Value::Word(&NO_FILE),
-            ReadError::IsDirectory => Value::Word(&IS_DIRECTORY),
-            ReadError::TooLarge { size } => format!("it has {size} bytes").into(),
-            ReadError::Other(reason) => reason,
-        })
+        system.read(&file, LARGEST).map_err(|error| error.reason(LARGEST))
     }
 }

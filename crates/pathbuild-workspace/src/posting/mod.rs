@@ -18,7 +18,6 @@ use pathbuild_gcode::verify::{Machine, PostWords};
 use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable, samples};
 
 use crate::config::{Origin, types};
-use crate::files::unreadable;
 use crate::machine::machine;
 use crate::workspace::Workspace;
 
@@ -114,8 +113,10 @@ impl PostProcessor {
         let (post, definition, file) = if is_file_name(name) {
             let file = relative(&join(base, name), context);
             let limit = context.settings.limits.file_size.value;
-            let bytes =
-                context.system.read(&file, limit).map_err(|error| vec![unreadable(&file, &error, limit)])?;
+            let bytes = context
+                .system
+                .read(&file, limit)
+                .map_err(|error| vec![error.diagnostic(limit, "file-size").in_file(&file)])?;
             (Post::read(&bytes, &file)?, bytes, Some(file))
         } else {
             let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
@@ -272,7 +273,7 @@ impl PostProcessor {
         match &output.post_build {
             Some(command) if self.runs_no_command => {
                 let refusal = Diagnostic::new(&messages::POST_BUILD_REFUSED);
-                Err(vec![refusal.with("command", command.join(" "))])
+                Err(vec![refusal.quoting("command", command.join(" "))])
             }
             _ => Ok(output),
         }

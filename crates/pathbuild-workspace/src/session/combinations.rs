@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_db::{Role, SourceFile, Target, combinations, locate};
 use pathbuild_diagnostic::messages::variables as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault};
+use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
 
 use super::{CheckedTarget, Checker};
@@ -51,7 +51,10 @@ impl Checker<'_> {
         let diagnostic = merged.diagnostic.clone();
         let target = merged.first.target;
         let Role::CheckedWith(values) = target.role(self.db()) else { return diagnostic };
-        let named = vec![("values", shown(values).into()), ("name", (**target.name(self.db())).into())];
+        let named = vec![
+            ("values", Value::quoted(shown(values))),
+            ("name", Value::quoted(&**target.name(self.db()))),
+        ];
         match merged.count {
             count if count == all => diagnostic,
             1 => diagnostic.note(&messages::WITH_VALUES, named),

@@ -29,8 +29,8 @@ impl Session<'_> {
             |directory: &&Utf8PathBuf| !expected.contains(&self.db.system().kind(&self.normal(directory)));
         directories.value.iter().filter(is_missing).map(move |directory| {
             let problem = Diagnostic::new(&configuration::NO_DIRECTORY)
-                .with("key", key)
-                .with("directory", self.normal(directory).as_str());
+                .quoting("key", key)
+                .quoting("directory", self.normal(directory).as_str());
             match (&self.context.settings.file, directories.origin) {
                 (Some(file), Origin::File(line)) => problem.in_file(file).at_line(line, None),
                 _ => problem,
@@ -66,7 +66,7 @@ impl Session<'_> {
         (count > 0 && !self.is_compatible()).then(|| {
             Diagnostic::new(&messages::NO_PATH_ANYWHERE)
                 .with("count", count)
-                .with("pattern", &*self.context.settings.general.path_pattern.value)
+                .quoting("pattern", &*self.context.settings.general.path_pattern.value)
         })
     }
 
@@ -80,7 +80,7 @@ impl Session<'_> {
         let is_right = !result.names.is_empty() || result.diagnostics.iter().any(Diagnostic::is_error);
         (!is_right).then(|| {
             Diagnostic::new(&messages::NO_PATH)
-                .with("pattern", &*self.context.settings.general.path_pattern.value)
+                .quoting("pattern", &*self.context.settings.general.path_pattern.value)
                 .in_file(drawing)
         })
     }

@@ -10,9 +10,8 @@ use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_db::System;
 use pathbuild_db::system::{FileKind, ReadError, join};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::limits::line_too_long;
 use pathbuild_diagnostic::messages::files as messages;
-
-use crate::files::unreadable_by;
 
 /// The rules that apply in a directory: those of its own files, and those from above.
 #[derive(Debug)]
@@ -46,9 +45,9 @@ impl Budget {
     pub(super) fn exceeded(&self, root: &Utf8Path) -> Option<Box<Diagnostic>> {
         let problem = || {
             Diagnostic::new(&messages::TOO_MANY_RULES)
-                .with("directory", root.as_str())
+                .quoting("directory", root.as_str())
                 .with("limit", self.all())
-                .with("key", "ignore-file-size")
+                .quoting("key", "ignore-file-size")
         };
         self.is_exceeded().then(|| Box::new(problem()))
     }
@@ -123,7 +122,7 @@ fn patterns(
     let bytes = match system.read(&file, limit) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),
-        Err(error) => return Err(Box::new(unreadable_by(&file, &error, limit, "ignore-file-size"))),
+        Err(error) => return Err(Box::new(error.diagnostic(limit, "ignore-file-size").in_file(&file))),
     };
     budget.take(bytes.len());
     if budget.is_exceeded() {
@@ -133,8 +132,7 @@ fn patterns(
     let mut builder = GitignoreBuilder::new(directory);
     for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         if line.len() > LONGEST_LINE {
-            let reason = format!("a line is longer than {LONGEST_LINE} bytes");
-            let problem = Diagnostic::new(&messages::UNREADABLE).with("reason", reason);
+            let problem = Diagnostic::new(&messages::UNREADABLE).with("reason", line_too_long(LONGEST_LINE));
             return Err(Box::new(problem.in_file(&file).at_line(number, None)));
         }
         // Like Git, skip lines that are not valid patterns.

@@ -206,7 +206,7 @@ impl Directory {
         if !is_exact {
             let is_meant = is_directory || is_drawing(Utf8Path::new(name));
             if is_meant && self.counts(directory, name, is_directory) {
-                let problem = Diagnostic::new(&messages::NAME_NOT_UTF_8).with("name", name);
+                let problem = Diagnostic::new(&messages::NAME_NOT_UTF_8).quoting("name", name);
                 self.problems.push(problem.in_file(readable(directory)));
             }
         } else if self.counts(directory, name, is_directory) {
@@ -256,7 +256,7 @@ const CHUNK: usize = 8;
 
 fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {
     Diagnostic::new(&messages::TOO_MANY_ENTRIES)
-        .with("directory", directory.as_str())
+        .quoting("directory", directory.as_str())
         .with("limit", limit)
-        .with("key", "library-entries")
+        .quoting("key", "library-entries")
 }

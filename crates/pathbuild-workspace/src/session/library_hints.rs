@@ -33,7 +33,8 @@ impl Session<'_> {
 
     fn note(&self, diagnostic: Diagnostic, file: &Utf8Path) -> Diagnostic {
         let directory = self.as_configured(file.parent().unwrap_or(Utf8Path::new("")));
-        let arguments = vec![("file", file.as_str().into()), ("directory", directory.as_str().into())];
+        let arguments =
+            vec![("file", Value::quoted(file.as_str())), ("directory", Value::quoted(directory.as_str()))];
         diagnostic.note(&messages::ELSEWHERE, arguments)
     }
 
@@ -51,7 +52,7 @@ fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
         return None;
     }
     diagnostic.arguments.iter().find_map(|(argument, value)| match value {
-        Value::Text(name) if *argument == "name" => Some(PathName::new(name)),
+        Value::Quoted(name) if *argument == "name" => Some(PathName::new(name)),
         _ => None,
     })
 }

@@ -156,9 +156,9 @@ impl Session<'_> {
     fn defined_twice(&self, name: &PathName, first: SourceFile, second: SourceFile) -> Diagnostic {
         let path = |file: SourceFile| file.path(&self.db).as_str();
         Diagnostic::new(&subpaths::DEFINED_TWICE)
-            .with("name", name.as_str())
-            .with("first", path(first))
-            .with("second", path(second))
+            .quoting("name", name.as_str())
+            .quoting("first", path(first))
+            .quoting("second", path(second))
             .in_file(first.path(&self.db))
     }
 }
@@ -190,5 +190,5 @@ fn no_such_path(name: &PathName, directories: &[Utf8PathBuf]) -> Diagnostic {
         if directory.as_str().is_empty() { ".".to_owned() } else { directory.to_string() }
     };
     let directories: Value = directories.iter().map(shown).collect();
-    Diagnostic::new(&messages::NO_SUCH_PATH).with("name", name.as_str()).with("directories", directories)
+    Diagnostic::new(&messages::NO_SUCH_PATH).quoting("name", name.as_str()).with("directories", directories)
 }

@@ -28,7 +28,7 @@ impl Session<'_> {
                 _ => None,
             };
             match near {
-                Some((message, near)) => diagnostic.note(message, vec![("near", near.into())]),
+                Some((message, near)) => diagnostic.note(message, vec![("near", Value::quoted(near))]),
                 None => diagnostic,
             }
         };
@@ -99,7 +99,7 @@ struct KnownNames {
 /// The missing name that a diagnostic reports.
 fn missing_name(diagnostic: &Diagnostic) -> &str {
     let missing_name = diagnostic.arguments.iter().find_map(|(argument, value)| match value {
-        Value::Text(name) if *argument == "name" => Some(&**name),
+        Value::Quoted(name) if *argument == "name" => Some(&**name),
         _ => None,
     });
     missing_name.unwrap_or_default()

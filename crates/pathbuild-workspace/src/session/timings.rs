@@ -4,27 +4,27 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 
 /// Measured times.
 #[derive(Debug, Default)]
 pub struct Timings {
     /// Whether times are requested. A long-lived session would otherwise accumulate paths forever.
     is_on: AtomicBool,
-    phases: Mutex<Vec<(&'static Word, Duration)>>,
+    phases: Mutex<Vec<(&'static Text, Duration)>>,
     paths: Mutex<Vec<(String, Duration)>>,
 }
 
 /// Finding the drawings that the arguments refer to.
-pub static FINDING: Word = Word { en: "finding drawings", de: "Zeichnungen suchen" };
+pub static FINDING: Text = Text { en: "finding drawings", de: "Zeichnungen suchen" };
 /// Comparing cached results with the files.
-pub static VERIFYING: Word = Word { en: "looking at kept results", de: "frühere Ergebnisse prüfen" };
+pub static VERIFYING: Text = Text { en: "looking at kept results", de: "frühere Ergebnisse prüfen" };
 /// Reading drawings.
-pub static READING: Word = Word { en: "reading drawings", de: "Zeichnungen lesen" };
+pub static READING: Text = Text { en: "reading drawings", de: "Zeichnungen lesen" };
 /// Checking paths.
-pub static CHECKING: Word = Word { en: "checking paths", de: "Pfade prüfen" };
+pub static CHECKING: Text = Text { en: "checking paths", de: "Pfade prüfen" };
 /// Storing results in the cache.
-pub static KEEPING: Word = Word { en: "keeping results", de: "Ergebnisse aufheben" };
+pub static KEEPING: Text = Text { en: "keeping results", de: "Ergebnisse aufheben" };
 
 /// Number of slowest paths that are listed.
 const SLOWEST: usize = 10;
@@ -40,7 +40,7 @@ impl Timings {
     }
 
     /// Runs some work and adds its time to a phase.
-    pub fn measure<R>(&self, phase: &'static Word, work: impl FnOnce() -> R) -> R {
+    pub fn measure<R>(&self, phase: &'static Text, work: impl FnOnce() -> R) -> R {
         if !self.is_on() {
             return work();
         }
@@ -69,7 +69,7 @@ impl Timings {
     /// Formats one line per phase, followed by one line for each of the slowest paths.
     pub fn lines(&self, lang: pathbuild_diagnostic::Lang) -> Vec<String> {
         let line = |time: Duration, what: &str| format!("{:>10.1} ms  {what}", time.as_secs_f64() * 1000.0);
-        let word = |word: &Word| match lang {
+        let word = |word: &Text| match lang {
             pathbuild_diagnostic::Lang::En => word.en,
             pathbuild_diagnostic::Lang::De => word.de,
         };

@@ -146,7 +146,7 @@ impl<'a> Writer<'a> {
     /// The drawing that a diagnostic belongs to. Diagnostics about an output file name that file instead.
     fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
         let name = problem.arguments.iter().find_map(|argument| match argument {
-            ("name", Value::Text(name)) => Some(&**name),
+            ("name", Value::Quoted(name)) => Some(&**name),
             _ => None,
         });
         let file = problem.file.as_ref().map(|file| file.as_str()).or(name)?;

@@ -58,7 +58,9 @@ impl Mischief {
                 self.happen();
                 read()
             }
-            (true, false) if self.event == Event::Fail => Err(ReadError::Other("too many open files".into())),
+            (true, false) if self.event == Event::Fail => {
+                Err(ReadError::Other(Value::foreign("too many open files")))
+            }
             (true, false) => {
                 let result = read();
                 self.happen();

@@ -19,7 +19,7 @@ use crate::exit::ExitStatus;
 use crate::report::Findings;
 use pathbuild_workspace::config::{positive, regex};
 use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
-use pathbuild_workspace::files::{cannot_write, unreadable};
+use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::session::Session;
 
 /// Runs the command. Each of several programs is written unless it has errors itself.
@@ -217,14 +217,14 @@ impl<'a> Adjustment<'a> {
             DrawingComparison::Wrong(problems) => return Err(problems),
             DrawingComparison::Other { drawing } => {
                 let problem = Diagnostic::new(&probes::OLD_PROGRAM)
-                    .with("name", job.clean.file_name().unwrap_or_default())
-                    .with("drawing", drawing.as_str());
+                    .quoting("name", job.clean.file_name().unwrap_or_default())
+                    .quoting("drawing", drawing.as_str());
                 return Err(vec![problem.in_file(&job.clean)]);
             }
             DrawingComparison::Edited { drawing, other } => {
                 let problem = Diagnostic::new(&probes::EDITED_PROGRAM)
-                    .with("name", job.clean.file_name().unwrap_or_default())
-                    .with("drawing", drawing.as_str());
+                    .quoting("name", job.clean.file_name().unwrap_or_default())
+                    .quoting("drawing", drawing.as_str());
                 let mut problem = problem.at_line(other.line, None);
                 quote([&mut problem], clean);
                 return Err(vec![problem.in_file(&job.clean)]);
@@ -253,7 +253,7 @@ impl<'a> Adjustment<'a> {
         let message =
             if is_compatible { &probes::NOT_COMPATIBLE_PROGRAM } else { &probes::COMPATIBLE_PROGRAM };
         let name = job.clean.file_name().unwrap_or_default();
-        let problem = || Diagnostic::new(message).with("name", name).in_file(&job.clean);
+        let problem = || Diagnostic::new(message).quoting("name", name).in_file(&job.clean);
         matches!(found, DrawingComparison::Same).then(problem)
     }
 
@@ -262,7 +262,10 @@ impl<'a> Adjustment<'a> {
     fn read(&self, job: &Job) -> Result<(Vec<u8>, Vec<u8>, Option<Vec<u8>>), Vec<Diagnostic>> {
         let limit = self.context.settings.limits.file_size.value;
         let read = |file: &Utf8Path| {
-            self.context.system.read(file, limit).map_err(|error| unreadable(file, &error, limit))
+            self.context
+                .system
+                .read(file, limit)
+                .map_err(|error| error.diagnostic(limit, "file-size").in_file(file))
         };
         match (read(&job.clean), read(&job.values), self.log.map(read).transpose()) {
             (Ok(clean), Ok(values), Ok(log)) => Ok((clean, values, log)),

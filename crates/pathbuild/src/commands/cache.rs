@@ -63,7 +63,7 @@ fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus 
             ExitStatus::Success
         }
         Err(RemoveError { path, reason }) => {
-            let problem = Diagnostic::new(&files::CANNOT_REMOVE).with("name", spelt(path).as_str());
+            let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", spelt(path).as_str());
             context.fail(vec![problem.with("reason", reason)])
         }
     }

@@ -7,7 +7,7 @@ use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
-use pathbuild_diagnostic::Word;
+use pathbuild_diagnostic::Text;
 use pathbuild_workspace::{Workspace, config};
 
 /// A repository with its working tree.
@@ -46,12 +46,12 @@ const LONGEST_LINE: u64 = 4096;
 /// Upper bound in bytes on the blobs of a single request: a few Git objects can expand to any size.
 const MOST_BYTES: u64 = 4 << 30;
 
-static TOO_MANY_FILES: Word = Word {
+static TOO_MANY_FILES: Text = Text {
     en: "the revision has more than {} files: `library-entries` of [limits] is exceeded",
     de: "die Revision hat mehr als {} Dateien: `library-entries` von [limits] ist überschritten",
 };
 
-static LONG_NAME: Word = Word {
+static LONG_NAME: Text = Text {
     en: "the name of a file in the revision is too long",
     de: "der Name einer Datei in der Revision ist zu lang",
 };
@@ -316,7 +316,7 @@ pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a s
 }
 
 /// Parses the output of `ls-tree -z`, unless a limit is exceeded.
-fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry>, &'static Word>> {
+fn entries(answers: &mut impl BufRead, most: u64) -> io::Result<Result<Vec<Entry>, &'static Text>> {
     let mut entries = Vec::new();
     let mut line = Vec::new();
     while answers.by_ref().take(LONGEST_LINE).read_until(0, &mut line)? > 0 {

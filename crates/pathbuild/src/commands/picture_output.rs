@@ -2,7 +2,9 @@
 
 use camino::Utf8Path;
 use pathbuild_db::system::WriteOutcome;
-use pathbuild_diagnostic::{Diagnostic, Value, shown};
+use pathbuild_diagnostic::{Diagnostic, Text, Value, shown};
+#[cfg(feature = "pictures")]
+use pathbuild_diagnostic::{Sentence, reasons::reason};
 use pathbuild_workspace::files::cannot_write;
 
 use super::output_row;
@@ -15,9 +17,9 @@ use crate::context::Context;
 pub(super) fn deliver(
     context: &Context,
     file: &Utf8Path,
-    bytes: Result<Vec<u8>, String>,
+    bytes: Result<Vec<u8>, Value>,
 ) -> Result<(), Box<Diagnostic>> {
-    let written = bytes.map_err(Value::from).and_then(|bytes| context.system.write(file, &bytes));
+    let written = bytes.and_then(|bytes| context.system.write(file, &bytes));
     let written = written.map_err(|reason| Box::new(cannot_write(file, reason)))?;
     context.json_row(|| output_row(context, file, written));
     let state = match written {
@@ -32,7 +34,7 @@ pub(super) fn deliver(
 ///
 /// # Errors
 /// If the page cannot be generated or shown.
-pub(super) fn show(context: &Context, page: Result<Vec<u8>, String>) -> Result<(), Box<Diagnostic>> {
+pub(super) fn show(context: &Context, page: Result<Vec<u8>, Value>) -> Result<(), Box<Diagnostic>> {
     let shown = page.and_then(|page| open_page(context, &page));
     shown.map_err(|reason| Box::new(cannot_write(Utf8Path::new(BROWSER), reason)))
 }
@@ -42,26 +44,31 @@ const BROWSER: &str = "(browser)";
 
 /// Keeps the temporary file, because the browser may read it later.
 #[cfg(feature = "pictures")]
-fn open_page(context: &Context, page: &[u8]) -> Result<(), String> {
+fn open_page(context: &Context, page: &[u8]) -> Result<(), Value> {
     use std::io::Write;
 
-    let to_text = |error: std::io::Error| error.to_string();
-    let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".html").tempfile().map_err(to_text)?;
-    file.as_file().write_all(page).map_err(to_text)?;
-    let (_, path) = file.keep().map_err(|error| error.to_string())?;
+    let file = tempfile::Builder::new().prefix("pathbuild-").suffix(".html").tempfile();
+    let file = file.map_err(|error| reason(&error))?;
+    file.as_file().write_all(page).map_err(|error| reason(&error))?;
+    let (_, path) = file.keep().map_err(|error| reason(&error.error))?;
     context.printer.status(format_args!("{}", shown::line(&path.to_string_lossy())));
-    let advice = context.choose(
-        "no browser could be started: open the file named above, or give -o FILE",
-        "kein Browser ließ sich starten: die oben genannte Datei öffnen oder -o DATEI angeben",
-    );
-    open::that_detached(&path).map_err(|error| format!("{advice} ({error})"))
+    open::that_detached(&path)
+        .map_err(|error| Sentence::new(&NO_BROWSER).with("error", Value::foreign(error)).into())
 }
 
 #[cfg(not(feature = "pictures"))]
-fn open_page(context: &Context, _: &[u8]) -> Result<(), String> {
-    let missing = context.choose(
-        "this pathbuild was built without the feature `pictures`: give -o FILE",
-        "dieses pathbuild ist ohne das Feature `pictures` gebaut: -o DATEI angeben",
-    );
-    Err(missing.to_owned())
+fn open_page(_: &Context, _: &[u8]) -> Result<(), Value> {
+    Err((&NO_PAGES).into())
 }
+
+#[cfg(feature = "pictures")]
+static NO_BROWSER: Text = Text {
+    en: "no browser could be started: open the file named above, or give -o FILE ({error})",
+    de: "kein Browser ließ sich starten: die oben genannte Datei öffnen oder -o DATEI angeben ({error})",
+};
+
+#[cfg(not(feature = "pictures"))]
+static NO_PAGES: Text = Text {
+    en: "this pathbuild was built without the feature `pictures`: give -o FILE",
+    de: "dieses pathbuild ist ohne das Feature `pictures` gebaut: -o DATEI angeben",
+};

@@ -16,7 +16,6 @@ use pathbuild_toolpath::memory;
 use crate::args::{ReadingArgs, UnitCodesArg};
 use crate::context::Context;
 use pathbuild_workspace::config::types::DwellTime;
-use pathbuild_workspace::files::unreadable;
 
 /// A program that was read.
 pub(super) struct Program {
@@ -85,8 +84,10 @@ impl Program {
         each: &mut dyn FnMut(Step) -> ControlFlow<()>,
     ) -> Result<Self, Box<Diagnostic>> {
         let limit = context.settings.limits.file_size.value;
-        let text =
-            context.system.read(file, limit).map_err(|error| Box::new(unreadable(file, &error, limit)))?;
+        let text = context
+            .system
+            .read(file, limit)
+            .map_err(|error| Box::new(error.diagnostic(limit, "file-size").in_file(file)))?;
         let guessed = args.dialect.is_none().then(|| guess(&text));
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let options = options(context, args);
@@ -140,7 +141,7 @@ fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
         .with("count", count)
         .with("size", memory(count + 1))
         .with("limit", limit)
-        .with("key", "program-memory")
+        .quoting("key", "program-memory")
 }
 
 fn options(context: &Context, args: &ReadingArgs) -> Options {

@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{WriteOutcome, spelt};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
-use pathbuild_diagnostic::{Code, Diagnostic, Lang};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value};
 use pathbuild_draw::EmbeddingPath;
 use pathbuild_path::{PathName, QProject};
 
@@ -105,13 +105,13 @@ fn drawn(
         pattern.matches(name.as_str()) && !path_names(session.db(), drawing).contains(name)
     };
     let Some(names) = names(name, planned.len(), is_free) else {
-        let problem = Diagnostic::new(&outputs::NO_NAME_FOR_CUTTER).with("name", name.as_str());
+        let problem = Diagnostic::new(&outputs::NO_NAME_FOR_CUTTER).quoting("name", name.as_str());
         return Err(vec![problem.in_file(drawing.path(session.db()))]);
     };
     let bytes = dxf(planned, &names).map_err(|reason| {
         let problem = Diagnostic::new(&files::CANNOT_WRITE)
-            .with("name", output.file_name().unwrap_or_default())
-            .with("reason", reason);
+            .quoting("name", output.file_name().unwrap_or_default())
+            .with("reason", Value::foreign(reason));
         vec![problem.in_file(drawing.path(session.db()))]
     })?;
     let mut preview = Session::with_drawing(context, output, bytes.clone());
@@ -150,7 +150,8 @@ fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     let targets = session.targets(drawing, &Role::Checked);
     if targets.is_empty() && problems.is_empty() {
         let pattern = Settings::get(db).language(db).path_pattern.as_str();
-        problems.push(Diagnostic::new(&outputs::NO_PATH).with("pattern", pattern).in_file(drawing.path(db)));
+        problems
+            .push(Diagnostic::new(&outputs::NO_PATH).quoting("pattern", pattern).in_file(drawing.path(db)));
     }
     problems.extend(session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics));
     problems
@@ -185,7 +186,7 @@ fn write(
         }
         Err(reason) => {
             let problem = Diagnostic::new(&files::CANNOT_WRITE)
-                .with("name", output.file_name().unwrap_or_default())
+                .quoting("name", output.file_name().unwrap_or_default())
                 .with("reason", reason);
             return context.fail(vec![problem.in_file(output)]);
         }

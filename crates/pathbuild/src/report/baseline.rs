@@ -39,7 +39,7 @@ impl Baseline {
         let text = files::read(system, file, limit).map_err(|reason| {
             vec![match system.read(file, limit) {
                 // Reports the configuration key of the limit, as for other files.
-                Err(error @ ReadError::TooLarge { .. }) => files::unreadable(file, &error, limit),
+                Err(error @ ReadError::TooLarge { .. }) => error.diagnostic(limit, "file-size").in_file(file),
                 _ => Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason),
             }]
         })?;

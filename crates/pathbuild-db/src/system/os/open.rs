@@ -42,7 +42,7 @@ pub(super) fn regular_size(file: &File) -> Result<u64, ReadError> {
 }
 
 pub(super) fn not_regular() -> ReadError {
-    ReadError::Other(Value::Word(&NOT_REGULAR))
+    ReadError::Other(Value::Prose(&NOT_REGULAR))
 }
 
 /// Opens with `NONBLOCK`, since opening a pipe would otherwise wait for a writer.

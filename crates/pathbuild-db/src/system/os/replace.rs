@@ -10,7 +10,7 @@ use std::io::{self, ErrorKind, Read, Write};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
-use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason};
+use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, TOO_MANY_TEMPORARY, error, reason};
 
 use super::{debris, held, open, readable};
 use crate::system::WriteOutcome;
@@ -22,8 +22,8 @@ use crate::system::WriteOutcome;
 pub(super) fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
     debris::remove(readable(parent(path)));
     match path.as_std_path().metadata() {
-        Ok(data) if data.is_dir() => Err(Value::Word(&DIRECTORY_OF_THAT_NAME)),
-        Ok(data) if !data.is_file() => Err(Value::Word(&NOT_REGULAR)),
+        Ok(data) if data.is_dir() => Err(Value::Prose(&DIRECTORY_OF_THAT_NAME)),
+        Ok(data) if !data.is_file() => Err(Value::Prose(&NOT_REGULAR)),
         Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => Ok(WriteOutcome::Unchanged),
         _ => write_anew(path, bytes).map_err(|error| reason(&error)),
     }
@@ -85,5 +85,5 @@ fn temporary(path: &Utf8Path) -> io::Result<(Utf8PathBuf, File)> {
             Err(error) => return Err(error),
         }
     }
-    Err(io::Error::new(ErrorKind::AlreadyExists, "too many temporary files beside it"))
+    Err(error(ErrorKind::AlreadyExists, &TOO_MANY_TEMPORARY))
 }

@@ -1,7 +1,7 @@
 //! Whether a program comes into the clamps of its drawing. (book: language/keep-outs)
 
 use pathbuild_diagnostic::messages::walk as say;
-use pathbuild_diagnostic::{Diagnostic, Point, Word, words};
+use pathbuild_diagnostic::{Diagnostic, Point, Text, words};
 use pathbuild_path::{Arc, Curve, KeepOut, KeepOutMap, Line, Way, Xy};
 
 use super::cuts::{CHORD, PLACE};
@@ -51,7 +51,7 @@ impl<'c> PastClamps<'c> {
             self.problems.add_at_line(&say::LINE_INTO_CLAMP, step.line, |found| {
                 found
                     .with("tool", 2.0 * radius)
-                    .with("layer", layer.as_str())
+                    .quoting("layer", layer.as_str())
                     .with("clamp", Point::new(at.x, at.y))
                     .with("height", *height)
                     .with("what", word(it))
@@ -94,7 +94,7 @@ fn way(it: &Move) -> Option<Way> {
     Some(Way { curve, from_z, to_z })
 }
 
-fn word(it: &Move) -> &'static Word {
+fn word(it: &Move) -> &'static Text {
     match it.pace {
         Pace::Rapid => &words::RAPID_MOVE,
         Pace::Probe { .. } => &words::PROBING_MOVE,

@@ -162,7 +162,7 @@ impl<'w> Setup<'w> {
             Change::RapidFeed(feed) => {
                 let most = self.words.rapid_feed().unwrap_or(f64::INFINITY);
                 if feed == 0.0 {
-                    problems.add_at_line(&say::MODE_MISSING, line, |d| d.with("word", "F"));
+                    problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "F"));
                 } else if feed > most + SAME_SPEED {
                     extra(line, "G0 F".to_owned(), problems);
                 }
@@ -238,7 +238,7 @@ impl<'w> Setup<'w> {
     /// What the post states before the first move is stated there.
     fn head(&mut self, line: u32, problems: &mut Problems) {
         for code in std::mem::take(&mut self.missing).into_values() {
-            problems.add_at_line(&say::MODE_MISSING, line, |d| d.with("word", code_name('G', code)));
+            problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
         }
     }
 
@@ -253,7 +253,7 @@ impl<'w> Setup<'w> {
         };
         if !is_chosen && self.words.chooses_tools() && !std::mem::replace(&mut self.said.tool, true) {
             let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));
-            problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.with("expected", expected));
+            problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.quoting("expected", expected));
         }
     }
 
@@ -267,7 +267,7 @@ impl<'w> Setup<'w> {
         if !std::mem::replace(&mut self.said.coolant, true) {
             let found = coolant_text(self.coolant);
             problems.add_at_line(&say::COOLANT_DIFFERS, line, |d| {
-                d.with("found", found).with("expected", coolant_text(expected))
+                d.quoting("found", found).quoting("expected", coolant_text(expected))
             });
         }
     }
@@ -276,7 +276,7 @@ impl<'w> Setup<'w> {
     fn cutting_corners(&mut self, line: u32, problems: &mut Problems) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
         if !is_stated && !std::mem::replace(&mut self.said.corners, true) {
-            problems.add_at_line(&say::MODE_MISSING, line, |d| d.with("word", "G64 P"));
+            problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "G64 P"));
         }
     }
 
@@ -311,8 +311,8 @@ impl<'w> Setup<'w> {
     fn spindle_differs(&self, line: u32, message: &'static Message, problems: &mut Problems) {
         let (expected, found) = (self.expected, self.spindle);
         problems.add_at_line(message, line, |d| {
-            d.with("found", spindle_text(Some(found.turning), Some(found.speed)))
-                .with("expected", spindle_text(expected.turning, expected.speed))
+            d.quoting("found", spindle_text(Some(found.turning), Some(found.speed)))
+                .quoting("expected", spindle_text(expected.turning, expected.speed))
                 .with("seconds", self.spin_up)
         });
     }
@@ -323,7 +323,7 @@ impl<'w> Setup<'w> {
             // Said once: from here on it is as if it stood there.
             self.length = Some((ToolLength::Off, line));
             problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
-                let d = d.with("words", "G49").with("taken", "G49");
+                let d = d.quoting("words", "G49").quoting("taken", "G49");
                 Diagnostic { severity: Severity::Error, ..d }
             });
         }
@@ -372,5 +372,5 @@ fn spindle_text(turning: Option<Turning>, speed: Option<f64>) -> String {
 }
 
 fn extra(line: u32, word: String, problems: &mut Problems) {
-    problems.add_at_line(&say::NOT_IN_DRAWING, line, |d| d.with("word", word));
+    problems.add_at_line(&say::NOT_IN_DRAWING, line, |d| d.quoting("word", word));
 }

@@ -13,6 +13,8 @@ mod words;
 use std::fmt::Write;
 
 use pathbuild_diagnostic::Lang;
+#[cfg(not(feature = "pictures"))]
+use pathbuild_diagnostic::{Value, reasons::WITHOUT_PICTURES};
 
 use crate::scene::{Point, Scene};
 use crate::svg::canvas::escaped;
@@ -149,8 +151,8 @@ pub(crate) fn xmp(head: &[String; 2]) -> String {
 /// # Errors
 /// Always: PDF is a part of the feature `pictures`.
 #[cfg(not(feature = "pictures"))]
-pub fn sheet_pdf(_: &Sheet, _: Lang) -> Result<Vec<u8>, String> {
-    Err("this pathbuild was built without the feature `pictures`: .html and .svg are left".to_owned())
+pub fn sheet_pdf(_: &Sheet, _: Lang) -> Result<Vec<u8>, Value> {
+    Err((&WITHOUT_PICTURES).into())
 }
 
 const STYLE: &str = "<style>

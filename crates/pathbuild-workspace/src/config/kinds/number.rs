@@ -16,7 +16,7 @@ use crate::config::types::Extent;
 pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number > 0.0) {
         Some(number) => Some(Some(number)),
-        None => reader.expected(Value::Word(&messages::POSITIVE), value),
+        None => reader.expected(Value::Prose(&messages::POSITIVE), value),
     },
     show: |number| number.map(|number| number.to_string()),
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
@@ -26,7 +26,7 @@ pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
 pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
     read: |value, reader| match number(value).and_then(|number| Duration::try_from_secs_f64(number).ok()) {
         Some(time) if !time.is_zero() => Some(time),
-        _ => reader.expected(Value::Word(&messages::POSITIVE), value),
+        _ => reader.expected(Value::Prose(&messages::POSITIVE), value),
     },
     show: |time| Some(time.as_secs_f64().to_string()),
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
@@ -36,7 +36,7 @@ pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
 pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number >= 0.0) {
         Some(number) => Some(number),
-        None => reader.expected(Value::Word(&messages::NOT_NEGATIVE), value),
+        None => reader.expected(Value::Prose(&messages::NOT_NEGATIVE), value),
     },
     show: |number| Some(number.to_string()),
     schema: || json!({ "type": "number", "minimum": 0 }),
@@ -47,7 +47,7 @@ pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
 pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| match number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE) {
         Some(number) => Some(Some(number)),
-        None => reader.expected(Value::Word(&messages::PIECE), value),
+        None => reader.expected(Value::Prose(&messages::PIECE), value),
     },
     show: |number| number.map(|number| number.to_string()),
     schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
@@ -60,7 +60,7 @@ const SHORTEST_PIECE: f64 = 0.1;
 pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
     read: |value, reader| match whole_number(value).filter(|count| *count > 0) {
         Some(count) => Some(count),
-        None => reader.expected(Value::Word(&messages::COUNT), value),
+        None => reader.expected(Value::Prose(&messages::COUNT), value),
     },
     show: |count| Some(count.to_string()),
     schema: || json!({ "type": "integer", "minimum": 1 }),
@@ -70,7 +70,7 @@ pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
 pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
     read: |value, reader| match size(value).filter(|size| *size > 0) {
         Some(size) => Some(size),
-        None => reader.expected(Value::Word(&messages::SIZE), value),
+        None => reader.expected(Value::Prose(&messages::SIZE), value),
     },
     show: |size| Some(shown_size(*size)),
     schema: || json!({ "oneOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "pattern": SIZE_PATTERN }] }),
@@ -80,7 +80,7 @@ pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
 pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
     read: |value, reader| match value.get_ref().as_str().and_then(duration) {
         Some(duration) => Some(duration),
-        None => reader.expected(Value::Word(&messages::DURATION), value),
+        None => reader.expected(Value::Prose(&messages::DURATION), value),
     },
     show: |duration| Some(format!("\"{} ms\"", duration.as_millis())),
     schema: || json!({ "type": "string", "pattern": "^[0-9]+ ?(ms|s|min)$" }),
@@ -90,7 +90,7 @@ pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
 pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
     read: |value, reader| match extent(value) {
         Some(extent) => Some(Some(extent)),
-        None => reader.expected(Value::Word(&messages::EXTENT), value),
+        None => reader.expected(Value::Prose(&messages::EXTENT), value),
     },
     show: |extent| extent.map(|extent| format!("[{}, {}]", extent.from, extent.to)),
     schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
@@ -100,7 +100,7 @@ pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
 pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
     read: |value, reader| match axes(value) {
         Some(axes) => Some(Some(axes)),
-        None => reader.expected(Value::Word(&messages::AXES), value),
+        None => reader.expected(Value::Prose(&messages::AXES), value),
     },
     show: |axes| axes.map(|[x, y, z]| format!("[{x}, {y}, {z}]")),
     schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
@@ -111,7 +111,7 @@ pub(in crate::config) const SWITCH: ValueType<bool> =
     ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
 
 fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<bool> {
-    value.get_ref().as_bool().or_else(|| reader.expected(Value::Word(&messages::SWITCH), value))
+    value.get_ref().as_bool().or_else(|| reader.expected(Value::Prose(&messages::SWITCH), value))
 }
 
 /// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
+use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_path::regex_reason;
 use regex::RegexBuilder;
 use serde_json::json;
 
@@ -55,10 +57,9 @@ pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
 };
 
 /// A short description of the error in a regular expression, if there is one.
-pub(in crate::config) fn regex_fault(text: &str) -> Option<String> {
-    let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?.to_string();
-    let last = error.lines().last().unwrap_or_default();
-    Some(last.strip_prefix("error: ").unwrap_or(last).to_owned())
+pub(in crate::config) fn regex_fault(text: &str) -> Option<Value> {
+    let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?;
+    Some(regex_reason(&error))
 }
 
 /// Splits a rule into PARENT and CHILD at the first colon.

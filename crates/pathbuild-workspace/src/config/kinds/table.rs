@@ -45,7 +45,7 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<SeveritiesIn>> = ValueTyp
             value.get_ref().as_array().map(|array| array.iter().map(|item| item.get_ref().as_table()));
         match tables.and_then(Iterator::collect::<Option<Vec<_>>>) {
             Some(tables) => Some(tables.into_iter().map(|table| severities_in(table, reader)).collect()),
-            None => reader.expected(Value::Word(&messages::LIST_OF_TABLES), value),
+            None => reader.expected(Value::Prose(&messages::LIST_OF_TABLES), value),
         }
     },
     show: |parts| {
@@ -182,7 +182,7 @@ fn entries<'v, 't>(
 ) -> Option<Vec<Entry<'v, 't>>> {
     match value.get_ref().as_table() {
         Some(table) => Some(table.iter().collect()),
-        None => reader.expected(Value::Word(&messages::TABLE), value),
+        None => reader.expected(Value::Prose(&messages::TABLE), value),
     }
 }
 
@@ -201,17 +201,17 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     let text = &**name.get_ref();
     let Ok(code) = text.parse::<Code>() else {
         let fault = match nearest_code(text) {
-            Some(near) => reader.fault(&messages::UNKNOWN_CODE, name.span()).with("near", near),
+            Some(near) => reader.fault(&messages::UNKNOWN_CODE, name.span()).quoting("near", near),
             None => reader.fault(&messages::STRANGE_CODE, name.span()),
         };
-        reader.report(fault.with("code", text));
+        reader.report(fault.quoting("code", text));
         return None;
     };
     let level = level?;
     if code.severity() == Severity::Error && level != Level::Error && !code.can_be_lowered() {
         let fault = reader.fault(&messages::CANNOT_BE_LOWERED, value.span());
-        let fault = fault.with("code", code.to_string()).with("name", code.name());
-        reader.report(fault.with("level", name_of(level).unwrap_or_default()));
+        let fault = fault.quoting("code", code.to_string()).quoting("name", code.name());
+        reader.report(fault.quoting("level", name_of(level).unwrap_or_default()));
         return None;
     }
     Some((code, level))
@@ -242,7 +242,7 @@ fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Severities
 
 fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Tool> {
     let Some(table) = value.get_ref().as_table() else {
-        return reader.expected(Value::Word(&messages::TABLE), value);
+        return reader.expected(Value::Prose(&messages::TABLE), value);
     };
     if !table.contains_key("diameter") {
         reader.missing("diameter", name.span());

@@ -17,7 +17,7 @@ use crate::config::types::{Choice, Directories};
 /// A non-empty string.
 pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
     read: |value, reader| match reader.text(value)? {
-        "" => reader.expected(Value::Word(&messages::NOT_EMPTY), value),
+        "" => reader.expected(Value::Prose(&messages::NOT_EMPTY), value),
         text => Some(text.into()),
     },
     show: |text| Some(quoted(text)),
@@ -48,7 +48,7 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
 pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
-        _ => reader.expected(Value::Word(&messages::ABSOLUTE), value),
+        _ => reader.expected(Value::Prose(&messages::ABSOLUTE), value),
     },
     show: |path| Some(quoted(path.as_str())),
     schema: || json!({ "type": "string" }),
@@ -61,7 +61,7 @@ pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
         if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
             Some(names.into_iter().map(|(name, _)| name.into()).collect())
         } else {
-            reader.expected(Value::Word(&messages::ABSOLUTES), value)
+            reader.expected(Value::Prose(&messages::ABSOLUTES), value)
         }
     },
     ..DIRECTORIES
@@ -81,12 +81,12 @@ pub(in crate::config) fn read_choice<T: Choice>(
     if found.is_none() {
         let names = || T::ALL.iter().map(|(name, _)| *name);
         let fault = match nearest(text, names()) {
-            Some(near) => reader.fault(&messages::NEAR_CHOICE, value.span()).with("near", near),
+            Some(near) => reader.fault(&messages::NEAR_CHOICE, value.span()).quoting("near", near),
             None => reader
                 .fault(&messages::INVALID_CHOICE, value.span())
                 .with("choices", names().collect::<Value>()),
         };
-        reader.report(fault.with("found", quoted(text)));
+        reader.report(fault.quoting("found", quoted(text)));
     }
     found
 }
@@ -111,7 +111,7 @@ pub(in crate::config) fn texts<'v, 't>(
         .map(|array| array.iter().map(|item| item.get_ref().as_str().map(|text| (text, item))));
     match items.and_then(Iterator::collect::<Option<Vec<_>>>) {
         Some(texts) => Some(texts),
-        None => reader.expected(Value::Word(&messages::LIST_OF_TEXTS), value),
+        None => reader.expected(Value::Prose(&messages::LIST_OF_TEXTS), value),
     }
 }
 

@@ -5,7 +5,7 @@
 use std::fmt::Debug;
 
 use camino::Utf8PathBuf;
-use pathbuild_diagnostic::{Lang, Word};
+use pathbuild_diagnostic::Lang;
 
 use crate::config::arguments::OptionValues::{
     Directories as SearchDirectories, Directory, Switch, Text, Texts,
@@ -45,7 +45,7 @@ macro_rules! overridable {
                 name: $name,
                 position: $position,
                 values: $values,
-                help: Word { en: $en, de: $de },
+                help: pathbuild_diagnostic::Text { en: $en, de: $de },
             },)?)*
         ];
 

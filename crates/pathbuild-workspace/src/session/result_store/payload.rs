@@ -43,7 +43,7 @@ pub fn is_transient(diagnostic: &Diagnostic) -> bool {
     match diagnostic.code() {
         Code::UnreadableFile | Code::InternalError => true,
         Code::LimitReached => {
-            let seconds = ("key", Value::from("seconds-per-path"));
+            let seconds = ("key", Value::quoted("seconds-per-path"));
             diagnostic.arguments.contains(&seconds)
         }
         _ => false,

@@ -195,7 +195,7 @@ impl Against {
 }
 
 fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
-    Diagnostic::new(message).with("expected", other.expected).at_line(other.line, None)
+    Diagnostic::new(message).quoting("expected", other.expected).at_line(other.line, None)
 }
 
 /// Resolves an argument to a single path.
@@ -224,8 +224,8 @@ fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
                 let message = if names.is_empty() { &outputs::NO_PATH } else { &outputs::SEVERAL_PATHS };
                 let list: pathbuild_diagnostic::Value = names.iter().map(PathName::as_str).collect();
                 let first = names.first().map_or("", PathName::as_str);
-                let problem = Diagnostic::new(message).with("names", list).with("first", first);
-                found.push(problem.with("pattern", "path-pattern").in_file(file.path(db)));
+                let problem = Diagnostic::new(message).with("names", list).quoting("first", first);
+                found.push(problem.quoting("pattern", "path-pattern").in_file(file.path(db)));
             }
             Err(Failure::Found(found))
         }

@@ -1,7 +1,7 @@
 //! Determines cutter and material. (book: program/reading: the stock's extent is in no drawing)
 
 use pathbuild_diagnostic::messages::{gcode as say, posts};
-use pathbuild_diagnostic::{Diagnostic, Severity, Word};
+use pathbuild_diagnostic::{Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Action, Step};
 use pathbuild_gcode::provenance::Provenance;
@@ -139,9 +139,9 @@ fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
 /// Tolerance in mm within which diameters and heights are equal.
 const SAME: f64 = 1e-6;
 
-static HEADER: Word = Word { en: "the header", de: "der Kopf" };
-static CUTTER: Word = Word { en: "--cutter", de: "--cutter" };
-static SURFACE: Word = Word { en: "--surface", de: "--surface" };
+static HEADER: Text = Text { en: "the header", de: "der Kopf" };
+static CUTTER: Text = Text { en: "--cutter", de: "--cutter" };
+static SURFACE: Text = Text { en: "--surface", de: "--surface" };
 
 /// Warns about tools that are not in the table, unless the table has no numbers at all.
 pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools) -> Vec<Diagnostic> {

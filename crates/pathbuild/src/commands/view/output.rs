@@ -1,7 +1,7 @@
 //! Writes or shows a scene.
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_view::{Scene, VisibleParts};
 
 use crate::commands::picture_output::{deliver, show};
@@ -66,7 +66,7 @@ impl Format {
         )
     }
 
-    fn bytes(self, scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, String> {
+    fn bytes(self, scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
         match self {
             Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
             Self::Json => Ok((scene.to_json() + "\n").into_bytes()),

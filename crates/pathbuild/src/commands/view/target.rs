@@ -78,7 +78,7 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
     let post_processor = post_processor.map_err(Failure::Found)?;
     let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
     if names.is_empty() && !report.diagnostics.iter().any(Diagnostic::is_error) {
-        let problem = Diagnostic::new(&outputs::NO_PATH).with("pattern", "path-pattern");
+        let problem = Diagnostic::new(&outputs::NO_PATH).quoting("pattern", "path-pattern");
         report.diagnostics.push(problem.in_file(file.path(db)));
     }
     Ok(TargetScene { report, file: file.path(db).to_string() })
