@@ -59,12 +59,13 @@ fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
 }
 
 /// The crates that results depend on.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "pathbuild-cache",
     "pathbuild-db",
     "pathbuild-diagnostic",
     "pathbuild-dxf",
     "pathbuild-gcode",
+    "pathbuild-motion",
     "pathbuild-path",
     "pathbuild-post",
     "pathbuild-toolpath",

@@ -11,6 +11,3 @@ pub mod read;
 pub mod statistics;
 pub mod summary;
 pub mod verify;
-mod written_arc;
-
-pub use written_arc::WrittenArc;

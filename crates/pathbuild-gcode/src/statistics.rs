@@ -1,8 +1,9 @@
 //! Lengths and times of a program, from its own moves. (book: program/gcode)
 
+use pathbuild_motion::{Action, Axes, Move, Pace, Path, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
-use crate::interpret::{Action, Axes, Move, Pace, Path, Step, each_move_of};
+use crate::interpret::each_move_of;
 
 /// The statistics of a program with a rapid feed in mm/min: what its moves come to. A compatible program has those of the reference.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {

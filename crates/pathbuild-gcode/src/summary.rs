@@ -3,10 +3,11 @@
 use std::collections::{HashMap, HashSet};
 
 use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_motion::{Action, Move, Pace, Spindle, Step, Turning};
 
 use pathbuild_toolpath::Program;
 
-use crate::interpret::{Action, Move, Pace, Spindle, Step, Turning, each_move_of};
+use crate::interpret::each_move_of;
 use crate::statistics::{Counting, Tally};
 
 /// A program in numbers.

@@ -5,8 +5,9 @@ mod common;
 use common::fault_text;
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
-use pathbuild_gcode::interpret::{Move, Options, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, interpret, moves_of};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Ends, Tolerance, compare};
+use pathbuild_motion::Move;
 use pathbuild_toolpath::{Class, Comment, Count, Height, Move as Emitted, Names, Program, Step, Xy};
 
 fn moves(program: &str) -> Vec<(u32, Move)> {

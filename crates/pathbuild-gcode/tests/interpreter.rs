@@ -885,8 +885,8 @@ fn an_arc_begins_and_ends_along_its_tangents() {
         let program = format!("{HEAD}G0 X5 Y0 Z0\n{code} X0 Y5 I-5 F10\nM30\n");
         let interpreted = interpret(program.as_bytes(), LinuxCnc, &Options::default());
         let arc = interpreted.moves().into_iter().find_map(|(_, it)| match it.path {
-            pathbuild_gcode::interpret::Path::Arc(arc) => Some((arc, it)),
-            pathbuild_gcode::interpret::Path::Line => None,
+            pathbuild_motion::Path::Arc(arc) => Some((arc, it)),
+            pathbuild_motion::Path::Line => None,
         });
         let (arc, it) = arc.expect("there is an arc");
         let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;

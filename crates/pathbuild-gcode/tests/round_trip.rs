@@ -6,9 +6,10 @@ use common::spelled_out;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
 use pathbuild_gcode::dialect::is_active_comment;
-use pathbuild_gcode::interpret::{Options, Path, guess, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, guess, interpret, moves_of};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
+use pathbuild_motion::Path;
 use pathbuild_toolpath::{Class, Comment, Count, Height, Move, ProbePoint, Program, Step, Xy};
 use proptest::prelude::*;
 
@@ -280,7 +281,7 @@ fn half_a_tiny_circle_stays_half() {
         for (angle, clockwise) in [(0.0, false), (0.7, true), (2.0, false), (4.1, true)] {
             let (arc, program) = arc_from([0.0, 0.0], radius, angle, clockwise, length);
             let Move::Arc { to, .. } = arc else { unreachable!() };
-            let is_there = |it: &pathbuild_gcode::interpret::Move| {
+            let is_there = |it: &pathbuild_motion::Move| {
                 matches!(it.path, Path::Arc(_))
                     && (it.to.x() - to.x).abs() < 1e-9
                     && (it.to.y() - to.y).abs() < 1e-9

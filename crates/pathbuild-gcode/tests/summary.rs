@@ -3,8 +3,9 @@
 mod common;
 
 use pathbuild_gcode::dialect::Dialect::{self, LinuxCnc, Native, Xpertmill};
-use pathbuild_gcode::interpret::{Interpretation, Options, Pace, interpret};
+use pathbuild_gcode::interpret::{Interpretation, Options, interpret};
 use pathbuild_gcode::summary::{Summary, is_guess};
+use pathbuild_motion::{Action, Pace};
 
 fn read(text: &str, dialect: Dialect) -> Interpretation {
     interpret(text.as_bytes(), dialect, &Options::default())
@@ -69,7 +70,6 @@ fn vendor_examples() -> Option<[String; 2]> {
 type Cut = (u32, f64, [f64; 3], [f64; 3], f64);
 
 fn cuts(read: &Interpretation) -> Vec<Cut> {
-    use pathbuild_gcode::interpret::Action;
     let (mut layer, mut speed) = (1, 0.0);
     let mut cuts = Vec::new();
     for step in &read.steps {

@@ -7,7 +7,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
 
 use super::built_in::Language;
-use super::job::{Coolant, Job, Operation, Spindle};
+use super::job::{Job, Operation};
 use super::options::{PostMacro, PostOptions};
 use super::origin::LineOrigin;
 use super::read_back::{self, Expected};
@@ -18,6 +18,7 @@ use super::{cad6, cambam};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
+use pathbuild_motion::{Coolant, Turning};
 
 /// A definition that was read, ready to write programs.
 #[derive(Clone, Debug)]
@@ -203,8 +204,7 @@ impl Post {
             Engine::Cad6(definition) => definition.uses("MillingSpindleDir"),
         };
         let stands = |operation: &&Operation| {
-            operation.cuts()
-                && (operation.speed.is_none() || matches!(operation.spindle, None | Some(Spindle::Off)))
+            operation.cuts() && (operation.speed.is_none() || !operation.spindle.is_some_and(Turning::is_on))
         };
         if let Engine::Cad6(definition) = &self.engine
             && definition.has_one_speed_a_tool()
@@ -327,12 +327,8 @@ fn unknown_dialect(name: &str) -> Diagnostic {
 impl Output {
     /// Tells what the job switches and the texts that were called do not. `switches`: the variables of switches in them.
     fn note_switches(&mut self, switches: &[&str], job: &Job, spin_up: f64) {
-        let cools =
-            job.operations.iter().any(|it| matches!(it.coolant, Some(Coolant::Flood | Coolant::Mist)));
-        let turns = job
-            .operations
-            .iter()
-            .any(|it| matches!(it.spindle, Some(Spindle::Clockwise | Spindle::CounterClockwise)));
+        let cools = job.operations.iter().any(|it| it.coolant.is_some_and(Coolant::is_on));
+        let turns = job.operations.iter().any(|it| it.spindle.is_some_and(Turning::is_on));
         let uses = |variable| switches.contains(&variable);
         if cools && !uses("ToolControl1") && !uses("ToolControl2") {
             self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");

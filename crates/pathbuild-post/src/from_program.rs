@@ -4,12 +4,12 @@ use std::borrow::Borrow;
 use std::f64::consts::PI;
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_motion::{Arc, Pace, Path, Plane};
 use pathbuild_path::approx::{at_least, near};
 use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep};
 
-use super::arcs::Polar;
-use super::job::{Entry, Job, Operation, Plane, describe};
-use super::step::{Arc, Hole, HoleKind, Step};
+use super::job::{Entry, Job, Operation, describe};
+use super::step::{Hole, HoleKind, Step};
 use super::tools::{Fitted, Fitter, ToolTable};
 
 /// An arc that is shorter, in mm, may end, as a post prints it, where it begins: that would be a full circle, which cuts off the support
@@ -152,23 +152,27 @@ impl<'a> Builder<'a> {
             Move::Lift { z } => return self.lift(z.z),
             Move::Drill { feed, z } => {
                 self.at[2] = z.z;
-                Step::Feed { to: self.at.into(), feed: Some(feed) }
+                Step::feed(self.at, Some(feed))
             }
             Move::Line { feed, to, z } => {
                 self.at = [to.x, to.y, z.z];
-                Step::Feed { to: self.at.into(), feed: Some(feed) }
+                Step::feed(self.at, Some(feed))
             }
             Move::Arc { feed, to, z, .. } if length < SHORTEST_ARC => {
                 self.at = [to.x, to.y, z.z];
-                Step::Feed { to: self.at.into(), feed: Some(feed) }
+                Step::feed(self.at, Some(feed))
             }
             Move::Arc { feed, clockwise, centre, to, z, .. } => {
                 self.at = [to.x, to.y, z.z];
-                let centre = [from[0] + centre.x, from[1] + centre.y, 0.0];
-                let arc = Arc { clockwise, from, centre, to: self.at, feed: Some(feed) };
-                let arc = whole(arc, length);
-                self.at = arc.to;
-                Step::Arc(arc)
+                let centre = [from[0] + centre.x, from[1] + centre.y];
+                let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
+                let (from, to, path) = (from.into(), self.at.into(), Path::Arc(arc));
+                let it = whole(
+                    pathbuild_motion::Move { from, to, path, pace: Pace::Feed(feed), named: None },
+                    length,
+                );
+                self.at = it.to.at;
+                Step::Move(it)
             }
         };
         self.operation_from(from).steps.push(step);
@@ -181,7 +185,7 @@ impl<'a> Builder<'a> {
     fn rapid(&mut self, to: [f64; 3]) {
         let from = std::mem::replace(&mut self.at, to);
         if from != to {
-            self.operation_from(from).steps.push(Step::Rapid { to: to.into() });
+            self.operation_from(from).steps.push(Step::rapid(to));
         }
     }
 
@@ -218,10 +222,10 @@ impl<'a> Builder<'a> {
 
 /// An arc that is so long in mm. A full circle ends where it begins, also where the numbers of both come from two drawn elements and differ
 /// by next to nothing: its angle would be nothing.
-fn whole(arc: Arc, length: f64) -> Arc {
-    let polar = Polar::of(&arc, Plane::Xy);
-    let is_whole = length > (polar.sweep + PI) * polar.radius;
-    if is_whole { Arc { to: [arc.from[0], arc.from[1], arc.to[2]], ..arc } } else { arc }
+fn whole(it: pathbuild_motion::Move, length: f64) -> pathbuild_motion::Move {
+    let is_whole = it.course().is_some_and(|course| length > (course.sweep() + PI) * course.radius());
+    let [x, y, _] = it.from.at;
+    if is_whole { pathbuild_motion::Move { to: [x, y, it.to.z()].into(), ..it } } else { it }
 }
 
 /// The comments at the beginning of some steps, and the steps after them.
@@ -240,9 +244,9 @@ fn as_comment(step: &ProgramStep) -> Option<&Comment> {
 
 /// The way from one hole to the next at one level is part of drilling the next.
 fn drop_way_between_holes(steps: &mut Vec<Step>, next: &Hole) {
-    if let [.., Step::Hole(before), Step::Rapid { to }] = steps.as_slice() {
+    if let [.., Step::Hole(before), way] = steps.as_slice() {
         let [x, y] = next.at;
-        if near(before.exit, next.level) && *to == [x, y, next.level].into() {
+        if near(before.exit, next.level) && *way == Step::rapid([x, y, next.level]) {
             steps.pop();
         }
     }

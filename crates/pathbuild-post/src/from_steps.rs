@@ -1,12 +1,15 @@
 //! A program that was read as a job, to be written for another machine. (book: program/reading, `post FILE --post X`)
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_motion as motion;
+use pathbuild_motion::{
+    Action, Axes, Coolant, Move, Pace, Path, Plane, Position, Spindle, Turning, WorkSystem,
+};
 
-use super::job::{Coolant, Entry, Job, Operation, Plane, Spindle, Tool, describe};
+use super::job::{Entry, Job, Operation, Tool, describe};
 use super::recognise;
-use super::step::{Arc, Hole, Position, Step};
+use super::step::{Hole, Step};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Action, Axes, Move, Pace, Path, Turning};
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 
@@ -49,7 +52,7 @@ impl Job {
     /// arcs of several turns.
     pub fn from_steps(
         name: &str,
-        steps: &[interpret::Step],
+        steps: &[motion::Step],
         dialect: Dialect,
         remark: &dyn Fn(&str) -> Remark<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
@@ -86,7 +89,7 @@ impl Job {
 struct State {
     /// `None`: the program has named none.
     tool: Option<u32>,
-    spindle: Option<Spindle>,
+    spindle: Option<Turning>,
     speed: Option<f64>,
     coolant: Option<Coolant>,
     plane: Plane,
@@ -104,7 +107,7 @@ struct Builder {
     unnamed_change: Option<u32>,
     /// The tool was changed below the clearance plane, and no move has changed its height since.
     was_changed_low: bool,
-    at: interpret::Position,
+    at: Position,
     clearance: f64,
     /// The last operation has cut something.
     has_cut: bool,
@@ -118,10 +121,9 @@ struct Builder {
 }
 
 impl Builder {
-    fn new(name: &str, steps: &[interpret::Step], dialect: Dialect) -> Self {
+    fn new(name: &str, steps: &[motion::Step], dialect: Dialect) -> Self {
         let has_layers = dialect.rules().layers;
-        let rapids =
-            steps.iter().filter_map(interpret::Step::as_move).filter(|(_, it)| it.pace == Pace::Rapid);
+        let rapids = steps.iter().filter_map(motion::Step::as_move).filter(|(_, it)| it.pace == Pace::Rapid);
         let heights =
             rapids.filter(|(_, it)| it.to.known.has(Axes::Z) && it.named.is_none()).map(|(_, it)| it.to.z());
         let tool = has_layers.then_some(1);
@@ -133,7 +135,7 @@ impl Builder {
             has_layers,
             unnamed_change: None,
             was_changed_low: false,
-            at: interpret::Position::default(),
+            at: Position::default(),
             clearance: heights.reduce(f64::max).unwrap_or(0.0),
             has_cut: false,
             names: Vec::new(),
@@ -143,7 +145,7 @@ impl Builder {
         }
     }
 
-    fn step(&mut self, step: &interpret::Step, remark: &dyn Fn(&str) -> Remark<'_>) {
+    fn step(&mut self, step: &motion::Step, remark: &dyn Fn(&str) -> Remark<'_>) {
         match &step.action {
             Action::Move(it) => self.go(step.line, it),
             Action::Dwell(seconds) => self.push(Step::Dwell { seconds: *seconds }),
@@ -151,7 +153,7 @@ impl Builder {
             Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
             Action::Spindle(spindle) => self.set_spindle(spindle),
             Action::Coolant(coolant) => self.set_coolant(*coolant),
-            Action::System(system) if *system != interpret::WorkSystem::default() => {
+            Action::System(system) if *system != WorkSystem::default() => {
                 self.refuse(step.line, &posts::JOB_SYSTEM);
             }
             Action::Comment(text) => match remark(text) {
@@ -266,30 +268,25 @@ impl Builder {
         }
     }
 
-    fn set_spindle(&mut self, spindle: &interpret::Spindle) {
+    fn set_spindle(&mut self, spindle: &Spindle) {
         self.state.spindle = match spindle.turning {
-            Turning::Unstated if self.has_layers => Some(Spindle::Clockwise),
+            Turning::Unstated if self.has_layers => Some(Turning::Clockwise),
             Turning::Unstated => None,
-            Turning::Off => Some(Spindle::Off),
-            Turning::Clockwise => Some(Spindle::Clockwise),
-            Turning::Counterclockwise => Some(Spindle::CounterClockwise),
+            turning => Some(turning),
         };
         self.state.speed = (spindle.speed > 0.0).then_some(spindle.speed);
         self.update();
     }
 
-    fn set_coolant(&mut self, coolant: interpret::Coolant) {
-        self.state.coolant = Some(match coolant {
-            interpret::Coolant { flood: true, .. } => Coolant::Flood,
-            interpret::Coolant { mist: true, .. } => Coolant::Mist,
-            interpret::Coolant { .. } => Coolant::Off,
-        });
+    fn set_coolant(&mut self, coolant: Coolant) {
+        // Posts have words for one of both.
+        self.state.coolant = Some(if coolant.flood { Coolant::FLOOD } else { coolant });
         self.update();
     }
 
     fn hole(&mut self, hole: Hole) {
         self.leave_change([Some(hole.at[0]), Some(hole.at[1])]);
-        self.at = interpret::Position::known(hole.at[0], hole.at[1], hole.exit);
+        self.at = Position::known(hole.at[0], hole.at[1], hole.exit);
         self.cutting().steps.push(Step::Hole(hole));
     }
 
@@ -300,30 +297,26 @@ impl Builder {
         }
         let operation = self.operation();
         operation.entry = Entry::Clearance;
-        operation.steps.push(Step::Rapid { to: [x, y, None].into() });
+        operation.steps.push(Step::rapid([x, y, None]));
     }
 
     fn go(&mut self, line: u32, it: &Move) {
         if it.named.is_some() {
             return self.refuse(line, &posts::JOB_NAMED_PLACE);
         }
-        let to =
-            Position::from([0, 1, 2].map(|axis| it.to.known.has(Axes::of(axis)).then_some(it.to.at[axis])));
-        let feed = it.pace.feed().filter(|feed| *feed > 0.0);
-        let step = match (it.path, it.pace) {
-            (Path::Line, Pace::Rapid) => Step::Rapid { to },
-            (Path::Line, Pace::Feed(_)) => Step::Feed { to, feed },
-            (Path::Line, Pace::Probe { toward: true, .. }) => Step::Probe { to, feed },
+        match (it.path, it.pace) {
+            (Path::Line, Pace::Rapid | Pace::Feed(_) | Pace::Probe { toward: true, .. }) => {}
             (Path::Arc(arc), _) if arc.extra_turns == 0 => {
-                self.state.plane = plane_of(arc.plane);
+                self.state.plane = arc.plane;
                 self.update();
-                Step::Arc(arc_of(it, &arc, feed))
             }
             _ => return self.refuse(line, &posts::JOB_MOVE),
-        };
+        }
+        let step = Step::Move(*it);
         if it.pace == Pace::Rapid {
             if it.to.z() != it.from.z() {
-                self.leave_change([to.x, to.y]);
+                let [x, y, _] = it.to.axes();
+                self.leave_change([x, y]);
             }
             self.push(step);
         } else {
@@ -366,7 +359,7 @@ impl Job {
 
 /// Whether a step is none of those that only lead somewhere.
 fn is_no_way(step: &Step) -> bool {
-    !matches!(step, Step::Rapid { .. })
+    !matches!(step, Step::Move(Move { pace: Pace::Rapid, .. }))
 }
 
 /// The tool of a number; `None` before the program names one.
@@ -377,20 +370,4 @@ fn numbered(tool: Option<u32>) -> Tool {
 /// Whether a cut leads from a known place to a known one.
 fn is_known(it: &Move, has_probed: bool) -> bool {
     it.to.known == Axes::ALL && (it.from.known == Axes::ALL || has_probed)
-}
-
-fn plane_of(plane: interpret::Plane) -> Plane {
-    match plane {
-        interpret::Plane::Xy => Plane::Xy,
-        interpret::Plane::Zx => Plane::Xz,
-        interpret::Plane::Yz => Plane::Yz,
-    }
-}
-
-fn arc_of(it: &Move, arc: &interpret::Arc, feed: Option<f64>) -> Arc {
-    let [u, v, _] = plane_of(arc.plane).axes();
-    let mut centre = [0.0; 3];
-    centre[u] = arc.centre[0];
-    centre[v] = arc.centre[1];
-    Arc { clockwise: arc.clockwise, from: it.from.at, centre, to: it.to.at, feed }
 }

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 
-use super::step::{Hole, HoleKind, Position, Step};
+use super::step::{Hole, HoleKind, Step};
 
 /// A hole with more pecks is a slip of the pen.
 const MOST_PECKS: usize = 1_000;
@@ -12,24 +12,24 @@ const PECK_GAP: f64 = 0.254;
 /// The moves of a hole: over it at its level, down, and up to its exit.
 pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
     let [x, y] = hole.at;
-    let to = |z| Position::from([x, y, z]);
-    let mut steps = vec![Step::Rapid { to: to(hole.level) }];
+    let to = |z| [x, y, z];
+    let mut steps = vec![Step::rapid(to(hole.level))];
     if hole.retract < hole.level {
-        steps.push(Step::Rapid { to: to(hole.retract) });
+        steps.push(Step::rapid(to(hole.retract)));
     }
     let depths = depths(hole)?;
     for (index, &depth) in depths.iter().enumerate() {
         if index > 0 {
             let reached = depths[index - 1];
-            steps.push(Step::Rapid { to: to(hole.retract) });
-            steps.push(Step::Rapid { to: to((reached + PECK_GAP).min(hole.retract)) });
+            steps.push(Step::rapid(to(hole.retract)));
+            steps.push(Step::rapid(to((reached + PECK_GAP).min(hole.retract))));
         }
-        steps.push(Step::Feed { to: to(depth), feed: hole.feed });
+        steps.push(Step::feed(to(depth), hole.feed));
     }
     if let HoleKind::Dwell { seconds } = hole.kind {
         steps.push(Step::Dwell { seconds });
     }
-    steps.push(Step::Rapid { to: to(hole.exit) });
+    steps.push(Step::rapid(to(hole.exit)));
     Ok(steps)
 }
 
@@ -64,7 +64,7 @@ mod tests {
         let hole =
             Hole { at: [1.0, 2.0], level, retract: 10.0, bottom: 4.0, exit: 20.0, feed: Some(60.0), kind };
         let z = |step: &Step| match step {
-            Step::Rapid { to } | Step::Feed { to, .. } => to.z,
+            Step::Move(it) => Some(it.to.z()),
             _ => None,
         };
         moves(&hole).unwrap().iter().filter_map(z).collect()

@@ -7,7 +7,10 @@ use std::collections::HashSet;
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
-use super::step::{Hole, Position, Step};
+use pathbuild_motion::{Coolant, Move, Pace, Path, Plane, Position, Turning};
+
+use super::arcs;
+use super::step::{Hole, Step};
 
 /// A program to be written by a post.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,7 +70,7 @@ impl Job {
 
     /// The feeds of each operation, else any: an operation may have none.
     pub(super) fn feeds(&self) -> Vec<Feeds> {
-        let own = |operation: &Operation| operation.steps.iter().find_map(Step::feed);
+        let own = |operation: &Operation| operation.steps.iter().find_map(Step::stated_feed);
         let any = self.operations.iter().find_map(own);
         let feeds = |operation: &Operation| {
             let (plunge, cut) = (operation.plunge_feed, operation.cut_feed);
@@ -88,12 +91,9 @@ impl Job {
         for operation in &mut self.operations {
             for step in &mut operation.steps {
                 match step {
-                    Step::Feed { feed: own, .. } | Step::Probe { feed: own, .. } => {
-                        _ = own.get_or_insert(feed);
-                    }
-                    Step::Arc(arc) => _ = arc.feed.get_or_insert(feed),
+                    Step::Move(it) => it.pace.set_missing_feed(feed),
                     Step::Hole(hole) => _ = hole.feed.get_or_insert(feed),
-                    Step::Rapid { .. } | Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
+                    Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
                 }
             }
         }
@@ -102,13 +102,10 @@ impl Job {
     /// Moves the centres of arcs as far from both ends, where they are not quite that: the numbers of a program in inches are rounded to
     /// 0.0025 mm, which is more than arcs in millimetres may be wrong.
     pub fn centre_arcs(&mut self) {
-        for operation in &mut self.operations {
-            let plane = operation.plane;
-            let arcs = operation.steps.iter_mut().filter_map(|step| match step {
-                Step::Arc(arc) => Some(arc),
-                _ => None,
-            });
-            arcs.for_each(|arc| arc.centre(plane));
+        for step in self.operations.iter_mut().flat_map(|operation| &mut operation.steps) {
+            if let Step::Move(it) = step {
+                arcs::centre(it);
+            }
         }
     }
 
@@ -174,7 +171,7 @@ pub struct Operation {
     /// The cutter.
     pub tool: Tool,
     /// What the spindle is to do; `None` when nobody says.
-    pub spindle: Option<Spindle>,
+    pub spindle: Option<Turning>,
     /// Spindle speed in 1/min, where it is known.
     pub speed: Option<f64>,
     /// What the coolant is to do; `None` when nobody says.
@@ -238,12 +235,11 @@ impl Operation {
     /// The first place to which the moves lead, each coordinate by the first move that says it, else where they begin.
     pub fn first_point(&self) -> Position {
         let target = |step: &Step| match step {
-            Step::Rapid { to } | Step::Feed { to, .. } | Step::Probe { to, .. } => Some(*to),
-            Step::Arc(arc) => Some(arc.to.into()),
-            Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].into()),
+            Step::Move(it) => Some(it.to.axes()),
+            Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].map(Some)),
             Step::Dwell { .. } | Step::Stop | Step::Comment(_) => None,
         };
-        let places = self.steps.iter().filter_map(target).map(Position::axes);
+        let places = self.steps.iter().filter_map(target);
         let begin = match self.entry {
             Entry::At(at) => at.map(Some),
             Entry::Clearance => [None, None, Some(self.clearance)],
@@ -263,12 +259,13 @@ impl Operation {
 
     /// Whether the tool cuts something in it.
     pub fn cuts(&self) -> bool {
-        self.steps.iter().any(|step| matches!(step, Step::Feed { .. } | Step::Arc(_) | Step::Hole(_)))
+        self.steps.iter().any(|step| matches!(step, Step::Hole(_)) || step.as_cut().is_some())
     }
 
     /// Whether it measures the material and cuts nothing: the tool touches it, so the spindle stands.
     pub fn only_probes(&self) -> bool {
-        !self.cuts() && self.steps.iter().any(|step| matches!(step, Step::Probe { .. }))
+        !self.cuts()
+            && self.steps.iter().any(|step| matches!(step, Step::Move(Move { pace: Pace::Probe { .. }, .. })))
     }
 
     /// The holes in it.
@@ -325,45 +322,6 @@ impl Tool {
     }
 }
 
-/// What a spindle does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Spindle {
-    Clockwise,
-    CounterClockwise,
-    Off,
-}
-
-/// What the coolant does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Coolant {
-    Flood,
-    Mist,
-    Off,
-}
-
-/// The plane in which arcs lie.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Plane {
-    #[default]
-    Xy,
-    Xz,
-    Yz,
-}
-
-impl Plane {
-    /// The two axes of the plane, in the order that makes a counter-clockwise turn positive, and the one across it; 0 is X.
-    pub fn axes(self) -> [usize; 3] {
-        match self {
-            Self::Xy => [0, 1, 2],
-            Self::Xz => [2, 0, 1],
-            Self::Yz => [1, 2, 0],
-        }
-    }
-}
-
 /// Whether the machine stops at corners or rounds them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -390,16 +348,18 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     }
     operation.retract = operation.surface;
     let depth_of = |step: &Step| match step {
-        Step::Feed { to, .. } => to.z,
-        Step::Arc(arc) => Some(arc.to[2]),
         Step::Hole(hole) => Some(hole.bottom),
-        _ => None,
+        _ => step.as_cut().and_then(|it| it.to.axes()[2]),
     };
     let feed_where = |is_meant: &dyn Fn(&Step, &Step) -> bool| {
-        operation.steps.windows(2).find(|pair| is_meant(&pair[0], &pair[1])).and_then(|pair| pair[1].feed())
+        operation
+            .steps
+            .windows(2)
+            .find(|pair| is_meant(&pair[0], &pair[1]))
+            .and_then(|pair| pair[1].stated_feed())
     };
     let plunge_feed = feed_where(&is_straight_down).or(operation.holes().find_map(|hole| hole.feed));
-    let cut_feed = feed_where(&|before, step| is_cut(step) && !is_straight_down(before, step));
+    let cut_feed = feed_where(&|before, step| step.as_cut().is_some() && !is_straight_down(before, step));
     operation.plunge_feed = plunge_feed;
     operation.cut_feed = cut_feed;
     operation.target_depth = operation.steps.iter().filter_map(depth_of).reduce(f64::min);
@@ -410,17 +370,13 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     operation.depth_increment = infeeds.filter(|infeed| *infeed > 0.0).reduce(f64::max);
 }
 
-fn is_cut(step: &Step) -> bool {
-    matches!(step, Step::Feed { .. } | Step::Arc(_))
-}
-
-/// Whether a step goes down by feed where the one before it ended.
+/// Whether a step goes straight down by feed where the one before it ended.
 fn is_straight_down(before: &Step, step: &Step) -> bool {
     let end_of = |step: &Step| match step {
-        Step::Rapid { to } | Step::Feed { to, .. } => to.axes(),
-        Step::Arc(arc) => arc.to.map(Some),
+        Step::Move(it) if !matches!(it.pace, Pace::Probe { .. }) => it.to.axes(),
         _ => [None; 3],
     };
     let (from, to) = (end_of(before), end_of(step));
-    matches!(step, Step::Feed { .. }) && from[..2] == to[..2] && to[2] < from[2]
+    let is_line = step.as_cut().is_some_and(|it| it.path == Path::Line);
+    is_line && from[..2] == to[..2] && to[2] < from[2]
 }

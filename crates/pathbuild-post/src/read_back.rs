@@ -2,16 +2,18 @@
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Action, Axes, Change, Move, Named, Pace, Path, Position, ToolLength, WorkSystem};
 
 use super::holes;
-use super::job::{Entry, Job, Operation, Plane};
+use super::job::{Entry, Job, Operation};
 use super::origin::LineOrigin;
 use super::shadow::Unfollowed;
-use super::step::{Arc, Position, Step};
+use super::step::Step;
 use super::target::Target;
 use super::{spindle, ways};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Action, Axes, Change, Move, Named, Options, Pace, Path, ToolLength};
+use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
 
 /// What a text is held against.
@@ -83,7 +85,7 @@ pub(super) fn check(
 
 /// Moves as seen from above; those that lead nowhere in the plane are left out.
 fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
-    let level = |mut at: interpret::Position| {
+    let level = |mut at: Position| {
         at.at[2] = 0.0;
         at.known = at.known.with(Axes::Z);
         at
@@ -93,11 +95,11 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
 }
 
 /// Words that choose where the program's zero is: the job says nothing about it.
-fn chosen_offsets(steps: &[interpret::Step]) -> Vec<Diagnostic> {
+fn chosen_offsets(steps: &[motion::Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
         let word = match &step.action {
-            Action::System(system) if *system != interpret::WorkSystem::default() => system.name(),
+            Action::System(system) if *system != WorkSystem::default() => system.name(),
             Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2",
             _ => continue,
         };
@@ -114,7 +116,7 @@ const MOST_DOUBTS: usize = 5;
 
 /// The rules of `verify` that need no map of the material. (book: program/reading)
 fn broken_rules(
-    steps: &[interpret::Step],
+    steps: &[motion::Step],
     job: &Job,
     machine: Option<&Machine>,
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
@@ -188,19 +190,19 @@ fn as_post_s(found: Diagnostic) -> Diagnostic {
 
 /// The moves of a job, each with the number of its step.
 fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
-    let mut mover = Mover { at: interpret::Position::default(), moves: Vec::new(), number: 0 };
+    let mut mover = Mover { at: Position::default(), moves: Vec::new(), number: 0 };
     for operation in &job.operations {
         mover.enter(operation);
         for step in &operation.steps {
             mover.number += 1;
-            mover.step(step, operation.plane)?;
+            mover.step(step)?;
         }
     }
-    Ok(mover.moves)
+    Ok(mover.moves.into_iter().map(answered).collect())
 }
 
 struct Mover {
-    at: interpret::Position,
+    at: Position,
     moves: Vec<(u32, Move)>,
     number: u32,
 }
@@ -210,7 +212,7 @@ impl Mover {
     fn enter(&mut self, operation: &Operation) {
         match operation.entry {
             Entry::At([x, y, z]) => {
-                let is_there = self.at == interpret::Position::known(x, y, z);
+                let is_there = self.at == Position::known(x, y, z);
                 if !is_there {
                     self.rapid([None, None, Some(operation.clearance)]);
                     self.rapid([Some(x), Some(y), None]);
@@ -237,35 +239,22 @@ impl Mover {
         self.moves.push((self.number, Move { from, to: self.at, path, pace, named }));
     }
 
-    fn step(&mut self, step: &Step, plane: Plane) -> Result<(), Box<Diagnostic>> {
-        let feed = |feed: Option<f64>| Pace::Feed(feed.unwrap_or(0.0));
+    fn step(&mut self, step: &Step) -> Result<(), Box<Diagnostic>> {
         match step {
-            Step::Rapid { to } => self.rapid(Position::axes(*to)),
-            Step::Feed { to, feed: f } => self.go(to.axes(), Path::Line, feed(*f)),
-            Step::Arc(arc) => self.go(arc.to.map(Some), Path::Arc(arc_of(arc, plane)), feed(arc.feed)),
-            Step::Hole(hole) => {
-                for step in holes::moves(hole)? {
-                    self.step(&step, plane)?;
+            Step::Move(it) => {
+                self.go(it.to.axes(), it.path, it.pace);
+                if matches!(it.pace, Pace::Probe { .. }) {
+                    // Where it stops is known when the machine is there.
+                    self.at.known = Axes::NONE;
                 }
             }
-            Step::Probe { to, feed } => {
-                let pace = Pace::Probe { feed: feed.unwrap_or(0.0), toward: true, must_answer: true };
-                self.go(to.axes(), Path::Line, pace);
-                // Where it stops is known when the machine is there.
-                self.at.known = Axes::NONE;
+            Step::Hole(hole) => {
+                for step in holes::moves(hole)? {
+                    self.step(&step)?;
+                }
             }
             Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
         }
         Ok(())
     }
-}
-
-fn arc_of(arc: &Arc, plane: Plane) -> interpret::Arc {
-    let [u, v, _] = plane.axes();
-    let plane = match plane {
-        Plane::Xy => interpret::Plane::Xy,
-        Plane::Xz => interpret::Plane::Zx,
-        Plane::Yz => interpret::Plane::Yz,
-    };
-    interpret::Arc { plane, centre: [arc.centre[u], arc.centre[v]], clockwise: arc.clockwise, extra_turns: 0 }
 }

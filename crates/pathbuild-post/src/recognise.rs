@@ -1,7 +1,8 @@
 //! Drilling cycles among the moves of a program that was read: its reader turns them into the moves that they stand for.
 
+use pathbuild_motion::{Action, Axes, Move, Pace, Path, Step};
+
 use super::step::{Hole, HoleKind};
-use pathbuild_gcode::interpret::{Action, Axes, Move, Pace, Path, Step};
 
 /// The hole that some steps begin with, and the steps behind it. All its moves come from one line, which no other line's do.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {

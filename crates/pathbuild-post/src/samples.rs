@@ -1,7 +1,9 @@
 //! Small programs, each with one thing that a post may have words for.
 
-use super::job::{Coolant, Job, Operation, Spindle, Tool};
-use super::step::{Arc, Hole, HoleKind, Position, Step};
+use pathbuild_motion::{Arc, Coolant, Move, Pace, Path, Plane, Turning};
+
+use super::job::{Job, Operation, Tool};
+use super::step::{Hole, HoleKind, Step};
 
 /// Programs from which it can be seen which words a post writes. The first one is the plainest. A post that has no text for one of them
 /// refuses that one.
@@ -18,24 +20,25 @@ pub fn samples() -> Vec<Job> {
         })
     };
     let down = || vec![line(0.0, -1.0), line(10.0, -1.0)];
-    let arc = Step::Arc(Arc {
-        clockwise: true,
-        from: [0.0, 0.0, -1.0],
-        centre: [5.0, 0.0, -1.0],
-        to: [10.0, 0.0, -1.0],
-        feed: Some(100.0),
+    let circle = Arc { plane: Plane::Xy, centre: [5.0, 0.0], clockwise: true, extra_turns: 0 };
+    let arc = Step::Move(Move {
+        from: [0.0, 0.0, -1.0].into(),
+        to: [10.0, 0.0, -1.0].into(),
+        path: Path::Arc(circle),
+        pace: Pace::Feed(100.0),
+        named: None,
     });
-    let probe = Step::Probe { to: Position { x: None, y: None, z: Some(0.0) }, feed: Some(40.0) };
-    let plain = || operation(1, Coolant::Flood, down());
+    let probe = Step::probe([None, None, Some(0.0)], Some(40.0));
+    let plain = || operation(1, Coolant::FLOOD, down());
     vec![
         job(vec![plain()]),
-        job(vec![plain(), operation(2, Coolant::Mist, down()), operation(1, Coolant::Off, down())]),
-        job(vec![Operation { spindle: Some(Spindle::CounterClockwise), ..plain() }]),
-        job(vec![operation(1, Coolant::Off, vec![line(0.0, -1.0), arc])]),
-        job(vec![operation(1, Coolant::Off, vec![hole(HoleKind::Plain)])]),
-        job(vec![operation(1, Coolant::Off, vec![hole(HoleKind::Peck { depth: 2.0 })])]),
-        job(vec![operation(1, Coolant::Off, vec![probe])]),
-        job(vec![operation(1, Coolant::Off, [vec![Step::Dwell { seconds: 1.0 }], down()].concat())]),
+        job(vec![plain(), operation(2, Coolant::MIST, down()), operation(1, Coolant::OFF, down())]),
+        job(vec![Operation { spindle: Some(Turning::Counterclockwise), ..plain() }]),
+        job(vec![operation(1, Coolant::OFF, vec![line(0.0, -1.0), arc])]),
+        job(vec![operation(1, Coolant::OFF, vec![hole(HoleKind::Plain)])]),
+        job(vec![operation(1, Coolant::OFF, vec![hole(HoleKind::Peck { depth: 2.0 })])]),
+        job(vec![operation(1, Coolant::OFF, vec![probe])]),
+        job(vec![operation(1, Coolant::OFF, [vec![Step::Dwell { seconds: 1.0 }], down()].concat())]),
     ]
 }
 
@@ -45,18 +48,18 @@ fn job(operations: Vec<Operation>) -> Job {
 
 /// To the clearance plane, and along it to X.
 fn rapid(x: Option<f64>) -> Step {
-    Step::Rapid { to: Position { x, y: x, z: Some(5.0) } }
+    Step::rapid([x, x, Some(5.0)])
 }
 
 fn line(x: f64, z: f64) -> Step {
-    Step::Feed { to: Position { x: Some(x), y: Some(0.0), z: Some(z) }, feed: Some(100.0) }
+    Step::feed([x, 0.0, z], Some(100.0))
 }
 
 fn operation(tool: u32, coolant: Coolant, steps: Vec<Step>) -> Operation {
     let operation = Operation::new("1.1P", Tool::new(tool, 3.0, "cutter"));
     Operation {
         part: "1.1P".into(),
-        spindle: Some(Spindle::Clockwise),
+        spindle: Some(Turning::Clockwise),
         speed: Some(1000.0),
         coolant: Some(coolant),
         clearance: 5.0,

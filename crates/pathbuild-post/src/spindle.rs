@@ -2,14 +2,15 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_gcode::interpret::{self, Action, Move, Pace, Turning};
+use pathbuild_motion::{Action, Move, Pace, Step, Turning};
 
-use super::job::{Job, Operation, Spindle};
+use super::job::{Job, Operation};
 
 /// The first cut of the text before which the spindle was not switched on, or is switched the other way round than the job says. A job in
 /// which some operation leaves the spindle to others is not asked.
-pub(super) fn check(steps: &[interpret::Step], job: &Job, is_flat: bool) -> Option<Diagnostic> {
+pub(super) fn check(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnostic> {
     let cutting = || job.operations.iter().filter(|operation| operation.cuts());
+    let turning = |operation: &Operation| operation.spindle.filter(|turning| turning.is_on());
     let mut expected: Vec<Turning> = cutting().map(turning).collect::<Option<_>>()?;
     expected.dedup();
     // A feed above the material, on the way to it, is no cut.
@@ -43,12 +44,12 @@ pub(super) fn check(steps: &[interpret::Step], job: &Job, is_flat: bool) -> Opti
 }
 
 /// The first rapid move over which a beam, which the words of the spindle switch, is not off.
-pub(super) fn check_beam(steps: &[interpret::Step]) -> Option<Diagnostic> {
+pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
     let mut is_on = false;
     for step in steps {
         match &step.action {
             Action::Spindle(spindle) => {
-                is_on = matches!(spindle.turning, Turning::Clockwise | Turning::Counterclockwise);
+                is_on = spindle.turning.is_on();
             }
             Action::Move(it) if is_on && it.pace == Pace::Rapid && !it.is_nothing() => {
                 return Some(Diagnostic::new(&posts::BEAM_ON).at_line(step.line, None));
@@ -60,9 +61,9 @@ pub(super) fn check_beam(steps: &[interpret::Step]) -> Option<Diagnostic> {
 }
 
 /// Whether the spindle is ever switched on.
-pub(super) fn is_started(steps: &[interpret::Step]) -> bool {
+pub(super) fn is_started(steps: &[Step]) -> bool {
     steps.iter().any(|step| match step.action {
-        Action::Spindle(spindle) => matches!(spindle.turning, Turning::Clockwise | Turning::Counterclockwise),
+        Action::Spindle(spindle) => spindle.turning.is_on(),
         _ => false,
     })
 }
@@ -70,14 +71,6 @@ pub(super) fn is_started(steps: &[interpret::Step]) -> bool {
 /// Whether a rule of `verify` is about the spindle.
 pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
     [&gcode::SPINDLE_OFF, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINDLE_LEFT_ON].contains(&problem.message)
-}
-
-fn turning(operation: &Operation) -> Option<Turning> {
-    match operation.spindle? {
-        Spindle::Clockwise => Some(Turning::Clockwise),
-        Spindle::CounterClockwise => Some(Turning::Counterclockwise),
-        Spindle::Off => None,
-    }
 }
 
 fn is_cut(it: &Move, surface: f64) -> bool {

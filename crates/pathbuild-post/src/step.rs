@@ -1,50 +1,12 @@
 //! The moves of an operation. Lengths are millimetres, feeds mm/min.
 
-/// Absolute coordinates in mm. Those that are not known, because nobody has said them yet, are `None`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[expect(missing_docs, reason = "coordinates")]
-pub struct Position {
-    pub x: Option<f64>,
-    pub y: Option<f64>,
-    pub z: Option<f64>,
-}
-
-impl Position {
-    /// X, Y, Z.
-    pub fn axes(self) -> [Option<f64>; 3] {
-        [self.x, self.y, self.z]
-    }
-}
-
-impl From<[f64; 3]> for Position {
-    fn from([x, y, z]: [f64; 3]) -> Self {
-        Self { x: Some(x), y: Some(y), z: Some(z) }
-    }
-}
-
-impl From<[Option<f64>; 3]> for Position {
-    fn from([x, y, z]: [Option<f64>; 3]) -> Self {
-        Self { x, y, z }
-    }
-}
+use pathbuild_motion::{Move, Pace, Path, Position};
 
 /// One thing that the machine does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// As fast as the machine can.
-    Rapid {
-        /// Where to.
-        to: Position,
-    },
-    /// Straight, cutting.
-    Feed {
-        /// Where to.
-        to: Position,
-        /// mm/min; `None` when the program that was read never said.
-        feed: Option<f64>,
-    },
-    /// Along a circle or helix.
-    Arc(Arc),
+    /// The tool moves. Where a straight move begins is where the step before it ended: `from` counts for arcs only.
+    Move(Move),
     /// A hole, however it is drilled.
     Hole(Hole),
     /// Standing still.
@@ -52,32 +14,10 @@ pub enum Step {
         /// For how long.
         seconds: f64,
     },
-    /// Straight until the probe closes.
-    Probe {
-        /// Where to at the furthest.
-        to: Position,
-        /// mm/min.
-        feed: Option<f64>,
-    },
     /// Waiting for whoever stands at the machine.
     Stop,
     /// A remark for whoever stands at the machine.
     Comment(Box<str>),
-}
-
-/// A circular move in the operation's plane, or a helix across it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arc {
-    /// Seen from the positive end of the axis across the plane.
-    pub clockwise: bool,
-    /// Where it begins: where the tool is.
-    pub from: [f64; 3],
-    /// Absolute; the coordinate across the plane means nothing.
-    pub centre: [f64; 3],
-    /// Where it ends. The same point of the plane as `from` is a full circle.
-    pub to: [f64; 3],
-    /// mm/min; `None` when the program that was read never said.
-    pub feed: Option<f64>,
 }
 
 /// A drilled hole: from wherever the tool is, over it, down, and up again to `exit`.
@@ -117,25 +57,47 @@ pub enum HoleKind {
 }
 
 impl Step {
-    /// The feed in mm/min that it says.
-    pub(super) fn feed(&self) -> Option<f64> {
+    /// Straight, as fast as the machine can.
+    pub fn rapid(to: impl Into<Position>) -> Self {
+        Self::straight(to, Pace::Rapid)
+    }
+
+    /// Straight, cutting. `feed` is `None` where a program that was read says none.
+    pub fn feed(to: impl Into<Position>, feed: Option<f64>) -> Self {
+        Self::straight(to, Pace::Feed(feed.unwrap_or_default()))
+    }
+
+    /// Straight until the probe closes.
+    pub fn probe(to: impl Into<Position>, feed: Option<f64>) -> Self {
+        Self::straight(to, Pace::Probe { feed: feed.unwrap_or_default(), toward: true, must_answer: true })
+    }
+
+    fn straight(to: impl Into<Position>, pace: Pace) -> Self {
+        let from = Position::default();
+        Self::Move(Move { from, to: to.into(), path: Path::Line, pace, named: None })
+    }
+
+    /// The move, if it cuts.
+    pub(super) fn as_cut(&self) -> Option<&Move> {
         match self {
-            Self::Feed { feed, .. } | Self::Probe { feed, .. } => *feed,
-            Self::Arc(arc) => arc.feed,
-            Self::Hole(hole) => hole.feed,
-            Self::Rapid { .. } | Self::Dwell { .. } | Self::Stop | Self::Comment(_) => None,
+            Self::Move(it) if matches!(it.pace, Pace::Feed(_)) => Some(it),
+            _ => None,
         }
     }
 
-    /// Whether every number in it is one.
-    pub(super) fn is_finite(&self) -> bool {
-        let position = |to: &Position| to.axes().into_iter().flatten().all(f64::is_finite);
-        let all = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
-        let feed = |feed: &Option<f64>| feed.is_none_or(f64::is_finite);
+    /// The feed in mm/min that it states.
+    pub(super) fn stated_feed(&self) -> Option<f64> {
         match self {
-            Self::Rapid { to } => position(to),
-            Self::Feed { to, feed: f } | Self::Probe { to, feed: f } => position(to) && feed(f),
-            Self::Arc(arc) => all(&arc.from) && all(&arc.centre) && all(&arc.to) && feed(&arc.feed),
+            Self::Move(it) => it.pace.stated_feed(),
+            Self::Hole(hole) => hole.feed,
+            Self::Dwell { .. } | Self::Stop | Self::Comment(_) => None,
+        }
+    }
+
+    /// Whether every number in it is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        match self {
+            Self::Move(it) => it.is_finite(),
             Self::Hole(hole) => hole.is_finite(),
             Self::Dwell { seconds } => seconds.is_finite(),
             Self::Stop | Self::Comment(_) => true,

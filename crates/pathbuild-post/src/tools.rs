@@ -1,10 +1,11 @@
 //! The tool table: which cutter, spindle and coolant a program with a given O runs with. (`[tool.NAME]` in pathbuild.toml)
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_motion::{Coolant, Turning};
 use pathbuild_path::approx::near;
 use regex::Regex;
 
-use super::job::{Coolant, Spindle, Tool};
+use super::job::Tool;
 
 /// The tools of the configuration.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +26,7 @@ pub struct ToolEntry {
     /// The number in T words; without one the next that is free, in order of use.
     pub index: Option<u32>,
     /// What the spindle does; `None` when the machine's operator sees to it.
-    pub spindle: Option<Spindle>,
+    pub spindle: Option<Turning>,
     /// Spindle speed in 1/min.
     pub speed: Option<f64>,
     /// What the coolant does; `None` when the machine's operator sees to it.
@@ -36,7 +37,7 @@ pub struct ToolEntry {
 #[derive(Clone, Debug)]
 pub(super) struct Fitted {
     pub(super) tool: Tool,
-    pub(super) spindle: Option<Spindle>,
+    pub(super) spindle: Option<Turning>,
     pub(super) speed: Option<f64>,
     pub(super) coolant: Option<Coolant>,
 }

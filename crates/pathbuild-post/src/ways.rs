@@ -10,8 +10,8 @@ use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Text, Value};
-use pathbuild_gcode::interpret::{Axes, Move, Pace, Path, Position};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
+use pathbuild_motion::{Axes, Move, Pace, Path, Position};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 

@@ -10,15 +10,11 @@ use std::sync::OnceLock;
 use pathbuild_diagnostic::messages::gcode::RETURN_IN_LINE;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{
-    Action, Change, Corners, Heights, Move, Options, Pace, Position, Spindle, Step, Turning, each_move_of,
-    guess, interpret, interpret_each,
-};
+use pathbuild_gcode::interpret::{Heights, Options, each_move_of, guess, interpret, interpret_each};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Against, Checks, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
-use pathbuild_post::{
-    BUILT_IN, Job, Language, PostOptions, Spindle as Turn, ToolEntry, ToolTable, load, samples,
-};
+use pathbuild_motion::{Action, Change, Corners, Move, Pace, Position, Spindle, Step, Turning};
+use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, ToolEntry, ToolTable, load, samples};
 use pathbuild_toolpath::{Correction, Program};
 use rayon::prelude::*;
 
@@ -117,7 +113,7 @@ fn entry(diameter: f64) -> ToolEntry {
         diameter,
         paths: None,
         index: Some(1),
-        spindle: Some(Turn::Clockwise),
+        spindle: Some(Turning::Clockwise),
         speed: Some(SPEED),
         coolant: None,
     }
@@ -221,13 +217,7 @@ const ROUNDING: f64 = 0.006;
 
 fn nothing() -> Move {
     let nowhere = Position::default();
-    Move {
-        from: nowhere,
-        to: nowhere,
-        path: pathbuild_gcode::interpret::Path::Line,
-        pace: Pace::Rapid,
-        named: None,
-    }
+    Move { from: nowhere, to: nowhere, path: pathbuild_motion::Path::Line, pace: Pace::Rapid, named: None }
 }
 
 /// Words that are dangerous anywhere before the last cut.

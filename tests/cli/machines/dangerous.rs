@@ -14,7 +14,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Action, Options, Pace, Step, interpret};
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Action, Pace, Step};
 use pathbuild_post::BUILT_IN;
 use rayon::prelude::*;
 use tempfile::NamedTempFile;
@@ -443,14 +445,14 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     let mut effects = Vec::new();
     for Step { action, .. } in interpret(text, dialect, &Options::default()).steps {
         match action {
-            Action::Move(it) if is_still(&it.from.at, &it.to.at) && it.path == interpret::Path::Line => {}
+            Action::Move(it) if is_still(&it.from.at, &it.to.at) && it.path == motion::Path::Line => {}
             Action::Move(it) if it.pace == Pace::Rapid && it.to.z().min(it.from.z()) >= LOW => {}
             Action::Move(it) if it.pace == Pace::Rapid => {
                 effects.push(Effect { kind: 0, numbers: it.to.at.to_vec(), state: String::new() });
             }
             Action::Move(it) => {
                 let (kind, mut numbers, mut way) = (1, it.to.at.to_vec(), String::new());
-                if let interpret::Path::Arc(arc) = it.path {
+                if let motion::Path::Arc(arc) = it.path {
                     numbers.extend(arc.centre);
                     way = format!("{} {} {:?}", arc.clockwise, arc.extra_turns, arc.plane);
                 }
@@ -466,7 +468,7 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
                 settings.insert("system", format!("{system:?}"));
             }
             // The speed of rapid moves does not affect the material.
-            Action::Change(interpret::Change::RapidFeed(_)) => {}
+            Action::Change(motion::Change::RapidFeed(_)) => {}
             Action::Change(change) => {
                 settings.insert("change", format!("{change:?}"));
             }

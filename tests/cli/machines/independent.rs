@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Axes, Move, Options, Pace, interpret};
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Axes, Move, Pace};
 use pathbuild_post::load;
 use rayon::prelude::*;
 
@@ -102,15 +104,15 @@ fn our_moves(text: &str, dialect: Dialect) -> Vec<Vec<f64>> {
     let numbers = |it: &Move| {
         let code = match (it.pace, it.path) {
             (Pace::Rapid, _) => 0.0,
-            (_, interpret::Path::Line) => 1.0,
-            (_, interpret::Path::Arc(arc)) => return arc_of(it, arc),
+            (_, motion::Path::Line) => 1.0,
+            (_, motion::Path::Arc(arc)) => return arc_of(it, arc),
         };
         [vec![code], it.to.at.to_vec()].concat()
     };
     read.moves().iter().map(|(_, it)| numbers(it)).collect()
 }
 
-fn arc_of(it: &Move, arc: interpret::Arc) -> Vec<f64> {
+fn arc_of(it: &Move, arc: motion::Arc) -> Vec<f64> {
     assert_eq!(it.from.known, Axes::ALL);
     let code = if arc.clockwise { 2.0 } else { 3.0 };
     [vec![code], it.to.at.to_vec(), arc.centre.to_vec()].concat()

@@ -6,8 +6,7 @@
 mod profile;
 mod way;
 
-use crate::interpret::{Action, Step};
-
+use pathbuild_motion::{Action, Step};
 use way::Way;
 
 /// What a machine can do.

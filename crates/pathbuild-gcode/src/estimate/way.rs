@@ -1,7 +1,8 @@
 //! A move as a planner sees it.
 
+use pathbuild_motion::{Move, Pace, Path};
+
 use super::Kinematics;
-use crate::interpret::{Move, Pace, Path};
 
 /// A way that is gone without a stop, in mm and seconds.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +57,7 @@ fn turning_speed(it: &Move, kinematics: &Kinematics) -> f64 {
 fn directions(it: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
     let known = it.from.known.and(it.to.known);
     let way: [f64; 3] = std::array::from_fn(|axis| {
-        let is_known = known.has(crate::interpret::Axes::of(axis));
+        let is_known = known.has(pathbuild_motion::Axes::of(axis));
         if is_known { it.to.at[axis] - it.from.at[axis] } else { 0.0 }
     });
     let Path::Arc(arc) = it.path else {

@@ -1,13 +1,12 @@
 //! Arcs, from I J K or R. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
 
-use super::codes::Plane;
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
 use super::limits;
 use super::state::INCH;
-use super::step::{Arc, Move, Pace, Path, Position};
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, Span};
 

@@ -1,39 +1,6 @@
 //! G codes by what they do.
 
-use super::step::WordEffect;
-
-/// A plane of arcs and cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Plane {
-    /// G17.
-    #[default]
-    Xy,
-    /// G18.
-    Zx,
-    /// G19.
-    Yz,
-}
-
-/// G54 (index 0) to G59 (5), G59.1 to G59.3 (8).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct WorkSystem(u8);
-
-impl WorkSystem {
-    /// The system with this number, from 1 (G54) to 9 (G59.3).
-    pub fn from_number(number: u32) -> Option<Self> {
-        u8::try_from(number).ok().filter(|number| (1..=9).contains(number)).map(|number| Self(number - 1))
-    }
-
-    /// From 0 (G54) to 8 (G59.3).
-    pub fn index(self) -> usize {
-        usize::from(self.0)
-    }
-
-    /// Such as `G54`.
-    pub fn name(self) -> &'static str {
-        ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"][self.index()]
-    }
-}
+use pathbuild_motion::{Group, Plane, WordEffect, WorkSystem};
 
 /// What a G code does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,32 +83,6 @@ pub(super) enum Origin {
     Suspend,
     /// G92.3: takes it up again.
     Resume,
-}
-
-/// Groups of G words, of each of which one may stand in a line. (NIST RS274/NGC, table 4)
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Group {
-    NonModal,
-    Motion,
-    Plane,
-    Distance,
-    ArcDistance,
-    FeedMode,
-    Units,
-    CutterCompensation,
-    ToolLength,
-    Retract,
-    System,
-    PathControl,
-    SpindleMode,
-    LatheMode,
-    /// Scaling, mirroring, rotation, polar coordinates.
-    Transform,
-    /// G53 goes beside a motion.
-    MachineCoordinates,
-    /// G4, which takes no coordinates.
-    Dwell,
 }
 
 impl Command {

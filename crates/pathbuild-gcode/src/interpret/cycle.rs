@@ -3,13 +3,13 @@
 //! "Height" and the names of Z are those of the plane XY, which is nearly always meant.
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Axes, Move, Pace, Path, Position};
 
 use super::codes::{self, Cycle};
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
 use super::limits;
 use super::state::CycleState;
-use super::step::{Action, Axes, Move, Pace, Path, Position};
 use crate::read::{Block, Span};
 
 /// So far above the last depth a pecking cycle comes back down at rapid speed, and so far a chip-breaking one lifts: 0.010 inches.

@@ -3,6 +3,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
+use pathbuild_motion::{Action, Axes, Change, Move, Pace, Step};
 
 use super::codes;
 use super::evaluate::Parameters;
@@ -10,7 +11,6 @@ use super::formulas::StatedProbes;
 use super::gather::{Gathered, Slot};
 use super::options::{Heights, Options};
 use super::state::State;
-use super::step::{Action, Axes, Change, Move, Pace, Step};
 use crate::dialect::{Acceptance, Percent, Rules, beginning_of};
 use crate::read::{At, Block, Problems, Span};
 

@@ -2,12 +2,12 @@
 
 use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Change, Group, Move};
 
-use super::codes::{self, Command, FeedUnit, Group};
+use super::codes::{self, Command, FeedUnit};
 use super::execute::{Interpreter, whole};
 use super::limits;
 use super::state::INCH;
-use super::step::{Action, Change, Move};
 use super::switches::{SPINDLE, TOOL};
 use crate::dialect::FeedMode;
 use crate::read::{Block, Span};

@@ -1,6 +1,8 @@
 //! The words of one block, sorted by what they are.
 
-use super::codes::{Command, Group};
+use pathbuild_motion::Group;
+
+use super::codes::Command;
 use super::evaluate::Fault;
 use crate::read::Span;
 

@@ -13,7 +13,6 @@ mod execute;
 mod feed;
 mod formulas;
 mod gather;
-mod geometry;
 mod guess;
 mod limits;
 mod motion;
@@ -22,7 +21,6 @@ mod options;
 mod places;
 mod program;
 mod state;
-mod step;
 mod switches;
 mod words;
 
@@ -30,17 +28,12 @@ use std::ops::ControlFlow;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
+use pathbuild_motion::{Move, Step};
 
 pub(crate) use codes::name as code_name;
-pub use codes::{Group, Plane, WorkSystem};
-pub(crate) use geometry::Course;
 pub use guess::{Evidence, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
 pub use program::{each_move_of, moves_of};
-pub use step::{
-    Action, Arc, Axes, Change, Coolant, Corners, Move, Named, Pace, Path, Position, Spindle, StatedWord,
-    Step, ToolLength, Turning, WordEffect,
-};
 
 use crate::dialect::Dialect;
 use crate::read::BlockReader;

@@ -1,11 +1,11 @@
 //! Moves: straight lines, probing, named places, and the commands that take coordinates without moving.
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Axes, Group, Move, Named, Pace, Path, Position};
 
-use super::codes::{self, Command, Group, Motion};
+use super::codes::{self, Command, Motion};
 use super::execute::Interpreter;
 use super::gather::{Slot, Values};
-use super::step::{Axes, Move, Named, Pace, Path, Position};
 use crate::read::{Block, Span};
 
 impl Interpreter<'_> {

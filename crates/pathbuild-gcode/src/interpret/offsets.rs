@@ -3,9 +3,9 @@
 //! Places are given in the coordinates that the program has at its first move. Where its zero lies on the machine is in no file, so
 //! the machine's own coordinates are known only where they are configured.
 
-use super::codes::WorkSystem;
+use pathbuild_motion::{Axes, Position, WorkSystem};
+
 use super::options::MachineOffsets;
-use super::step::{Axes, Position};
 
 /// The offsets that hold, and those that are stored, in mm.
 #[derive(Debug)]

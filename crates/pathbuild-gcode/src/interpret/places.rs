@@ -1,12 +1,12 @@
 //! Commands that take a block's coordinates and are no motion (G10, G28, G30, G52, G92), and coordinate systems.
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Axes, Change, Group, Move, Named, Pace, Path, WorkSystem};
 
-use super::codes::{Command, Group, Origin, WorkSystem};
+use super::codes::{Command, Origin};
 use super::execute::{Interpreter, whole};
 use super::gather::Values;
 use super::limits;
-use super::step::{Action, Axes, Change, Move, Named, Pace, Path};
 use crate::read::{Block, Span};
 
 impl Interpreter<'_> {

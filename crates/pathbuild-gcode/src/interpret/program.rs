@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
+use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Program, Xy};
 
-use super::codes::Plane;
-use super::step::{Arc, Move, Pace, Path, Position};
 use crate::native::{is_doubtful, is_point};
 
 /// The moves of a program as an interpreter of its native text would see them, from (0, 0, S0) to the last lift to S0; each with the

@@ -1,9 +1,10 @@
 //! What a control remembers from block to block.
 
-use super::codes::{FeedUnit, Motion, Plane};
+use pathbuild_motion::{Axes, Coolant, Plane, Position, Spindle, Turning};
+
+use super::codes::{FeedUnit, Motion};
 use super::offsets::Offsets;
 use super::options::MachineOffsets;
-use super::step::{Axes, Coolant, Position, Spindle, Turning};
 use crate::dialect::{Rules, StartMotion};
 
 /// Millimetres in an inch.

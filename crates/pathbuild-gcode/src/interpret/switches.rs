@@ -1,12 +1,12 @@
 //! Tools, spindle, coolant, dwells, modes, stops: everything of a block that is no move.
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, ToolLength, Turning};
 
-use super::codes::{self, Command, Group};
+use super::codes::{self, Command};
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
 use super::limits;
-use super::step::{Action, Axes, Change, Coolant, Corners, ToolLength, Turning};
 use crate::dialect::DwellUnit;
 use crate::read::Block;
 
@@ -44,7 +44,7 @@ impl Interpreter<'_> {
         } else {
             self.state.stated_axes = Axes::NONE;
         }
-        let is_turning = matches!(self.state.spindle.turning, Turning::Clockwise | Turning::Counterclockwise);
+        let is_turning = self.state.spindle.turning.is_on();
         if is_turning && !self.rules.layers {
             self.state.spindle.turning = Turning::Off;
             self.step(block, Action::Spindle(self.state.spindle));

@@ -1,14 +1,14 @@
 //! Reading the words of a block: what each is, and whether the dialect knows it. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 
-use super::codes::{self, Command, Group, Motion};
+use super::codes::{self, Command, Motion};
 use super::evaluate::{name_of, parameter_number};
 use super::execute::Interpreter;
 use super::gather::{Setting, Slot, ValueFault};
 use super::limits;
 use super::options::UnitCodes;
-use super::step::{Action, StatedWord, WordEffect};
 use super::switches::is_followed_m;
 use crate::dialect::Acceptance;
 use crate::read::{Block, Span, Target, Value, Word};

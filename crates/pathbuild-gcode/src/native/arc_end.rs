@@ -6,6 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use pathbuild_motion::turn;
 use pathbuild_toolpath::Xy;
 
 use super::number::printed;
@@ -25,9 +26,6 @@ pub(crate) fn is_doubtful(centre: Xy, length: f64) -> bool {
 
 /// Several times what rounding moves an end along the arc, in mm.
 const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
-
-/// Ends whose directions from the centre differ by less, in radians, are one direction to controllers.
-const SAME_DIRECTION: f64 = 1e-6;
 
 /// An arc from wherever the tool was said to be.
 pub(super) struct Printed {
@@ -64,9 +62,7 @@ impl Printed {
     /// How far a controller goes round to an end, in radians; 2 pi where it ends as it begins.
     fn angle(&self, end: Xy) -> f64 {
         let (spoke, other) = (-self.centre.coords, end - (self.from + self.centre.coords));
-        let turn = libm::atan2(spoke.perp(&other), spoke.dot(&other));
-        let ahead = if self.clockwise { -turn } else { turn };
-        if ahead < SAME_DIRECTION { ahead + TAU } else { ahead }
+        turn(spoke.into(), other.into(), self.clockwise)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_motion::WrittenArc;
 use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, LeftOut, Move, Program, Step, Xy};
 
 use super::arc_end::{Printed, is_doubtful, is_point};
@@ -9,7 +10,6 @@ use super::comment::{Charset, Remarks};
 use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, printed, push_f3};
 use super::statistics as ending;
-use crate::WrittenArc;
 use crate::dialect::within_comment;
 use crate::statistics::statistics;
 

@@ -2,13 +2,13 @@
 
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Axes, Pace};
 use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
 
 use super::arc_end::{LAST_DIGIT, is_doubtful};
 use crate::dialect::Dialect;
-use crate::interpret::{
-    self, Axes, Heights, Options, Pace, each_move_of, interpret_each, interpret_parts, moves_of,
-};
+use crate::interpret::{Heights, Options, each_move_of, interpret_each, interpret_parts, moves_of};
 use crate::verify::{Checks, Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
 /// Digits behind the point.
@@ -48,7 +48,7 @@ fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
     let mut abreast = Abreast::new(each_move_of(program), Tolerance::of_decimals(DECIMALS));
     let mut rules = Rules::new(&Checks::default());
-    let mut each = |step: interpret::Step| {
+    let mut each = |step: motion::Step| {
         rules.step(&step);
         if let Some((_, it)) = step.as_move() {
             abreast.step(&it);
@@ -67,7 +67,7 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
     let slack = Tolerance::of_decimals(DECIMALS).place;
     let mut found = moves(text)?;
     found.retain(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
-    let is_at = |((_, it), probe): (&(u32, interpret::Move), &ProbePoint)| {
+    let is_at = |((_, it), probe): (&(u32, motion::Move), &ProbePoint)| {
         (it.to.x() - probe.at.x).abs() <= slack && (it.to.y() - probe.at.y).abs() <= slack
     };
     let is_same = found.len() == probes.len() && found.iter().zip(probes).all(is_at);
@@ -83,17 +83,17 @@ struct Abreast<E> {
     is_same: bool,
 }
 
-impl<E: Iterator<Item = (u32, interpret::Move)>> Abreast<E> {
+impl<E: Iterator<Item = (u32, motion::Move)>> Abreast<E> {
     fn new(expected: E, tolerance: Tolerance) -> Self {
         Self { expected, tolerance, has_begun: false, is_same: true }
     }
 
-    fn step(&mut self, found: &interpret::Move) {
+    fn step(&mut self, found: &motion::Move) {
         // The position becomes known bit by bit, on the way to where the program begins.
         if !self.is_same || found.from.known != Axes::ALL && !self.has_begun {
             return;
         }
-        let begins_there = |expected: &interpret::Move| {
+        let begins_there = |expected: &motion::Move| {
             self.has_begun || is_near(&found.from.at, &expected.from.at, self.tolerance.place)
         };
         self.is_same = self.expected.next().is_some_and(|(_, expected)| {
@@ -111,14 +111,14 @@ impl<E: Iterator<Item = (u32, interpret::Move)>> Abreast<E> {
 }
 
 /// The moves of a text, with their lines.
-fn moves(text: &str) -> Result<Vec<(u32, interpret::Move)>, Box<Diagnostic>> {
+fn moves(text: &str) -> Result<Vec<(u32, motion::Move)>, Box<Diagnostic>> {
     let mut moves = Vec::with_capacity(text.len() / SHORT_LINE);
     each_move(text, |line, it| moves.push((line, it)))?;
     Ok(moves)
 }
 
-fn each_move(text: &str, mut take: impl FnMut(u32, interpret::Move)) -> Result<(), Box<Diagnostic>> {
-    let mut each = |step: interpret::Step| {
+fn each_move(text: &str, mut take: impl FnMut(u32, motion::Move)) -> Result<(), Box<Diagnostic>> {
+    let mut each = |step: motion::Step| {
         if let Some((line, it)) = step.as_move() {
             take(line, it);
         }

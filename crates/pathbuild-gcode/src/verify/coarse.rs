@@ -2,9 +2,10 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::Path;
 
 use crate::dialect::Dialect;
-use crate::interpret::{Options, Path, interpret_each};
+use crate::interpret::{Options, interpret_each};
 use crate::read::{BlockReader, Problems, Value, Word};
 
 /// Decimals that a millimetre needs.

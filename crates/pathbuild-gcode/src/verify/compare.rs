@@ -6,9 +6,9 @@ use std::borrow::Cow;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
+use pathbuild_motion::{Axes, Course, Move, Pace, Path, Position};
 
 use super::walk::{Stretch, Walker, are_alike};
-use crate::interpret::{Axes, Course, Move, Pace, Path, Position};
 
 /// How far apart two programs may be and still be the same, in mm and mm/min.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Move, Step, Turning};
 
-use crate::interpret::{Action, Move, Step, Turning};
 use crate::read::Problems;
 
 /// A machine's limits. What is not known is not checked.

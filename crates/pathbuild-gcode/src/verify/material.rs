@@ -2,11 +2,12 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
+use pathbuild_motion::{Action, Axes, Move, Pace};
 
 use super::height_map::{Capsule, HeightMap};
 use super::pieces::{self, MovePiece};
 use super::stock::{self, Stock};
-use crate::interpret::{Action, Axes, Move, Pace, Program};
+use crate::interpret::Program;
 use crate::read::Problems;
 
 /// Material that stands less than this above the tip, in mm, is rounding.

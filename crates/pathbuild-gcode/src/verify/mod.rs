@@ -21,6 +21,7 @@ mod walk;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_motion::Step;
 
 pub use against::{Against, Clamps, Drawn, PastClamps, ToolUse};
 pub use coarse::coarse_arcs;
@@ -34,7 +35,7 @@ pub use stated::StatedStatistics;
 pub use stock::{Stock, StockSpan};
 pub use words::{PostWords, WordRules};
 
-use crate::interpret::{Program, Step};
+use crate::interpret::Program;
 use crate::read::Problems;
 
 /// What a program is checked against.

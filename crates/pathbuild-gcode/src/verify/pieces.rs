@@ -1,8 +1,6 @@
 //! Moves cut into pieces that are straight in the plane and nearly level.
 
-use std::f64::consts::PI;
-
-use crate::interpret::{Move, Path};
+use pathbuild_motion::{Move, Path, widest_chord};
 
 /// A piece of a slope is at most so high, in mm.
 const STEP: f64 = 0.05;
@@ -40,9 +38,7 @@ pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
     let count = match it.path {
         Path::Line => slope,
         Path::Arc(arc) => {
-            let radius = arc.radius(&it.from).max(sagitta);
-            let angle = 2.0 * libm::acos((1.0 - sagitta / radius).max(0.0)).min(PI / 4.0);
-            slope.max(arc.sweep(&it.from, &it.to) / angle)
+            slope.max(arc.sweep(&it.from, &it.to) / widest_chord(arc.radius(&it.from), sagitta))
         }
     };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]
@@ -52,17 +48,5 @@ pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
 
 /// The pieces of a move; arcs become chords that leave them by at most `sagitta` mm.
 pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
-    let (it, number_of_pieces) = (*it, count(it, sagitta));
-    let count = f64::from(number_of_pieces);
-    let at = move |number: u32| {
-        let share = f64::from(number) / count;
-        match it.path {
-            _ if share >= 1.0 => it.to.at,
-            Path::Line => {
-                std::array::from_fn(|axis| it.from.at[axis] + share * (it.to.at[axis] - it.from.at[axis]))
-            }
-            Path::Arc(arc) => arc.point(&it.from, &it.to, share),
-        }
-    };
-    (0..number_of_pieces).map(move |number| MovePiece { from: at(number), to: at(number + 1) })
+    it.split(count(it, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
 }

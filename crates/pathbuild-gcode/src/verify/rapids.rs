@@ -8,13 +8,14 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_motion::{Move, Pace, Path, Position, Step};
 use pathbuild_toolpath::Program as Drawn;
 
 use super::machine::{Machine, MachineRules};
 use super::material;
 use super::stock::{Stock, StockSpan};
 use super::tops::Tops;
-use crate::interpret::{Move, Pace, Path, Position, Program, Step, each_move_of};
+use crate::interpret::{Program, each_move_of};
 use crate::read::Problems;
 
 /// So many cuts at most are looked at for a rapid move: the last turns of a helical circle, the end of a chain.

@@ -4,11 +4,12 @@ use std::fmt;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_motion::{Action, Axes, Change, Move, Pace, Position, Spindle, Step, Turning};
 
 use super::Checks;
 use super::machine::Limits;
 use super::stock::Stock;
-use crate::interpret::{Action, Axes, Change, Move, Pace, Position, Spindle, Step, Turning, code_name};
+use crate::interpret::code_name;
 use crate::read::Problems;
 
 /// Heights that differ by less, in mm, are one.

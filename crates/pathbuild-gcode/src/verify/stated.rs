@@ -2,8 +2,8 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Step};
 
-use crate::interpret::{Action, Step};
 use crate::native::stated_length;
 use crate::read::Problems;
 use crate::statistics::{Counting, Tally};

@@ -3,9 +3,10 @@
 //! Its extent is in no drawing. Material is known only within O of where a program cuts, up to the surface T that holds there;
 //! elsewhere nothing is known, and nothing is said.
 
+use pathbuild_motion::{Action, Move, Pace};
 use pathbuild_toolpath::{Comment, Program, Step as Emitted};
 
-use crate::interpret::{Action, Move, Pace, Program as Steps};
+use crate::interpret::Program as Steps;
 
 /// The finest resolution that is any use, in mm: programs have three decimals.
 const FINEST: f64 = 0.01;

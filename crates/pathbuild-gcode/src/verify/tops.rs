@@ -5,11 +5,12 @@
 #[cfg(test)]
 mod tests;
 
+use pathbuild_motion::Move;
 use pathbuild_toolpath::Program as Drawn;
 
 use super::material::cutting_piece;
 use super::stock::Stock;
-use crate::interpret::{Move, each_move_of};
+use crate::interpret::each_move_of;
 
 /// Cells along a side.
 const SIDE: usize = 64;

@@ -1,6 +1,6 @@
 //! Walking along a list of moves, piece by piece.
 
-use crate::interpret::{Axes, Move, Pace, Path};
+use pathbuild_motion::{Axes, Course, Move, Pace, Path};
 
 use super::compare::is_near;
 
@@ -91,12 +91,7 @@ impl Stretch {
 
     /// The place at a share of the whole move.
     pub(super) fn point(&self, share: f64) -> [f64; 3] {
-        let (from, to) = (&self.it.from, &self.it.to);
-        match self.it.path {
-            _ if share >= 1.0 => to.at,
-            Path::Line => std::array::from_fn(|axis| from.at[axis] + share * (to.at[axis] - from.at[axis])),
-            Path::Arc(arc) => arc.point(from, to, share),
-        }
+        self.it.point(share)
     }
 
     /// Whether both end at one place, not one a whole turn later than the other.
@@ -120,8 +115,8 @@ impl Stretch {
             }
             Path::Arc(arc) => {
                 let guess = (self.begin + along / whole).min(1.0);
-                let sweep = arc.sweep(&self.it.from, &self.it.to);
-                guess + self.angle_ahead(&arc.point(&self.it.from, &self.it.to, guess), place) / sweep
+                let course = Course::new(arc, &self.it.from, &self.it.to);
+                guess + arc.angle_ahead(&course.point(guess), place) / course.sweep()
             }
         };
         Some(share.clamp(self.begin, 1.0))
@@ -132,16 +127,6 @@ impl Stretch {
         let rise = libm::fabs(self.it.to.z() - self.it.from.z());
         let way = libm::sqrt((self.it.length() * self.it.length() - rise * rise).max(0.0));
         if self.is_arc() && way > 0.0 { rise / way } else { 0.0 }
-    }
-
-    /// The angle in radians from one place to another around the arc's centre, in its direction, between -pi and pi.
-    fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
-        let Path::Arc(arc) = self.it.path else { return 0.0 };
-        let [first, second] = arc.plane.axes();
-        let spoke = |at: &[f64; 3]| [at[first] - arc.centre[0], at[second] - arc.centre[1]];
-        let ([a, b], [c, d]) = (spoke(from), spoke(to));
-        let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
-        if arc.clockwise { -counterclockwise } else { counterclockwise }
     }
 }
 

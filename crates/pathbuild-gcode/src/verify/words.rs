@@ -7,12 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_motion::{Action, Axes, Change, Corners, Group, Move, Pace, StatedWord, Step, WordEffect};
 
 use crate::dialect::Dialect;
-use crate::interpret::{
-    Action, Axes, Change, Corners, Group, Move, Options, Pace, StatedWord, Step, WordEffect, code_name,
-    interpret_each,
-};
+use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::Problems;
 
 /// What the native program writes beside moves: see [`crate::native`].

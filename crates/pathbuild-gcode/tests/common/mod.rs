@@ -4,8 +4,9 @@
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Action, Move, Options, Pace, Path, Position, Step, interpret};
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::read::{Block, BlockReader, Value};
+use pathbuild_motion::{Action, Move, Pace, Path, Position, Step};
 
 /// What a program does, a text a step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
@@ -118,7 +119,7 @@ fn move_text(it: &Move) -> String {
 
 fn position_text(position: &Position) -> String {
     let coordinate = |axis: usize| {
-        let known = position.known.has(pathbuild_gcode::interpret::Axes::of(axis));
+        let known = position.known.has(pathbuild_motion::Axes::of(axis));
         if known { short(position.at[axis]) } else { "?".to_owned() }
     };
     [0, 1, 2].map(coordinate).join(" ")

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Action, Options, Pace, interpret};
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Action, Pace};
 
 /// Both print, or compute, in doubles; rs274 shows four decimals.
 const PRINTED: f64 = 0.000_051;
@@ -120,8 +122,8 @@ pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
         Action::Move(it) => Some(match (it.pace, it.path) {
             (Pace::Rapid, _) => Call::Rapid(it.to.at),
             (Pace::Probe { feed, .. }, _) => Call::Probe(it.to.at, feed),
-            (Pace::Feed(feed), interpret::Path::Line) => Call::Feed(it.to.at, feed),
-            (Pace::Feed(feed), interpret::Path::Arc(arc)) => {
+            (Pace::Feed(feed), motion::Path::Line) => Call::Feed(it.to.at, feed),
+            (Pace::Feed(feed), motion::Path::Arc(arc)) => {
                 let turns = i64::from(arc.extra_turns) + 1;
                 Call::Arc(it.to.at, arc.centre, if arc.clockwise { -turns } else { turns }, feed)
             }

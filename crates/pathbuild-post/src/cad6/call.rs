@@ -1,6 +1,8 @@
 //! A call of a control text, before the variables are set.
 
-use crate::step::{Arc, Hole};
+use pathbuild_motion::Move;
+
+use crate::step::Hole;
 
 /// X, Y, Z in mm.
 pub(super) type Point = [f64; 3];
@@ -20,7 +22,7 @@ pub(super) enum What<'a> {
     /// A straight element.
     Line { to: Point, feed: Option<f64>, place: ContourPosition },
     /// A circular element.
-    Arc { arc: Arc, place: ContourPosition },
+    Arc { it: Move, place: ContourPosition },
     /// Up from the end of a contour.
     End { clearance: f64 },
     /// A hole.

@@ -4,16 +4,17 @@
 //! taken together to such ways; what cannot be told that way is an error, never left out.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_motion::{Course, Move, Pace, Plane, Position};
 use pathbuild_path::approx::at_least;
 
 use super::abilities::Abilities;
 use super::call::{Call, ContourPosition, Point, What};
 use super::control_text::ControlTextKind;
 use super::definition::Definition;
-use crate::arcs::{MOST_CHORDS, Polar, Rounding, pieces};
+use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
 use crate::holes;
-use crate::job::{Entry, Job, Operation, Plane, Units};
-use crate::step::{Arc, Hole, HoleKind, Position, Step};
+use crate::job::{Entry, Job, Operation, Units};
+use crate::step::{Hole, HoleKind, Step};
 
 type Built = Result<(), Box<Diagnostic>>;
 
@@ -126,22 +127,18 @@ impl<'a> Builder<'a> {
 
     fn resolve(&self, to: Position) -> Point {
         let [x, y, z] = self.end();
-        [to.x.unwrap_or(x), to.y.unwrap_or(y), to.z.unwrap_or(z)]
+        let [to_x, to_y, to_z] = to.axes();
+        [to_x.unwrap_or(x), to_y.unwrap_or(y), to_z.unwrap_or(z)]
     }
 
     fn step(&mut self, step: &'a Step) -> Built {
         match step {
-            Step::Rapid { to } => {
-                self.rapid(self.resolve(*to));
-                Ok(())
-            }
+            Step::Move(it) => self.move_along(it),
             Step::Comment(text) => {
                 self.aside(What::Comment(text));
                 Ok(())
             }
             Step::Hole(hole) => self.hole(hole),
-            Step::Feed { to, feed } => self.feed(self.resolve(*to), *feed),
-            Step::Arc(arc) => self.arc(arc),
             Step::Dwell { seconds } => {
                 self.aside(What::Dwell(*seconds));
                 Ok(())
@@ -150,7 +147,18 @@ impl<'a> Builder<'a> {
                 self.aside(What::Stop);
                 Ok(())
             }
-            Step::Probe { .. } => {
+        }
+    }
+
+    fn move_along(&mut self, it: &Move) -> Built {
+        match (it.course(), it.pace) {
+            (Some(course), _) => self.arc(it, &course),
+            (None, Pace::Rapid) => {
+                self.rapid(self.resolve(it.to));
+                Ok(())
+            }
+            (None, Pace::Feed(_)) => self.feed(self.resolve(it.to), it.pace.stated_feed()),
+            (None, Pace::Probe { .. }) => {
                 let diagnostic =
                     Diagnostic::new(&posts::NO_TEXT_FOR).quoting("operation", &*self.present().name);
                 Err(Box::new(diagnostic.quoting("text", "probe")))
@@ -188,8 +196,7 @@ impl<'a> Builder<'a> {
         if !self.abilities.hole || !can_say_it {
             for step in holes::moves(hole)? {
                 match step {
-                    Step::Rapid { to } => self.rapid(self.resolve(to)),
-                    Step::Feed { to, feed } => self.feed(self.resolve(to), feed)?,
+                    Step::Move(it) => self.move_along(&it)?,
                     Step::Dwell { seconds } => self.aside(What::Dwell(seconds)),
                     _ => {}
                 }
@@ -244,49 +251,48 @@ impl<'a> Builder<'a> {
         ContourPosition { is_first, is_last: false }
     }
 
-    fn arc(&mut self, arc: &Arc) -> Built {
+    fn arc(&mut self, it: &Move, course: &Course) -> Built {
         self.land(None)?;
-        let plane = self.present().plane;
-        let polar = Polar::of(arc, plane);
+        let is_level = it.to.z() == it.from.z();
         let is_writable =
-            self.abilities.arc && plane == Plane::Xy && (arc.to[2] == arc.from[2] || self.abilities.arc_z);
+            self.abilities.arc && course.arc().plane == Plane::Xy && (is_level || self.abilities.arc_z);
         if is_writable {
-            for arc in pieces(arc, plane, polar.pieces_of(self.abilities.arc_sweep)) {
-                let Some(arc) = self.as_written(&arc)? else {
-                    self.line(arc.to, arc.feed)?;
+            for piece in it.split(pieces_of(course, self.abilities.arc_sweep)) {
+                let Some(it) = self.as_written(&piece)? else {
+                    self.line(piece.to.at, piece.pace.stated_feed())?;
                     continue;
                 };
-                let place = self.place(arc.feed);
-                self.call(What::Arc { arc, place });
-                self.at = arc.to;
+                let place = self.place(it.pace.stated_feed());
+                self.call(What::Arc { it, place });
+                self.at = it.to.at;
             }
             return Ok(());
         }
-        if self.abilities.arc && arc.to[2] != arc.from[2] && !self.abilities.line_z {
+        if self.abilities.arc && !is_level && !self.abilities.line_z {
             let diagnostic = Diagnostic::new(&posts::NO_Z_IN_ARC).quoting("operation", &*self.present().name);
-            return Err(Box::new(diagnostic.with("from", arc.from[2]).with("to", arc.to[2])));
+            return Err(Box::new(diagnostic.with("from", it.from.z()).with("to", it.to.z())));
         }
-        let Some(count) = polar.chords(self.abilities.arc_tolerance) else {
-            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", MOST_CHORDS);
-            return Err(Box::new(diagnostic.with("radius", polar.radius)));
+        let Some(count) = chords(course, self.abilities.arc_tolerance) else {
+            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MOST_CHORDS));
+            return Err(Box::new(diagnostic.with("radius", course.radius())));
         };
-        pieces(arc, plane, count).iter().try_for_each(|piece| self.line(piece.to, piece.feed))
+        it.split(count).try_for_each(|piece| self.line(piece.to.at, piece.pace.stated_feed()))
     }
 
     /// The arc with a centre that still is one when it is rounded; `None` where it would be written as a full circle because it ends where
     /// it begins.
-    fn as_written(&self, arc: &Arc) -> Result<Option<Arc>, Box<Diagnostic>> {
+    fn as_written(&self, it: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
         let unit = self.units.millimetres();
         let digits = libm::pow(10.0, self.abilities.decimals as f64);
         let length = |length: f64| (length / unit * digits).round() / digits;
         let rounding = Rounding { length: &length, is_absolute: !self.abilities.has_relative_centres };
-        if rounding.closes(arc, Plane::Xy) {
+        if rounding.closes(it) {
             return Ok(None);
         }
         if self.abilities.has_relative_centres || self.abilities.has_absolute_centres {
-            return rounding.fitted(arc, Plane::Xy, self.units).map(Some);
+            return rounding.fitted(it, self.units).map(Some);
         }
-        Ok(Some(*arc))
+        Ok(Some(*it))
     }
 
     /// Ends the rapids that were put off: within the material they are elements, else they lead to a new contour, which may begin with

@@ -1,6 +1,7 @@
 //! A job through control texts: sets the variables of each call and makes it.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_motion::{Coolant, Move, Turning};
 
 use super::call::{Call, ContourPosition, Point, What};
 use super::calls::calls;
@@ -8,9 +9,8 @@ use super::control_text::ControlTextKind;
 use super::marks::is_private;
 use super::runner::{Called, Runner};
 use super::variables::Variables;
-use crate::arcs::Polar;
-use crate::job::{Coolant, Feeds, Job, Operation, Plane, Spindle, Units};
-use crate::step::{Arc, Hole, HoleKind};
+use crate::job::{Feeds, Job, Operation, Units};
+use crate::step::{Hole, HoleKind};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
@@ -124,13 +124,13 @@ impl Caller<'_, '_> {
             _ => self.runner.variables.remove("MachineToolNo"),
         }
         self.length("ToolDiameter", operation.tool.diameter);
-        self.flag("MillingSpindleDir", operation.spindle == Some(Spindle::CounterClockwise));
+        self.flag("MillingSpindleDir", operation.spindle == Some(Turning::Counterclockwise));
         match operation.speed {
             Some(speed) => self.set("MillingSpindleRate", speed),
             None => self.runner.variables.remove("MillingSpindleRate"),
         }
-        self.flag("ToolControl1", matches!(operation.coolant, Some(Coolant::Flood | Coolant::Mist)));
-        self.flag("ToolControl2", operation.coolant == Some(Coolant::Mist));
+        self.flag("ToolControl1", operation.coolant.is_some_and(Coolant::is_on));
+        self.flag("ToolControl2", operation.coolant == Some(Coolant::MIST));
         self.length("ZWorking", operation.retract);
         let Feeds { plunge, cut } = self.feeds[index];
         for (name, feed) in [("LoweringVel", plunge), ("MovingVel", cut)] {
@@ -156,10 +156,10 @@ impl Caller<'_, '_> {
                 self.element(*to, *feed, *place);
                 self.runner.call(ControlTextKind::Line)
             }
-            What::Arc { arc, place } => {
+            What::Arc { it, place } => {
                 self.change_tool(operation)?;
-                self.arc(arc);
-                self.element(arc.to, arc.feed, *place);
+                self.arc(it);
+                self.element(it.to.at, it.pace.stated_feed(), *place);
                 self.runner.call(ControlTextKind::Arc)?;
                 self.forget_arc();
                 Ok(())
@@ -252,17 +252,19 @@ impl Caller<'_, '_> {
         self.move_to(to);
     }
 
-    fn arc(&mut self, arc: &Arc) {
-        let polar = Polar::of(arc, Plane::Xy);
-        let turn = if arc.clockwise { -polar.sweep } else { polar.sweep };
+    fn arc(&mut self, it: &Move) {
+        let Some(course) = it.course() else { return };
+        let arc = course.arc();
+        let [start, end] = course.directions();
+        let sweep = if arc.clockwise { -course.sweep() } else { course.sweep() };
         self.length("XC", arc.centre[0]);
         self.length("YC", arc.centre[1]);
-        self.length("IRel", arc.centre[0] - arc.from[0]);
-        self.length("JRel", arc.centre[1] - arc.from[1]);
-        self.length("Radius", polar.radius);
-        self.set("StartAngle", polar.start.to_degrees().rem_euclid(360.0));
-        self.set("EndAngle", (polar.start + turn).to_degrees().rem_euclid(360.0));
-        self.set("SweepAngle", turn.to_degrees());
+        self.length("IRel", arc.centre[0] - it.from.x());
+        self.length("JRel", arc.centre[1] - it.from.y());
+        self.length("Radius", course.radius());
+        self.set("StartAngle", start.to_degrees().rem_euclid(360.0));
+        self.set("EndAngle", end.to_degrees().rem_euclid(360.0));
+        self.set("SweepAngle", sweep.to_degrees());
         self.flag("ArcDir", !arc.clockwise);
     }
 

@@ -1,9 +1,9 @@
 //! How much a post may write, so that macros that multiply come to an end.
 
 use super::plan::Plan;
-use crate::arcs::Polar;
+use crate::arcs::chords;
 use crate::holes;
-use crate::job::{Operation, Plane};
+use crate::job::Operation;
 use crate::step::Step;
 
 /// Bytes of text whatever the program, and more for each of its moves.
@@ -13,7 +13,7 @@ const FUEL_PER_MOVE: usize = 1 << 12;
 /// Bytes that a program may come to; every macro counts as one more.
 pub(super) fn fuel(plan: &Plan<'_>) -> usize {
     let moves = |operation: &Operation| -> usize {
-        let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan, operation.plane)).sum();
+        let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
         of_steps + 1
     };
     let moves: usize = plan.job.operations.iter().map(moves).sum();
@@ -21,9 +21,12 @@ pub(super) fn fuel(plan: &Plan<'_>) -> usize {
 }
 
 /// How many moves a step can become.
-fn moves_of(step: &Step, plan: &Plan<'_>, plane: Plane) -> usize {
+fn moves_of(step: &Step, plan: &Plan<'_>) -> usize {
     match step {
-        Step::Arc(arc) => Polar::of(arc, plane).chords(plan.arc_tolerance()).unwrap_or(1),
+        Step::Move(it) => {
+            let count = it.course().and_then(|course| chords(&course, plan.arc_tolerance()));
+            count.map_or(1, |count| count as usize)
+        }
         Step::Hole(hole) => holes::moves(hole).map_or(1, |moves| moves.len()),
         _ => 1,
     }

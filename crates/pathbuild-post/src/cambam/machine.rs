@@ -1,7 +1,9 @@
 //! The state of the machine as the lines written so far leave it.
 
+use pathbuild_motion::{Coolant, Plane, Turning};
+
 use super::registers::{Code, Register};
-use crate::job::{Coolant, Plane, Spindle, VelocityMode};
+use crate::job::VelocityMode;
 use crate::number::NumberFormat;
 use crate::words::{Word, Words};
 
@@ -16,7 +18,7 @@ pub(super) struct Machine {
     pub(super) tool: Option<u32>,
     /// The T word that no M6 followed yet.
     selected: Option<u32>,
-    pub(super) spindle: Option<Spindle>,
+    pub(super) spindle: Option<Turning>,
     /// The last S.
     pub(super) speed: Option<f64>,
     pub(super) coolant: Option<Coolant>,
@@ -82,7 +84,7 @@ impl Machine {
     fn general(&mut self, code: u32, moves: &mut Moves) {
         match code {
             170 => self.plane = Some(Plane::Xy),
-            180 => self.plane = Some(Plane::Xz),
+            180 => self.plane = Some(Plane::Zx),
             190 => self.plane = Some(Plane::Yz),
             610 => self.velocity = Some(VelocityMode::ExactStop),
             640 => self.velocity = Some(VelocityMode::ConstantVelocity),
@@ -99,16 +101,16 @@ impl Machine {
 
     fn miscellaneous(&mut self, code: u32) {
         match code {
-            30 => self.spindle = Some(Spindle::Clockwise),
-            40 => self.spindle = Some(Spindle::CounterClockwise),
-            50 => self.spindle = Some(Spindle::Off),
+            30 => self.spindle = Some(Turning::Clockwise),
+            40 => self.spindle = Some(Turning::Counterclockwise),
+            50 => self.spindle = Some(Turning::Off),
             60 => {
                 self.tool = self.selected.or(self.tool);
                 self.spindle = None;
             }
-            70 => self.coolant = Some(Coolant::Mist),
-            80 => self.coolant = Some(Coolant::Flood),
-            90 => self.coolant = Some(Coolant::Off),
+            70 => self.coolant = Some(Coolant::MIST),
+            80 => self.coolant = Some(Coolant::FLOOD),
+            90 => self.coolant = Some(Coolant::OFF),
             _ => {}
         }
     }

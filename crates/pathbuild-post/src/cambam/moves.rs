@@ -2,6 +2,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_gcode::dialect::DwellUnit;
+use pathbuild_motion::{Move, Pace};
 
 use super::cycles::can_be_canned;
 use super::macros::Argument;
@@ -37,24 +38,30 @@ impl Writer<'_> {
     /// Any step but a canned cycle.
     pub(super) fn step(&mut self, step: &Step) -> Written {
         match step {
-            Step::Rapid { to } => self.go(Section::Rapid, to.axes(), MoveValues::default()),
-            Step::Feed { to, feed } => self.feed(to.axes(), *feed),
-            Step::Arc(arc) => self.arc(arc),
+            Step::Move(it) => self.move_to(it),
             Step::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
             Step::Dwell { seconds } => {
                 let mut values = MoveValues::default();
                 values.set(Register::P, Some(self.dwell(*seconds)));
                 self.go(Section::Dwell, [None; 3], values)
             }
-            Step::Probe { to, feed } => {
-                let values = self.with_feed(*feed);
-                self.go(Section::Probe, to.axes(), values)?;
+            Step::Stop => self.lines_of(Section::Stop),
+            Step::Comment(text) => self.comment(text, " "),
+        }
+    }
+
+    fn move_to(&mut self, it: &Move) -> Written {
+        match (it.course(), it.pace) {
+            (Some(course), _) => self.arc(it, &course),
+            (None, Pace::Rapid) => self.go(Section::Rapid, it.to.axes(), MoveValues::default()),
+            (None, Pace::Feed(_)) => self.feed(it.to.axes(), it.pace.stated_feed()),
+            (None, Pace::Probe { .. }) => {
+                let values = self.with_feed(it.pace.stated_feed());
+                self.go(Section::Probe, it.to.axes(), values)?;
                 // Where it stopped only the machine knows: what follows is written whole.
                 self.machine.forget(&[Register::X, Register::Y, Register::Z]);
                 Ok(())
             }
-            Step::Stop => self.lines_of(Section::Stop),
-            Step::Comment(text) => self.comment(text, " "),
         }
     }
 

@@ -5,8 +5,8 @@ use pathbuild_diagnostic::Text;
 use super::macros::{Argument, Block, Choice, Macro, State, Value};
 use super::registers::{Code, Form, Register};
 use super::section::{Section, coolant_section, spindle_section};
-use crate::job::{Coolant, Spindle};
 use crate::suggest::nearest;
+use pathbuild_motion::{Coolant, Turning};
 
 /// A built-in macro without arguments has some, one with arguments lacks them, or they are none that it knows.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,9 +147,9 @@ fn spindle(argument: Option<&str>) -> Option<Macro> {
         return Some(Macro::SpindleUp);
     }
     Some(Macro::Section(match argument.to_ascii_lowercase().as_str() {
-        "cw" => spindle_section(Spindle::Clockwise),
-        "ccw" => spindle_section(Spindle::CounterClockwise),
-        "off" => spindle_section(Spindle::Off),
+        "cw" => spindle_section(Turning::Clockwise),
+        "ccw" => spindle_section(Turning::Counterclockwise),
+        "off" => spindle_section(Turning::Off),
         _ => return None,
     }))
 }
@@ -157,9 +157,9 @@ fn spindle(argument: Option<&str>) -> Option<Macro> {
 fn coolant(argument: Option<&str>) -> Option<Macro> {
     let Some(argument) = argument else { return Some(Macro::State(State::Coolant)) };
     Some(Macro::Section(match argument.to_ascii_lowercase().as_str() {
-        "flood" => coolant_section(Coolant::Flood),
-        "mist" => coolant_section(Coolant::Mist),
-        "off" => coolant_section(Coolant::Off),
+        "flood" => coolant_section(Coolant::FLOOD),
+        "mist" => coolant_section(Coolant::MIST),
+        "off" => coolant_section(Coolant::OFF),
         _ => return None,
     }))
 }

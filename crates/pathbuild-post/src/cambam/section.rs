@@ -1,6 +1,6 @@
 //! The named texts of a CamBam definition, and what stands in for one that is absent.
 
-use crate::job::{Coolant, Spindle};
+use pathbuild_motion::{Coolant, Turning};
 
 macro_rules! sections {
     ($($variant:ident $name:literal $default:expr;)*) => {
@@ -134,19 +134,19 @@ impl Section {
 }
 
 /// The section with the words for what the spindle does.
-pub(super) fn spindle_section(spindle: Spindle) -> Section {
+pub(super) fn spindle_section(spindle: Turning) -> Section {
     match spindle {
-        Spindle::Clockwise => Section::SpindleCw,
-        Spindle::CounterClockwise => Section::SpindleCcw,
-        Spindle::Off => Section::SpindleOff,
+        Turning::Clockwise => Section::SpindleCw,
+        Turning::Counterclockwise => Section::SpindleCcw,
+        Turning::Off | Turning::Unstated => Section::SpindleOff,
     }
 }
 
 /// The section with the words for what the coolant does.
 pub(super) fn coolant_section(coolant: Coolant) -> Section {
     match coolant {
-        Coolant::Flood => Section::CoolantFlood,
-        Coolant::Mist => Section::CoolantMist,
-        Coolant::Off => Section::CoolantOff,
+        Coolant { flood: true, .. } => Section::CoolantFlood,
+        Coolant { mist: true, .. } => Section::CoolantMist,
+        Coolant { .. } => Section::CoolantOff,
     }
 }

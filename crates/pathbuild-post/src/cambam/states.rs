@@ -1,10 +1,12 @@
 //! Macros whose text depends on the state of the machine: registers, codes, and what is written only when it changes.
 
+use pathbuild_motion::{Coolant, Plane, Turning};
+
 use super::macros::{Choice, State};
 use super::registers::{Code, Form, Register};
 use super::section::{Section, coolant_section, spindle_section};
 use super::writer::{Writer, Written};
-use crate::job::{Coolant, Plane, Spindle, Units, VelocityMode};
+use crate::job::{Units, VelocityMode};
 use crate::number::NumberFormat;
 use crate::step::Step;
 
@@ -49,14 +51,14 @@ impl Writer<'_> {
             return Ok(());
         }
         self.section(spindle_section(spindle))?;
-        if spindle != Spindle::Off {
+        if spindle != Turning::Off {
             self.text(" ")?;
             self.speed()?;
         }
         self.end_line();
         self.machine.spindle = Some(spindle);
         let wait = self.plan.options.spin_up;
-        if wait > 0.0 && spindle != Spindle::Off { self.step(&Step::Dwell { seconds: wait }) } else { Ok(()) }
+        if wait > 0.0 && spindle != Turning::Off { self.step(&Step::Dwell { seconds: wait }) } else { Ok(()) }
     }
 
     pub(super) fn code(&mut self, code: Code, modal: bool) -> Written {
@@ -79,12 +81,12 @@ impl Writer<'_> {
             return Ok(());
         }
         match section {
-            Section::SpindleCw => self.machine.spindle = Some(Spindle::Clockwise),
-            Section::SpindleCcw => self.machine.spindle = Some(Spindle::CounterClockwise),
-            Section::SpindleOff => self.machine.spindle = Some(Spindle::Off),
-            Section::CoolantFlood => self.machine.coolant = Some(Coolant::Flood),
-            Section::CoolantMist => self.machine.coolant = Some(Coolant::Mist),
-            Section::CoolantOff => self.machine.coolant = Some(Coolant::Off),
+            Section::SpindleCw => self.machine.spindle = Some(Turning::Clockwise),
+            Section::SpindleCcw => self.machine.spindle = Some(Turning::Counterclockwise),
+            Section::SpindleOff => self.machine.spindle = Some(Turning::Off),
+            Section::CoolantFlood => self.machine.coolant = Some(Coolant::FLOOD),
+            Section::CoolantMist => self.machine.coolant = Some(Coolant::MIST),
+            Section::CoolantOff => self.machine.coolant = Some(Coolant::OFF),
             _ => {}
         }
         self.section(section)
@@ -137,7 +139,7 @@ fn velocity_section(mode: VelocityMode) -> Section {
 fn plane_section(plane: Plane) -> Section {
     match plane {
         Plane::Xy => Section::WorkPlaneXy,
-        Plane::Xz => Section::WorkPlaneXz,
+        Plane::Zx => Section::WorkPlaneXz,
         Plane::Yz => Section::WorkPlaneYz,
     }
 }

@@ -1,8 +1,9 @@
 //! Which ways through the air a program may take instead of the job's.
 
 use pathbuild_gcode::dialect::Dialect::LinuxCnc;
-use pathbuild_gcode::interpret::{Move, Options, interpret};
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::Tolerance;
+use pathbuild_motion::Move;
 
 use super::check;
 

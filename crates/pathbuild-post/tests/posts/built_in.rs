@@ -2,18 +2,16 @@
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    Arc, BUILT_IN, Coolant, Entry, Hole, HoleKind, Job, Language, PostMacro, PostOptions, Spindle, Step,
-    load, native_remark,
+    BUILT_IN, Entry, Hole, HoleKind, Job, Language, PostMacro, PostOptions, Step, load, native_remark,
 };
 
-use crate::support::{feed, operation, rapid, texts};
+use crate::support::{arc, feed, operation, rapid, texts};
 
 /// Two tools; a line, an arc, a helix, a circle, two holes.
 fn sample() -> Job {
-    let circle = |to: [f64; 3], from: [f64; 3], clockwise| {
-        Step::Arc(Arc { clockwise, from, centre: [20.0, 0.0, 0.0], to, feed: Some(250.0) })
-    };
+    let circle = |to: [f64; 3], from: [f64; 3], clockwise| arc(clockwise, from, [20.0, 0.0], to, Some(250.0));
     let hole = |x: f64, kind| {
         Step::Hole(Hole {
             at: [x, 30.0],
@@ -40,14 +38,14 @@ fn sample() -> Job {
             rapid(0.123_45, -0.000_01, 5.0),
         ],
     );
-    milled.spindle = Some(Spindle::Clockwise);
+    milled.spindle = Some(Turning::Clockwise);
     milled.speed = Some(12_000.0);
-    milled.coolant = Some(Coolant::Flood);
+    milled.coolant = Some(Coolant::FLOOD);
     let mut drilled =
         operation("1234.1B", 2, vec![hole(0.0, HoleKind::Plain), hole(8.0, HoleKind::Peck { depth: 2.0 })]);
-    drilled.spindle = Some(Spindle::Clockwise);
+    drilled.spindle = Some(Turning::Clockwise);
     drilled.speed = Some(3000.0);
-    drilled.coolant = Some(Coolant::Off);
+    drilled.coolant = Some(Coolant::OFF);
     drilled.entry = Entry::At([0.0, 0.0, 5.0]);
     Job {
         name: "8001.1P".into(),

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use camino::Utf8Path;
 use pathbuild_diagnostic::reasons::NO_FILE;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_post::{
-    Arc, Coolant, Hole, HoleKind, Job, Output, Post, PostFiles, PostMacro, PostOptions, Spindle, Step, Units,
-};
+use pathbuild_motion::{Coolant, Turning};
+use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostFiles, PostMacro, PostOptions, Step, Units};
 
-use crate::support::{feed, job, operation, rapid, texts, unchecked};
+use crate::support::{arc, feed, job, operation, rapid, texts, unchecked};
 
 /// The manual's rectangle: 50/100, 100 x 50, clockwise, safety height 100, depth 20.
 const RECTANGLE: &str = r#"
@@ -34,14 +33,14 @@ program-end = 'M30'
 "#;
 
 fn rectangle() -> Job {
-    let cut = |x, y| Step::Feed { to: [x, y, -20.0].into(), feed: Some(400.0) };
+    let cut = |x, y| Step::feed([x, y, -20.0], Some(400.0));
     let mut operation = operation(
         "rectangle",
         1,
         vec![
             rapid(50.0, 100.0, 100.0),
             rapid(50.0, 100.0, 5.0),
-            Step::Feed { to: [50.0, 100.0, -20.0].into(), feed: Some(250.0) },
+            Step::feed([50.0, 100.0, -20.0], Some(250.0)),
             cut(50.0, 150.0),
             cut(150.0, 150.0),
             cut(150.0, 100.0),
@@ -51,9 +50,9 @@ fn rectangle() -> Job {
     );
     operation.entry = pathbuild_post::Entry::At([0.0, 0.0, 100.0]);
     operation.clearance = 100.0;
-    operation.spindle = Some(Spindle::Clockwise);
+    operation.spindle = Some(Turning::Clockwise);
     operation.speed = Some(4000.0);
-    operation.coolant = Some(Coolant::Flood);
+    operation.coolant = Some(Coolant::FLOOD);
     Job { name: "TEST-DIN-ISO".into(), operations: vec![operation], ..Job::default() }
 }
 
@@ -516,11 +515,11 @@ fn calls(definition: &str, steps: Vec<Step>) -> Vec<String> {
 
 #[test]
 fn the_calls_come_in_their_order() {
-    let cut = |x: f64, feed: f64| Step::Feed { to: [x, 1.0, -1.0].into(), feed: Some(feed) };
+    let cut = |x: f64, feed: f64| Step::feed([x, 1.0, -1.0], Some(feed));
     let steps = vec![
         rapid(1.0, 1.0, 5.0),
         rapid(1.0, 1.0, 0.5),
-        Step::Feed { to: [1.0, 1.0, -1.0].into(), feed: Some(50.0) },
+        Step::feed([1.0, 1.0, -1.0], Some(50.0)),
         cut(2.0, 100.0),
         Step::Comment("half".into()),
         cut(3.0, 100.0),
@@ -560,22 +559,15 @@ fn the_tool_is_changed_before_an_object_with_another_one() {
 
 #[test]
 fn arcs_have_their_variables() {
-    let arc = Arc {
-        clockwise: false,
-        from: [10.0, 0.0, -1.0],
-        centre: [0.0, 0.0, 0.0],
-        to: [0.0, 10.0, -1.0],
-        feed: None,
-    };
-    let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), Step::Arc(arc)];
+    let arc = arc(false, [10.0, 0.0, -1.0], [0.0; 2], [0.0, 10.0, -1.0], None);
+    let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), arc];
     assert_eq!(calls(CALLS, steps)[3], "arc 0 10 I-10 J0 C0,0 R10 0 90 90 1");
 }
 
 #[test]
 fn wide_arcs_are_cut_on_demand() {
-    let circle =
-        Arc { clockwise: true, from: [10.0, 0.0, -1.0], centre: [0.0; 3], to: [10.0, 0.0, -1.0], feed: None };
-    let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), Step::Arc(circle)];
+    let circle = arc(true, [10.0, 0.0, -1.0], [0.0; 2], [10.0, 0.0, -1.0], None);
+    let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), circle];
     let halves = calls(&CALLS.replace("[text]", "arc-sweep = 180\n[text]"), steps.clone());
     assert_eq!(
         halves[3..5],
@@ -586,14 +578,8 @@ fn wide_arcs_are_cut_on_demand() {
 
 #[test]
 fn arcs_that_cannot_be_written_become_lines() {
-    let helix = Arc {
-        clockwise: false,
-        from: [10.0, 0.0, -1.0],
-        centre: [0.0; 3],
-        to: [0.0, 10.0, -2.0],
-        feed: Some(9.0),
-    };
-    let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), Step::Arc(helix)];
+    let helix = arc(false, [10.0, 0.0, -1.0], [0.0; 2], [0.0, 10.0, -2.0], Some(9.0));
+    let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), helix];
     let with_z =
         CALLS.replace("line = 'line", "line = 'Z{.~Z1~} line").replace("[text]", "arc-tolerance = 1\n[text]");
     assert_eq!(calls(&with_z, steps.clone())[3..5], ["Z-1.5 line 7.071 7.071 F9 10", "Z-2 line 0 10 F9 01"]);
@@ -687,7 +673,7 @@ fn a_text_for_rapids_writes_every_move_as_it_is() {
 fn what_a_post_has_no_text_for_is_an_error() {
     let dwell = output(CALLS, &job(vec![Step::Dwell { seconds: 1.0 }]), &PostOptions::default()).unwrap_err();
     assert_eq!(texts(&dwell), ["PB759 mill needs the text dwell, which the post does not have"]);
-    let probe = Step::Probe { to: [0.0; 3].into(), feed: None };
+    let probe = Step::probe([0.0; 3], None);
     let probe = output(CALLS, &job(vec![probe]), &PostOptions::default()).unwrap_err();
     assert_eq!(texts(&probe), ["PB759 mill needs the text probe, which the post does not have"]);
     let with = format!("{CALLS}dwell = 'wait {{.~DwellTime~}}'");

@@ -1,9 +1,11 @@
 //! What a CamBam definition may look like, and what is wrong with one.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_post::{Arc, PostMacro, PostOptions, Step};
+use pathbuild_post::{PostMacro, PostOptions, Step};
 
-use crate::support::{bare, definition, errors, feed, job, lines, lines_with, output, read, shared, texts};
+use crate::support::{
+    arc, bare, definition, errors, feed, job, lines, lines_with, output, read, shared, texts,
+};
 
 #[test]
 fn absent_sections_have_defaults() {
@@ -272,21 +274,13 @@ fn the_command_of_a_post_is_handed_out_only_when_it_will_be_run() {
 fn an_empty_program_is_refused() {
     let empty = pathbuild_post::Job::default();
     assert_eq!(errors(&bare(""), &empty), ["PB765 the program has no operations"]);
-    let at = |x| [Some(x), Some(0.0), Some(0.0)].into();
-    let arc = |from, centre, to, feed| {
-        Step::Arc(Arc {
-            clockwise: false,
-            from: [from, 0.0, 0.0],
-            centre: [centre; 3],
-            to: [0.0, to, 0.0],
-            feed,
-        })
-    };
+    let at = |x| [x, 0.0, 0.0];
+    let arc = |from, centre, to, feed| arc(false, [from, 0.0, 0.0], [centre; 2], [0.0, to, 0.0], feed);
     let nan = f64::NAN;
     for broken in [
         feed(nan, 0.0, 0.0),
-        Step::Feed { to: at(1.0), feed: Some(nan) },
-        Step::Rapid { to: at(f64::INFINITY) },
+        Step::feed(at(1.0), Some(nan)),
+        Step::rapid(at(f64::INFINITY)),
         Step::Dwell { seconds: nan },
         arc(nan, 0.0, 1.0, None),
         arc(1.0, nan, 1.0, None),

@@ -1,9 +1,8 @@
 //! How CamBam templates become lines, and what the lines that were written mean for the next.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_post::{
-    Coolant, Job, PostMacro, PostOptions, Spindle, Step, Stock, Texts, Units, VelocityMode,
-};
+use pathbuild_motion::{Coolant, Turning};
+use pathbuild_post::{Job, PostMacro, PostOptions, Step, Stock, Texts, Units, VelocityMode};
 
 use crate::support::{bare, definition, feed, job, lines, lines_with, operation, output, rapid, texts};
 
@@ -17,7 +16,7 @@ fn lines_are_trimmed_and_blank_ones_dropped() {
 fn a_macro_of_several_lines_becomes_several_lines() {
     let text = definition("<PostFile>{$spindle} {$s}</PostFile><SpindleCW>\n M8\n M3\n</SpindleCW>");
     let mut job = job(vec![]);
-    job.operations[0].spindle = Some(Spindle::Clockwise);
+    job.operations[0].spindle = Some(Turning::Clockwise);
     job.operations[0].speed = Some(1000.4);
     assert_eq!(lines(&text, &job), ["M8", "M3", "S1000"]);
 }
@@ -102,7 +101,7 @@ fn spindle_job() -> Job {
     let mut operations =
         vec![operation("a", 1, vec![]), operation("b", 1, vec![]), operation("c", 2, vec![])];
     for operation in &mut operations {
-        operation.spindle = Some(Spindle::Clockwise);
+        operation.spindle = Some(Turning::Clockwise);
         operation.speed = Some(1000.0);
     }
     Job { operations, ..job(vec![]) }
@@ -138,7 +137,7 @@ fn without_a_word_about_the_spindle_nothing_is_written() {
 #[test]
 fn coolant_is_written_when_it_changes() {
     let mut job = spindle_job();
-    for (operation, coolant) in job.operations.iter_mut().zip([Coolant::Flood, Coolant::Flood, Coolant::Off])
+    for (operation, coolant) in job.operations.iter_mut().zip([Coolant::FLOOD, Coolant::FLOOD, Coolant::OFF])
     {
         operation.coolant = Some(coolant);
     }
@@ -154,7 +153,7 @@ fn coolant_that_a_post_does_not_write_is_noted() {
         notes.iter().any(|note| note.text(Lang::En).contains("{$coolant}"))
     };
     assert!(!notes(&job));
-    job.operations[0].coolant = Some(Coolant::Flood);
+    job.operations[0].coolant = Some(Coolant::FLOOD);
     assert!(notes(&job));
 }
 

@@ -1,8 +1,11 @@
 //! Moves through a CamBam definition: registers, arcs, cycles, cutting's start and end.
 
-use pathbuild_post::{Arc, Entry, Hole, HoleKind, Job, Plane, PostOptions, Step, Units};
+use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Turning};
+use pathbuild_post::{Entry, Hole, HoleKind, Job, PostOptions, Step, Units};
 
-use crate::support::{bare, errors, feed, job, lines, lines_with, operation, output, rapid, read, texts};
+use crate::support::{
+    self, bare, errors, feed, job, lines, lines_with, operation, output, rapid, read, texts,
+};
 
 /// The lines behind the way to (0, 0, 5).
 #[track_caller]
@@ -10,11 +13,11 @@ fn moves(elements: &str, steps: Vec<Step>) -> Vec<String> {
     lines(&bare(elements), &job(steps)).split_off(2)
 }
 
-fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Arc {
-    Arc { clockwise: false, from, centre: [centre[0], centre[1], 0.0], to, feed: Some(100.0) }
+fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Step {
+    support::arc(false, from, centre, to, Some(100.0))
 }
 
-fn quarter() -> Arc {
+fn quarter() -> Step {
     arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, 10.0, 5.0])
 }
 
@@ -70,8 +73,8 @@ fn a_reversed_axis_has_one_sign() {
         .replacen("<MOP>{$blocks}</MOP>", "", 1)
     };
     let steps = |x: f64| {
-        let way = |z| Step::Rapid { to: [None, None, Some(z)].into() };
-        let across = Step::Rapid { to: [Some(x), Some(3.0), None].into() };
+        let way = |z| Step::rapid([None, None, Some(z)]);
+        let across = Step::rapid([Some(x), Some(3.0), None]);
         vec![across, way(2.0), feed(x, 3.0, -1.0), feed(x + 10.0, 4.0, -1.0), way(5.0)]
     };
     let operations = vec![operation("a", 1, steps(10.0)), operation("b", 2, steps(40.0))];
@@ -95,7 +98,7 @@ fn a_reversed_axis_has_one_sign() {
 
 #[test]
 fn axes_that_are_not_known_are_not_written() {
-    let mut job = job(vec![Step::Rapid { to: [None, None, Some(2.0)].into() }]);
+    let mut job = job(vec![Step::rapid([None, None, Some(2.0)])]);
     job.operations[0].entry = Entry::Clearance;
     assert_eq!(lines(&bare("<Rapid>{$g0} {$x} {$y} {$z}</Rapid>"), &job), ["G0 Z5.0", "G0 Z2.0"]);
 }
@@ -114,7 +117,7 @@ fn an_operation_that_begins_in_the_material_is_not_lifted() {
 
 #[test]
 fn arcs_have_incremental_centres_unless_absolute_ones_are_asked_for() {
-    let steps = vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())];
+    let steps = vec![feed(10.0, 0.0, 5.0), quarter()];
     assert_eq!(moves("", steps.clone())[1], "G3 X0.0 Y10.0 I-10.0 J0.0");
     assert_eq!(moves("<ArcCenterMode>Absolute</ArcCenterMode>", steps)[1], "G3 X0.0 Y10.0 I0.0 J0.0");
 }
@@ -123,8 +126,8 @@ fn arcs_have_incremental_centres_unless_absolute_ones_are_asked_for() {
 fn arc_macros_give_radius_and_angles() {
     let elements = "<ArcCCW>(r{$arc.radius} {$arc.start} {$arc.end} {$arc.sweep} {$arc.i} {$arc.j})</ArcCCW>\
                     <ArcCW>({$arc.sweep} {$arc.i})</ArcCW>";
-    let back = Arc { clockwise: true, ..arc([0.0, 10.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0]) };
-    let steps = vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter()), Step::Arc(back)];
+    let back = support::arc(true, [0.0, 10.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0], Some(100.0));
+    let steps = vec![feed(10.0, 0.0, 5.0), quarter(), back];
     assert_eq!(moves(elements, steps)[1..], ["(r10.0 0.0 90.0 -90.0 -10.0 0.0)", "(90.0 0.0)"]);
 }
 
@@ -133,37 +136,31 @@ fn arcs_written_by_radius_are_cut_below_half_a_turn() {
     let elements = "<ArcCCW>{$g3} {$_x} {$_y} R{$arc.radius}</ArcCCW>";
     let circle = arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0]);
     let expected = ["G3 X-5.0 Y8.6603 R10.0", "G3 Y-8.6603 R10.0", "G3 X10.0 Y0.0 R10.0"];
-    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(circle)])[1..], expected);
-    assert_eq!(
-        moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())])[1..],
-        ["G3 X0.0 Y10.0 R10.0"]
-    );
+    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), circle])[1..], expected);
+    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), quarter()])[1..], ["G3 X0.0 Y10.0 R10.0"]);
     // With a centre beside it the way round is clear.
     let both = elements.replace("R{$arc.radius}", "(R{$arc.radius}) {$i} {$j}");
     let whole = arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, -10.0, 5.0]);
-    assert_eq!(
-        moves(&both, vec![feed(10.0, 0.0, 5.0), Step::Arc(whole)])[1..],
-        ["G3 X0.0 Y-10.0 (R10.0) I-10.0 J0.0"]
-    );
+    assert_eq!(moves(&both, vec![feed(10.0, 0.0, 5.0), whole])[1..], ["G3 X0.0 Y-10.0 (R10.0) I-10.0 J0.0"]);
 }
 
 #[test]
 fn arcs_become_lines_within_the_tolerance() {
     let elements = "<ArcOutput>Convert To Lines</ArcOutput><ArcToLinesTolerance>1</ArcToLinesTolerance>";
     let expected = ["G1 X7.0711 Y7.0711", "G1 X0.0 Y10.0"];
-    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())])[1..], expected);
+    assert_eq!(moves(elements, vec![feed(10.0, 0.0, 5.0), quarter()])[1..], expected);
     let fine = bare(
         "<ArcOutput>Convert To Lines</ArcOutput><ArcToLinesTolerance>0.000000000001</ArcToLinesTolerance>",
     );
     assert_eq!(
-        errors(&fine, &job(vec![Step::Arc(quarter())])),
+        errors(&fine, &job(vec![quarter()])),
         ["PB753 an arc of radius 10 takes more than 100000 lines (raise the post's tolerance for arcs)"]
     );
 }
 
 #[test]
 fn short_arcs_and_flat_arcs_become_lines() {
-    let steps = vec![feed(10.0, 0.0, 5.0), Step::Arc(quarter())];
+    let steps = vec![feed(10.0, 0.0, 5.0), quarter()];
     assert_eq!(moves("<MinimumArcLength>15.71</MinimumArcLength>", steps.clone())[1], "G1 X0.0 Y10.0");
     assert_eq!(
         moves("<MinimumArcLength>15.70</MinimumArcLength>", steps.clone())[1],
@@ -186,18 +183,15 @@ fn short_arcs_and_flat_arcs_become_lines() {
 fn an_arc_whose_ends_are_written_alike_is_no_full_circle() {
     let tiny = arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0, 0.004, 5.0]);
     let two_decimals = "<NumberFormat>0.0#</NumberFormat>";
-    assert_eq!(moves(two_decimals, vec![feed(10.0, 0.0, 5.0), Step::Arc(tiny)]), ["G1 F100.0 X10.0"]);
+    assert_eq!(moves(two_decimals, vec![feed(10.0, 0.0, 5.0), tiny]), ["G1 F100.0 X10.0"]);
     let circle = arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0, 0.0, 5.0]);
-    assert_eq!(moves(two_decimals, vec![feed(10.0, 0.0, 5.0), Step::Arc(circle)])[1], "G3 I-10.0 J0.0");
+    assert_eq!(moves(two_decimals, vec![feed(10.0, 0.0, 5.0), circle])[1], "G3 I-10.0 J0.0");
 }
 
 #[test]
 fn an_arc_whose_rounded_numbers_are_no_circle_is_an_error() {
     let (sin, cos) = libm::sincos(1.0);
-    let steps = vec![
-        feed(10.0, 0.0, 5.0),
-        Step::Arc(arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0 * cos, 10.0 * sin, 5.0])),
-    ];
+    let steps = vec![feed(10.0, 0.0, 5.0), arc([10.0, 0.0, 5.0], [0.0, 0.0], [10.0 * cos, 10.0 * sin, 5.0])];
     let coarse = bare("<NumberFormat>0.0</NumberFormat>");
     let expected = "PB756 as written, the arc to (5.403, 8.415) has the radius 10.0000 at its start and 9.9860 at its end (give the post's number format more decimals)";
     assert_eq!(errors(&coarse, &job(steps.clone())), [expected]);
@@ -208,13 +202,13 @@ fn an_arc_whose_rounded_numbers_are_no_circle_is_an_error() {
 fn the_tolerance_of_rounded_arcs_is_two_micrometres() {
     let written = |to: f64| {
         let arc = arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, to, 5.0]);
-        output(&bare(""), &job(vec![feed(10.0, 0.0, 5.0), Step::Arc(arc)]), &PostOptions::default())
+        output(&bare(""), &job(vec![feed(10.0, 0.0, 5.0), arc]), &PostOptions::default())
     };
     assert!(written(10.0019).is_ok());
     assert!(written(10.0021).is_err());
     let inches = |to: f64| {
         let arc = arc([254.0, 0.0, 5.0], [0.0, 0.0], [0.0, to * 25.4, 5.0]);
-        let job = Job { units: Units::Inches, ..job(vec![feed(254.0, 0.0, 5.0), Step::Arc(arc)]) };
+        let job = Job { units: Units::Inches, ..job(vec![feed(254.0, 0.0, 5.0), arc]) };
         output(&bare("<NumberFormat>0.0#####</NumberFormat>"), &job, &PostOptions::default())
     };
     assert!(inches(10.00019).is_ok());
@@ -236,25 +230,26 @@ fn an_arc_that_rounding_spoils_is_written_with_the_centre_beside() {
     let [from, to] = [[17.795_258, -5.848_452, 5.0], [33.620_06, -27.932_546, 5.0]];
     let spoiled = arc(from, [26.566_68, -16.274_95], to);
     let three_decimals = "<NumberFormat>0.0##</NumberFormat>";
-    let written = moves(three_decimals, vec![feed(from[0], from[1], 5.0), Step::Arc(spoiled)]);
+    let written = moves(three_decimals, vec![feed(from[0], from[1], 5.0), spoiled]);
     assert_eq!(written[1], "G3 X33.62 Y-27.933 I8.771 J-10.427");
 }
 
 #[test]
 fn arcs_of_other_planes_have_their_own_offsets() {
-    let turn = Arc {
-        clockwise: true,
-        from: [0.0, 0.0, 5.0],
-        centre: [5.0, 0.0, 5.0],
-        to: [5.0, 0.0, 10.0],
-        feed: None,
+    let circle = Arc { plane: Plane::Zx, centre: [5.0, 5.0], clockwise: true, extra_turns: 0 };
+    let turn = Move {
+        from: [0.0, 0.0, 5.0].into(),
+        to: [5.0, 0.0, 10.0].into(),
+        path: Path::Arc(circle),
+        pace: Pace::Feed(0.0),
+        named: None,
     };
-    let mut job = job(vec![Step::Arc(turn)]);
-    job.operations[0].plane = Plane::Xz;
+    let mut job = job(vec![Step::Move(turn)]);
+    job.operations[0].plane = Plane::Zx;
     assert_eq!(lines(&bare(""), &job)[2], "G2 X5.0 Z10.0 I5.0 K0.0");
     assert_eq!(lines(&bare("<InvertArcs>true</InvertArcs>"), &job)[2], "G3 X5.0 Z10.0 I5.0 K0.0");
     job.operations[0].plane = Plane::Xy;
-    job.operations[0].steps = vec![Step::Arc(quarter())];
+    job.operations[0].steps = vec![quarter()];
     assert!(lines(&bare("<InvertArcs>true</InvertArcs>"), &job)[2].starts_with("G3"), "only in the XZ plane");
 }
 
@@ -347,8 +342,7 @@ fn an_angle_stands_in_place_of_the_axis_across() {
 
 #[test]
 fn dwells_and_probes_have_sections_of_their_own() {
-    let steps =
-        vec![Step::Dwell { seconds: 1.5 }, Step::Probe { to: [0.0, 0.0, -5.0].into(), feed: Some(40.0) }];
+    let steps = vec![Step::Dwell { seconds: 1.5 }, Step::probe([0.0, 0.0, -5.0], Some(40.0))];
     assert_eq!(moves("", steps.clone()), ["G4 P1.5", "G38.2 F40.0 X0.0 Y0.0 Z-5.0"]);
     assert_eq!(moves("<Dwell>G4 S{$move.p}</Dwell>", steps)[0], "G4 S1.5");
 }
@@ -452,14 +446,14 @@ fn a_beam_without_z_is_read_back_from_above() {
         feed(9.0, 4.0, -2.0),
         rapid(9.0, 4.0, 5.0),
     ]);
-    job.operations[0].spindle = Some(pathbuild_post::Spindle::Clockwise);
+    job.operations[0].spindle = Some(Turning::Clockwise);
     job.operations[0].speed = Some(1000.0);
     let written = |change: [&str; 2], dialect: Option<&str>| {
         let elements = "<Header>G21 G90</Header><ToolChange/><MOP>{$blocks}</MOP><Rapid>{$g0} {$_x} {$_y}</Rapid>\
             <FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove><ArcCW>{$g2} {$_x} {$_y} {$i} {$j}</ArcCW>\
             <ArcCCW>{$g3} {$_x} {$_y} {$i} {$j}</ArcCCW><StartCut>M3 {$s}</StartCut><EndCut>M5</EndCut>\
             <Footer>M5\nM30</Footer>";
-        let text = crate::support::definition(&elements.replace(change[0], change[1]));
+        let text = support::definition(&elements.replace(change[0], change[1]));
         let options = PostOptions { dialect: dialect.map(Into::into), ..PostOptions::default() };
         read(&text).unwrap().write(&job, &options).map_err(|errors| texts(&errors))
     };

@@ -1,8 +1,9 @@
 //! Ways through the air, small arcs and holes in control texts: what a text cannot say is lifted, drawn as a line, or an error.
 
-use pathbuild_post::{Arc, Entry, Hole, HoleKind, Job, Operation, PostOptions, Spindle, Step, load};
+use pathbuild_motion::Turning;
+use pathbuild_post::{Entry, Hole, HoleKind, Job, Operation, PostOptions, Step, load};
 
-use crate::support::{DIN, feed, job, operation, rapid, read_toml, texts};
+use crate::support::{self, DIN, feed, job, operation, rapid, read_toml, texts};
 
 /// What the manual's form makes of a job, read back in a dialect.
 #[track_caller]
@@ -161,8 +162,7 @@ fn pecks_and_dwells_that_the_text_does_not_name_are_moves_or_errors() {
 }
 
 fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Step {
-    let centre = [centre[0], centre[1], from[2]];
-    Step::Arc(Arc { clockwise: false, from, centre, to, feed: Some(100.0) })
+    support::arc(false, from, centre, to, Some(100.0))
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn between_operations_the_tool_is_as_high_as_the_higher_of_them() {
 fn xpertmill_has_one_speed_for_each_layer() {
     let mill = |tool, speed| {
         let steps = vec![rapid(1.0, 0.0, 5.0), feed(1.0, 0.0, -1.0), rapid(1.0, 0.0, 5.0)];
-        let spindle = Some(Spindle::Clockwise);
+        let spindle = Some(Turning::Clockwise);
         Operation { speed: Some(speed), spindle, ..operation("1111.1P", tool, steps) }
     };
     let write = |second, speed| {
@@ -260,7 +260,7 @@ fn xpertmill_has_one_speed_for_each_layer() {
 #[test]
 fn a_program_that_ends_with_the_spindle_turning_is_refused() {
     let mut job = high(vec![rapid(0.0, 0.0, 2.0), feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 25.0)]);
-    job.operations[0].spindle = Some(Spindle::CounterClockwise);
+    job.operations[0].spindle = Some(Turning::Counterclockwise);
     let with = |end: &str| {
         let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
         read_toml(&DIN.replace("'M30'", end)).write(&job, &options)

@@ -1,6 +1,9 @@
 //! Finished programs as jobs.
 
-use pathbuild_post::{Coolant, Entry, HoleKind, Job, Spindle, Step, ToolEntry, ToolTable};
+use std::f64::consts::{PI, TAU};
+
+use pathbuild_motion::{Coolant, Pace, Turning};
+use pathbuild_post::{Entry, HoleKind, Job, Step, ToolEntry, ToolTable};
 use pathbuild_toolpath::{
     Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
 };
@@ -58,9 +61,9 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     let job = job_of(vec![lift(20.0), sweep(3.0, 4.0), lift(5.0), drill(1.0), line(200.0, 9.0, 4.0, 1.0)]);
     let operation = &job.operations[0];
     assert_eq!(operation.entry, Entry::At([0.0, 0.0, 20.0]));
-    let Step::Feed { feed: first, .. } = operation.steps[2] else { panic!("{:?}", operation.steps) };
-    assert_eq!(first, Some(150.0), "F of the header");
-    let cut = Step::Feed { to: [9.0, 4.0, 1.0].into(), feed: Some(200.0) };
+    let Step::Move(first) = operation.steps[2] else { panic!("{:?}", operation.steps) };
+    assert_eq!(first.pace, Pace::Feed(150.0), "F of the header");
+    let cut = Step::feed([9.0, 4.0, 1.0], Some(200.0));
     assert_eq!(operation.steps[3..], [cut, rapid(9.0, 4.0, 20.0)]);
     assert_eq!(
         operation.steps[..2],
@@ -90,9 +93,9 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
         job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0].clone()
     };
     for length in [0.0, 1e-9, 0.0019] {
-        assert_eq!(arc(length), Step::Feed { to: [0.0, length, 1.0].into(), feed: Some(100.0) }, "{length}");
+        assert_eq!(arc(length), Step::feed([0.0, length, 1.0], Some(100.0)), "{length}");
     }
-    assert!(matches!(arc(0.002), Step::Arc(_)));
+    assert!(matches!(arc(0.002), Step::Move(it) if it.course().is_some()));
 }
 
 /// The ends of a full circle that was drawn as an arc are numbers of two elements: they may differ by next to nothing.
@@ -104,23 +107,24 @@ fn a_full_circle_ends_where_it_begins() {
         let to = Move::Arc { feed, clockwise, centre, to, z: height(1.0), is_spiral };
         let count = Count { class: Class::Milling, length, feed: Some(100.0) };
         match job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0] {
-            Step::Arc(arc) => arc.to,
+            Step::Move(it) => (it.to.y(), it.course().unwrap().sweep()),
             ref other => panic!("{other:?}"),
         }
     };
-    let turn = 10.0 * std::f64::consts::PI;
-    for by in [0.0, 1e-14, -1e-14] {
-        let end = arc(by, turn);
-        assert!(end[1] == 0.0 || by > 0.0, "{by}: {end:?}");
+    for by in [0.0, 1e-14, -1e-14, 2.4e-6, -2.4e-6, -2.6e-6] {
+        let (_, sweep) = arc(by, 10.0 * PI);
+        assert!((sweep - TAU).abs() < 1e-6, "{by}: {sweep}");
     }
-    assert_eq!(arc(-1e-14, turn)[1], 0.0, "an angle of next to nothing");
-    assert_eq!(arc(-0.01, 0.01)[1], -0.01, "a short arc stays one");
+    assert_eq!(arc(-2.6e-6, 10.0 * PI).0, 0.0, "an end behind the beginning of a circle is put right");
+    let (end, sweep) = arc(-0.01, 0.01);
+    assert_eq!(end, -0.01, "a short arc stays one");
+    assert!(sweep < 0.01);
 }
 
 #[test]
 fn a_plunge_has_a_feed_of_its_own() {
     let job = job_of(vec![drill(1.0), line(200.0, 9.0, 4.0, 1.0), drill(0.5)]);
-    assert_eq!(job.operations[0].steps[2], Step::Feed { to: [9.0, 4.0, 0.5].into(), feed: Some(150.0) });
+    assert_eq!(job.operations[0].steps[2], Step::feed([9.0, 4.0, 0.5], Some(150.0)));
 }
 
 #[test]
@@ -165,7 +169,7 @@ fn a_hole_that_is_left_upwards_is_a_hole() {
         drill(1.0),
     ];
     let job = job_of(steps.clone());
-    let [Step::Rapid { .. }, Step::Hole(first), Step::Hole(second)] = &*job.operations[0].steps else {
+    let [Step::Move(_), Step::Hole(first), Step::Hole(second)] = &*job.operations[0].steps else {
         panic!("{:?}", job.operations[0].steps)
     };
     assert_eq!(
@@ -206,7 +210,7 @@ fn the_moves_of_a_job_are_those_of_the_program() {
 
 fn entry(name: &str, diameter: f64, paths: Option<&str>, index: Option<u32>) -> ToolEntry {
     let paths = paths.map(|paths| Regex::new(paths).unwrap());
-    let (spindle, coolant) = (Some(Spindle::Clockwise), Some(Coolant::Off));
+    let (spindle, coolant) = (Some(Turning::Clockwise), Some(Coolant::OFF));
     ToolEntry { name: name.into(), diameter, paths, index, spindle, speed: Some(9000.0), coolant }
 }
 
@@ -233,7 +237,7 @@ fn programs_are_joined_with_the_tools_of_the_table() {
     assert_eq!(tools, expected);
     let expected = "PB764 the tool table has no cutter with O = 4 for 8001.1P; it becomes tool 3 (add it as [tool.NAME] to pathbuild.toml)";
     assert_eq!(texts(&warnings), [expected]);
-    assert_eq!(job.operations[0].coolant, Some(Coolant::Off));
+    assert_eq!(job.operations[0].coolant, Some(Coolant::OFF));
 }
 
 #[test]

@@ -2,9 +2,10 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_post::{Arc, Job, Post, PostOptions, Spindle, Step};
+use pathbuild_motion::Turning;
+use pathbuild_post::{Job, Post, PostOptions};
 
-use crate::support::{DIN, bare, definition, feed, job, rapid, read, read_toml, texts};
+use crate::support::{DIN, arc, bare, definition, feed, job, rapid, read, read_toml, texts};
 
 /// The notes of findings.
 fn notes(found: &[Diagnostic]) -> Vec<String> {
@@ -14,7 +15,7 @@ fn notes(found: &[Diagnostic]) -> Vec<String> {
 fn milled() -> Job {
     let mut job =
         job(vec![rapid(0.0, 0.0, 5.0), feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)]);
-    (job.operations[0].spindle, job.operations[0].speed) = (Some(Spindle::Clockwise), Some(1000.0));
+    (job.operations[0].spindle, job.operations[0].speed) = (Some(Turning::Clockwise), Some(1000.0));
     job
 }
 
@@ -87,16 +88,9 @@ fn texts_have_a_form_and_are_no_numbers() {
 
 #[test]
 fn a_helix_without_z_is_mended_in_the_text_of_arcs() {
-    let arc = Arc {
-        clockwise: false,
-        from: [9.0, 0.0, -1.0],
-        centre: [0.0; 3],
-        to: [-9.0, 0.0, -2.0],
-        feed: Some(100.0),
-    };
+    let arc = arc(false, [9.0, 0.0, -1.0], [0.0; 2], [-9.0, 0.0, -2.0], Some(100.0));
     let mut job = milled();
-    job.operations[0].steps =
-        vec![rapid(9.0, 0.0, 5.0), feed(9.0, 0.0, -1.0), Step::Arc(arc), rapid(-9.0, 0.0, 5.0)];
+    job.operations[0].steps = vec![rapid(9.0, 0.0, 5.0), feed(9.0, 0.0, -1.0), arc, rapid(-9.0, 0.0, 5.0)];
     let flat = |text: &str| DIN.replace(text, text.strip_suffix(" Z{+~Z1~}").unwrap_or(text));
     let both = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
     let both = both.replace("line = 'G01 X{+~X1~} Y{+~Y1~} Z{+~Z1~}", "line = 'G01 X{+~X1~} Y{+~Y1~}");

@@ -3,15 +3,14 @@
 use std::io::Write;
 
 use camino::Utf8Path;
-use pathbuild_post::{Arc, BUILT_IN, Hole, HoleKind, Job, Language, Post, PostOptions, Spindle, Step};
+use pathbuild_motion::Turning;
+use pathbuild_post::{BUILT_IN, Hole, HoleKind, Job, Language, Post, PostOptions, Step};
 
-use crate::support::{DIN, feed, operation, rapid, real_definitions};
+use crate::support::{DIN, arc, feed, operation, rapid, real_definitions};
 
 /// A program with every kind of move, for two tools.
 pub(crate) fn program() -> Job {
-    let arc = |clockwise, from: [f64; 3], centre: [f64; 3], to: [f64; 3]| {
-        Step::Arc(Arc { clockwise, from, centre, to, feed: Some(100.0) })
-    };
+    let arc = |clockwise, from, [x, y, _]: [f64; 3], to| arc(clockwise, from, [x, y], to, Some(100.0));
     let hole = Hole {
         at: [40.0, 0.0],
         level: 5.0,
@@ -45,7 +44,7 @@ pub(crate) fn program() -> Job {
         ..Job::default()
     };
     for operation in &mut job.operations {
-        operation.spindle = Some(Spindle::Clockwise);
+        operation.spindle = Some(Turning::Clockwise);
         operation.speed = Some(8000.0);
         operation.plunge_feed = Some(60.0);
         operation.cut_feed = Some(100.0);

@@ -5,15 +5,15 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret, moves_of};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
+use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Coolant, Entry, Hole, HoleKind, Job, Language, PostOptions, Remark, Spindle, Step, ToolTable,
-    load, native_remark,
+    BUILT_IN, Entry, Hole, HoleKind, Job, Language, PostOptions, Remark, Step, ToolTable, load, native_remark,
 };
 use pathbuild_toolpath::{
     Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
 };
 
-use crate::support::{rapid, texts};
+use crate::support::{rapid, straight_from_anywhere, texts};
 
 fn read(text: &str) -> Job {
     let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
@@ -27,12 +27,12 @@ fn read(text: &str) -> Job {
 fn a_program_without_tools_is_one_operation() {
     let job = read("G21 G90\nG0 Z5\nG0 X1 Y2\nG1 Z-1 F60\nG1 X9 F200\nG0 Z5\nM2\nG0 X99");
     let [operation] = &*job.operations else { panic!("{:?}", job.operations) };
-    let known_in_part = Step::Rapid { to: [None, None, Some(5.0)].into() };
-    let cut = |to: [f64; 3], feed| Step::Feed { to: to.into(), feed: Some(feed) };
+    let known_in_part = Step::rapid([None, None, Some(5.0)]);
+    let cut = |to: [f64; 3], feed| Step::feed(to, Some(feed));
     let down = cut([1.0, 2.0, -1.0], 60.0);
     let expected =
         [known_in_part, rapid(1.0, 2.0, 5.0), down, cut([9.0, 2.0, -1.0], 200.0), rapid(9.0, 2.0, 5.0)];
-    assert_eq!(operation.steps, expected, "nothing is read behind the end");
+    assert_eq!(straight_from_anywhere(&operation.steps), expected, "nothing is read behind the end");
     assert_eq!((operation.clearance, operation.entry), (5.0, Entry::Clearance));
     assert_eq!(
         (operation.plunge_feed, operation.cut_feed, operation.target_depth),
@@ -47,7 +47,7 @@ fn tools_spindle_and_coolant_divide_operations() {
     );
     let found: Vec<_> =
         job.operations.iter().map(|it| (it.tool.index, it.spindle, it.speed, it.coolant)).collect();
-    let (cw, ccw, flood) = (Some(Spindle::Clockwise), Some(Spindle::CounterClockwise), Some(Coolant::Flood));
+    let (cw, ccw, flood) = (Some(Turning::Clockwise), Some(Turning::Counterclockwise), Some(Coolant::FLOOD));
     let speed = Some(900.0);
     assert_eq!(
         found,

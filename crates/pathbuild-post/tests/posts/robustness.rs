@@ -1,20 +1,15 @@
 //! Definitions of any shape never panic, hang or grow without bound.
 
 use camino::Utf8Path;
-use pathbuild_post::{HoleKind, Job, Post, PostMacro, PostOptions, Spindle, Step};
+use pathbuild_motion::Turning;
+use pathbuild_post::{HoleKind, Job, Post, PostMacro, PostOptions, Step};
 use proptest::prelude::*;
 
-use crate::support::{definition, feed, job, rapid};
+use crate::support::{arc, definition, feed, job, rapid};
 
 /// A program with a move of every kind.
 fn program() -> Job {
-    let arc = pathbuild_post::Arc {
-        clockwise: true,
-        from: [10.0, 0.0, -1.0],
-        centre: [0.0; 3],
-        to: [10.0, 0.0, -2.0],
-        feed: Some(100.0),
-    };
+    let arc = arc(true, [10.0, 0.0, -1.0], [0.0; 2], [10.0, 0.0, -2.0], Some(100.0));
     let hole = pathbuild_post::Hole {
         at: [1.0, 2.0],
         level: 5.0,
@@ -27,12 +22,12 @@ fn program() -> Job {
     let mut job = job(vec![
         rapid(10.0, 0.0, 5.0),
         feed(10.0, 0.0, -1.0),
-        Step::Arc(arc),
+        arc,
         Step::Hole(hole),
         Step::Comment("{$x} ~X1~ )".into()),
         Step::Dwell { seconds: 1.0 },
     ]);
-    job.operations[0].spindle = Some(Spindle::Clockwise);
+    job.operations[0].spindle = Some(Turning::Clockwise);
     job
 }
 

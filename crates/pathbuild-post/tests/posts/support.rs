@@ -2,7 +2,8 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_post::{Entry, Job, Operation, Output, Position, Post, PostOptions, Step, Tool};
+use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
+use pathbuild_post::{Entry, Job, Operation, Output, Post, PostOptions, Step, Tool};
 
 /// A file of `../shared` beside the project; `None` where that is absent, which is a skip.
 pub(crate) fn shared(name: &str) -> Option<String> {
@@ -131,9 +132,31 @@ pub(crate) fn operation(name: &str, tool: u32, steps: Vec<Step>) -> Operation {
 }
 
 pub(crate) fn rapid(x: f64, y: f64, z: f64) -> Step {
-    Step::Rapid { to: [x, y, z].into() }
+    Step::rapid([x, y, z])
 }
 
 pub(crate) fn feed(x: f64, y: f64, z: f64) -> Step {
-    Step::Feed { to: Position::from([x, y, z]), feed: Some(100.0) }
+    Step::feed([x, y, z], Some(100.0))
+}
+
+/// Along an arc in XY.
+pub(crate) fn arc(
+    clockwise: bool,
+    from: [f64; 3],
+    centre: [f64; 2],
+    to: [f64; 3],
+    feed: Option<f64>,
+) -> Step {
+    let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
+    let pace = Pace::Feed(feed.unwrap_or_default());
+    Step::Move(Move { from: from.into(), to: to.into(), path: Path::Arc(arc), pace, named: None })
+}
+
+/// Steps of which it is forgotten where the straight ones begin.
+pub(crate) fn straight_from_anywhere(steps: &[Step]) -> Vec<Step> {
+    let forget = |step: &Step| match step {
+        Step::Move(it) if it.path == Path::Line => Step::Move(Move { from: Position::default(), ..*it }),
+        other => other.clone(),
+    };
+    steps.iter().map(forget).collect()
 }

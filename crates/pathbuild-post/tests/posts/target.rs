@@ -4,7 +4,8 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::{Machine, Travel};
-use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Spindle, Step};
+use pathbuild_motion::Turning;
+use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
 
 use crate::support::{definition, feed, job, rapid, read, texts};
 
@@ -319,7 +320,7 @@ fn what_the_reader_refuses_is_not_written() {
 fn without_a_dialect_words_and_spindle_are_followed_too() {
     let mut job =
         job(vec![rapid(1.0, 0.0, 1.0), feed(1.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)]);
-    job.operations[0].spindle = Some(Spindle::Clockwise);
+    job.operations[0].spindle = Some(Turning::Clockwise);
     job.operations[0].speed = Some(1000.0);
     let written = |words: &str, options: &PostOptions<'_>| {
         let mop =

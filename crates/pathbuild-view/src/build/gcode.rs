@@ -1,7 +1,7 @@
 //! Scenes of G-code programs.
 
-use pathbuild_gcode::interpret::Step;
 use pathbuild_gcode::summary::Summary;
+use pathbuild_motion::Step;
 
 use crate::scene::{Move, ScenePath, Totals};
 

@@ -2,7 +2,8 @@
 //! several lines for a move, so lines are matched by the ends of moves.
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Axes, Heights, Move, Options, Pace, Position, interpret_each};
+use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
+use pathbuild_motion::{Axes, Move, Pace, Position};
 
 /// Tolerance in mm within which two ends are the same: larger than the rounding error of inches with four decimals.
 const SAME_PLACE: f64 = 0.006;

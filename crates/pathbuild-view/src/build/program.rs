@@ -1,8 +1,9 @@
 //! Scenes of paths with their programs.
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, moves_of};
+use pathbuild_gcode::interpret::moves_of;
 use pathbuild_gcode::statistics::statistics;
+use pathbuild_motion as motion;
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
 use pathbuild_toolpath::{Drawn, Occurrence, Program, Trace, support_bars};
 
@@ -158,7 +159,7 @@ impl Builder {
         }
     }
 
-    fn moves(&mut self, ways: &[(u32, interpret::Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
+    fn moves(&mut self, ways: &[(u32, motion::Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
         for ((step, way), line) in ways.iter().zip(lines) {
             let mut it = Move::new(*way, *line);
             let step = *step as usize - 1;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
-use pathbuild_gcode::interpret::Axes;
+use pathbuild_motion::Axes;
 
 use super::identity::{Deed, Line, Milled, is_rapid, lines};
 use super::{Change, ChangeKind};

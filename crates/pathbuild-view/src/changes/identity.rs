@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use pathbuild_gcode::interpret::{Axes, Path, Position};
+use pathbuild_motion::{Axes, Path, Position};
 
 use crate::scene::{Move, MoveKind, Point};
 

@@ -2,7 +2,8 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Options, Step, interpret};
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_motion::Step;
 
 use super::{ChangeKind, compare, groups, phrase};
 use crate::scene::Move;

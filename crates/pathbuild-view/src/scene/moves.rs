@@ -1,6 +1,7 @@
 //! Moves of the tool.
 
-use pathbuild_gcode::interpret::{self, Axes, Pace, Path};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Axes, Pace, Path};
 use serde::{Serialize, Serializer};
 
 use super::Point;
@@ -12,7 +13,7 @@ pub struct Move {
     /// The purpose.
     pub kind: MoveKind,
     /// The geometry: start, end and curve. Arcs and helices are kept.
-    pub way: interpret::Move,
+    pub way: motion::Move,
     /// Its length in mm.
     pub length: f64,
     /// Its element, as an index into [`ScenePath::elements`](super::ScenePath::elements).
@@ -41,7 +42,7 @@ pub enum MoveKind {
 
 impl Move {
     /// A move about which only its geometry is known.
-    pub fn new(way: interpret::Move, line: Option<u32>) -> Self {
+    pub fn new(way: motion::Move, line: Option<u32>) -> Self {
         Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line }
     }
 
@@ -63,7 +64,7 @@ impl Move {
     /// Its lowest Z in mm; `None` if the height of neither end is known.
     pub fn depth(&self) -> Option<f64> {
         let ends = [&self.way.from, &self.way.to].into_iter().filter(|end| end.known.has(Axes::Z));
-        ends.map(interpret::Position::z).reduce(f64::min)
+        ends.map(motion::Position::z).reduce(f64::min)
     }
 
     /// The corners of its bounding box in the plane; `None` if unknown.
@@ -74,7 +75,7 @@ impl Move {
 }
 
 impl MoveKind {
-    fn of(way: &interpret::Move) -> Self {
+    fn of(way: &motion::Move) -> Self {
         let is_upright = way.is_upright();
         match way.pace {
             Pace::Probe { .. } => Self::Probe,
@@ -119,10 +120,10 @@ struct WrittenArc {
 
 impl Serialize for Move {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let place = |end: &interpret::Position| {
+        let place = |end: &motion::Position| {
             [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)).then(|| rounded(end.at[axis])))
         };
-        let interpret::Move { from, to, path, pace, .. } = &self.way;
+        let motion::Move { from, to, path, pace, .. } = &self.way;
         let arc = match path {
             Path::Line => None,
             Path::Arc(arc) => Some(WrittenArc {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use pathbuild_gcode::interpret::Path;
+use pathbuild_motion::Path;
 
 use super::VisibleParts;
 use super::canvas::{Canvas, n};
@@ -168,13 +168,8 @@ fn arrow(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str) {
 
 /// The point at a fraction (0 to 1) of a move.
 pub(super) fn along(it: &Move, share: f64) -> Point {
-    match it.way.path {
-        Path::Line => [0, 1].map(|axis| it.from()[axis] + (it.to()[axis] - it.from()[axis]) * share),
-        Path::Arc(arc) => {
-            let [x, y, _] = arc.point(&it.way.from, &it.way.to, share);
-            [x, y]
-        }
-    }
+    let [x, y, _] = it.way.point(share);
+    [x, y]
 }
 
 /// A move as SVG path data; arcs in the plane stay arcs.

@@ -10,8 +10,9 @@ use pathbuild_diagnostic::{Diagnostic, Lang, Value};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::summary::cutting_box;
+use pathbuild_motion::Turning;
 use pathbuild_path::PathName;
-use pathbuild_post::{Spindle, ToolTable};
+use pathbuild_post::ToolTable;
 use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, Scene, Sheet, SheetProbe, SheetTool};
 
@@ -278,9 +279,9 @@ fn tools(programs: &[Arc<Program>], table: &ToolTable) -> Vec<SheetTool> {
             name: entry.map(|entry| entry.name.to_string()),
             speed: entry.and_then(|entry| entry.speed),
             clockwise: entry.and_then(|entry| entry.spindle).and_then(|spindle| match spindle {
-                Spindle::Clockwise => Some(true),
-                Spindle::CounterClockwise => Some(false),
-                Spindle::Off => None,
+                Turning::Clockwise => Some(true),
+                Turning::Counterclockwise => Some(false),
+                Turning::Off | Turning::Unstated => None,
             }),
             paths: Vec::new(),
         };

@@ -2,7 +2,8 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_post::{Coolant, Job, Operation, Spindle, Tool, ToolEntry, ToolTable};
+use pathbuild_motion::{Coolant, Turning};
+use pathbuild_post::{Job, Operation, Tool, ToolEntry, ToolTable};
 use regex::Regex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -22,14 +23,14 @@ fn entry(tool: &types::Tool) -> ToolEntry {
         paths: tool.paths.as_deref().and_then(|pattern| Regex::new(pattern).ok()),
         index: tool.number,
         spindle: direction.map(|direction| match direction {
-            types::Direction::Clockwise => Spindle::Clockwise,
-            types::Direction::Counterclockwise => Spindle::CounterClockwise,
+            types::Direction::Clockwise => Turning::Clockwise,
+            types::Direction::Counterclockwise => Turning::Counterclockwise,
         }),
         speed: tool.spindle,
         coolant: tool.coolant.map(|coolant| match coolant {
-            types::Coolant::Off => Coolant::Off,
-            types::Coolant::Mist => Coolant::Mist,
-            types::Coolant::Flood => Coolant::Flood,
+            types::Coolant::Off => Coolant::OFF,
+            types::Coolant::Mist => Coolant::MIST,
+            types::Coolant::Flood => Coolant::FLOOD,
         }),
     }
 }
@@ -58,8 +59,8 @@ pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
         };
         operation.tool = Tool::new(index, entry.diameter, &entry.name);
         if !has_cuts || operation.only_probes() {
-            operation.spindle = operation.spindle.or(Some(Spindle::Off));
-            operation.coolant = operation.coolant.or(Some(Coolant::Off));
+            operation.spindle = operation.spindle.or(Some(Turning::Off));
+            operation.coolant = operation.coolant.or(Some(Coolant::OFF));
             continue;
         }
         operation.spindle = operation.spindle.or(entry.spindle);

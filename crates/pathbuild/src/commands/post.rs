@@ -6,8 +6,8 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::Step;
 use pathbuild_gcode::provenance::Provenance;
+use pathbuild_motion::Step;
 use pathbuild_post::{BUILT_IN, Job, Output, Remark, is_of_head, native_remark};
 use serde_json::json;
 

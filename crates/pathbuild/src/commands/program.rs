@@ -8,9 +8,10 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    Evidence, Heights, Interpretation, Options, Step, Text, UnitCodes, guess, interpret_until,
+    Evidence, Heights, Interpretation, Options, Text, UnitCodes, guess, interpret_until,
 };
 use pathbuild_gcode::read::quote;
+use pathbuild_motion::Step;
 use pathbuild_toolpath::memory;
 
 use crate::args::{ReadingArgs, UnitCodesArg};

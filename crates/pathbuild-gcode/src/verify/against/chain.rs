@@ -4,7 +4,7 @@
 //! against what a way may touch, since a definition may lift the tool higher: `ways` in pathbuild-post.) Only on the way to where that begins, and once all is milled, a program may go to
 //! places of the machine; there the tool is at S0 or above, where nothing is in the way.
 
-use crate::interpret::{Axes, Move, Path, Position};
+use pathbuild_motion::{Axes, Move, Path, Position};
 
 /// A move and its line.
 type Numbered = (u32, Move);

@@ -2,11 +2,11 @@
 
 use pathbuild_diagnostic::messages::walk as say;
 use pathbuild_diagnostic::{Diagnostic, Point, Text, words};
+use pathbuild_motion::{Action, Axes, Move, Pace, Path, Plane, Step};
 use pathbuild_path::{Arc, Curve, KeepOut, KeepOutMap, Line, Way, Xy};
 
 use super::cuts::{CHORD, PLACE};
 use crate::dialect::Dialect;
-use crate::interpret::{Action, Axes, Move, Pace, Path, Plane, Step};
 use crate::read::Problems;
 
 /// Clamps in a program's coordinates, and the tool that must stay out of them.

@@ -3,10 +3,10 @@
 use std::iter::Peekable;
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_motion::{Move, Pace, Path, Position};
 
 use super::chain::{Chain, Way};
 use crate::dialect::Dialect;
-use crate::interpret::{Move, Pace, Path, Position};
 use crate::verify::compare::{Difference, DifferenceKind, Ends, Tolerance, check_pace, check_shape, meet};
 use crate::verify::is_near;
 use crate::verify::walk::Stretch;

@@ -9,10 +9,10 @@ mod cuts;
 mod setup;
 
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_motion::{Action, Coolant, Move, Step, Turning};
 
 use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
-use crate::interpret::{Action, Coolant, Move, Step, Turning};
 use crate::read::Problems;
 
 pub use clamps::{Clamps, PastClamps};

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
+use pathbuild_motion::{
+    Action, Axes, Change, Coolant, Corners, Group, Move, Named, Pace, Plane, Position, Spindle, StatedWord,
+    Step, ToolLength, Turning,
+};
 
 use super::ToolUse;
 use crate::dialect::Dialect;
-use crate::interpret::{
-    Action, Axes, Change, Coolant, Corners, Group, Move, Named, Pace, Plane, Position, Spindle, StatedWord,
-    Step, ToolLength, Turning, code_name,
-};
+use crate::interpret::code_name;
 use crate::read::Problems;
 use crate::verify::words::PostWords;
 
@@ -128,7 +129,7 @@ impl<'w> Setup<'w> {
     }
 
     pub(super) fn finish(&mut self, problems: &mut Problems) {
-        if matches!(self.spindle.turning, Turning::Clockwise | Turning::Counterclockwise) {
+        if self.spindle.turning.is_on() {
             extra(self.spindle_line, "M3, M4".to_owned(), problems);
         }
         if self.coolant != Coolant::default() && self.switches_coolant() {
@@ -296,7 +297,7 @@ impl<'w> Setup<'w> {
     }
 
     fn turns(&self) -> bool {
-        matches!(self.spindle.turning, Turning::Clockwise | Turning::Counterclockwise)
+        self.spindle.turning.is_on()
     }
 
     fn turns_otherwise(&self) -> bool {

@@ -1,7 +1,8 @@
 //! The grid is never lower than what stands in the way.
 
+use pathbuild_motion::{Move, Pace, Path, Position};
+
 use super::{SIDE, Tops};
-use crate::interpret::{Move, Pace, Path, Position};
 
 /// A post of a millimetre, 9 mm high, in a field that is far from zero.
 const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];

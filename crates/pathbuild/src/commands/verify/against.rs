@@ -8,12 +8,12 @@ use pathbuild_diagnostic::messages::{gcode as say, outputs};
 use pathbuild_diagnostic::{Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Move, Turning};
+use pathbuild_gcode::interpret;
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{self, Clamps, PastClamps, PostWords, ToolUse};
+use pathbuild_motion::Move;
 use pathbuild_path::{KeepOut, PathName};
-use pathbuild_post::{Coolant, Spindle};
 use pathbuild_toolpath::Program as Drawn;
 use serde_json::json;
 
@@ -181,16 +181,7 @@ impl Against {
     fn tool(&self, context: &Context) -> ToolUse {
         let table = tool_table(context);
         let Some(entry) = table.find(&self.drawn.path, self.drawn.tool) else { return ToolUse::default() };
-        let turning = entry.spindle.map(|spindle| match spindle {
-            Spindle::Clockwise => Turning::Clockwise,
-            Spindle::CounterClockwise => Turning::Counterclockwise,
-            Spindle::Off => Turning::Off,
-        });
-        let coolant = entry.coolant.map(|coolant| interpret::Coolant {
-            mist: coolant == Coolant::Mist,
-            flood: coolant == Coolant::Flood,
-        });
-        ToolUse { number: entry.index, turning, speed: entry.speed, coolant }
+        ToolUse { number: entry.index, turning: entry.spindle, speed: entry.speed, coolant: entry.coolant }
     }
 }
 

@@ -7,12 +7,12 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::Pace;
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
     Checks, MachineRules, PastClamps, StatedStatistics, WordRules, coarse_arcs, verify_with,
 };
+use pathbuild_motion::Pace;
 
 use crate::args::VerifyArgs;
 use crate::context::Context;

@@ -3,9 +3,9 @@
 use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Action, Step};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{Stock, StockSpan};
+use pathbuild_motion::{Action, Step};
 
 use super::StockOptions;
 use super::against::Against;

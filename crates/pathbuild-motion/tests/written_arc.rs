@@ -1,6 +1,6 @@
 //! Arcs keep both ends on one circle when their numbers are rounded. (book: program/gcode)
 
-use pathbuild_gcode::WrittenArc;
+use pathbuild_motion::WrittenArc;
 
 /// Start, end and centre relative to the start of arcs whose rounded radii differ by more than 0.002 mm.
 const UNLUCKY: [[[f64; 2]; 3]; 3] = [

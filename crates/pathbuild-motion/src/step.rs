@@ -1,8 +1,7 @@
 //! The canonical steps that a program consists of.
 
-use pathbuild_diagnostic::Text;
-
-use super::codes::{Group, Plane, WorkSystem};
+use crate::moves::Move;
+use crate::position::{Axes, Plane};
 
 /// One thing that the machine does, and the line that makes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,163 +87,6 @@ pub enum WordEffect {
     NotFollowed,
 }
 
-/// A move of the tool's tip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(missing_docs, reason = "the types say it")]
-pub struct Move {
-    pub from: Position,
-    pub to: Position,
-    pub path: Path,
-    pub pace: Pace,
-    /// Where it goes, when the program says it by name.
-    pub named: Option<Named>,
-}
-
-/// A place in the coordinates of the program's first coordinate system, in mm.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Position {
-    /// X, Y, Z.
-    pub at: [f64; 3],
-    /// The axes of which that is known: at the program's beginning, and behind a move to a named place or a probe, it is not.
-    pub known: Axes,
-}
-
-impl Position {
-    /// A place that is wholly known.
-    pub fn known(x: f64, y: f64, z: f64) -> Self {
-        Self { at: [x, y, z], known: Axes::ALL }
-    }
-
-    /// X in mm.
-    pub fn x(&self) -> f64 {
-        self.at[0]
-    }
-
-    /// Y in mm.
-    pub fn y(&self) -> f64 {
-        self.at[1]
-    }
-
-    /// Z in mm.
-    pub fn z(&self) -> f64 {
-        self.at[2]
-    }
-}
-
-/// A set of the axes X, Y, Z.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Axes(u8);
-
-impl Axes {
-    /// No axis.
-    pub const NONE: Self = Self(0);
-    /// X, Y and Z.
-    pub const ALL: Self = Self(7);
-    /// X and Y.
-    pub const XY: Self = Self(3);
-    /// Z.
-    pub const Z: Self = Self(4);
-
-    /// The axis with index 0 (X), 1 (Y) or 2 (Z).
-    pub fn of(index: usize) -> Self {
-        Self(1 << index)
-    }
-
-    /// Whether all of `other` are in it.
-    pub fn has(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    /// Both sets together.
-    pub fn with(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Those that are not in `other`.
-    pub fn without(self, other: Self) -> Self {
-        Self(self.0 & !other.0)
-    }
-
-    /// Those that are in both.
-    pub fn and(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-}
-
-/// The way from one end of a move to the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(missing_docs, reason = "the types say it")]
-pub enum Path {
-    Line,
-    Arc(Arc),
-}
-
-/// An arc in a plane; the third axis goes evenly from one end to the other (a helix).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arc {
-    /// Which plane.
-    pub plane: Plane,
-    /// The centre in mm, as the plane's first and second axis.
-    pub centre: [f64; 2],
-    /// Seen from the third axis' positive end.
-    pub clockwise: bool,
-    /// Whole turns beside the arc itself.
-    pub extra_turns: u32,
-}
-
-/// How fast a move is, and what for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace {
-    /// As fast as the machine can.
-    Rapid,
-    /// Cutting, at so many mm/min. 0 where the program says none, which is reported.
-    Feed(f64),
-    /// Until the probe answers, at most to the end.
-    Probe {
-        /// mm/min.
-        feed: f64,
-        /// Towards the material; else away from it.
-        toward: bool,
-        /// No answer is an alarm.
-        must_answer: bool,
-    },
-}
-
-impl Pace {
-    /// The feed in mm/min, unless it is a rapid move.
-    pub fn feed(self) -> Option<f64> {
-        match self {
-            Self::Rapid => None,
-            Self::Feed(feed) | Self::Probe { feed, .. } => Some(feed),
-        }
-    }
-
-    /// What a move at this pace is called in messages.
-    pub fn word(self) -> &'static Text {
-        match self {
-            Self::Rapid => &Text { en: "a rapid move", de: "eine Eilgangbewegung" },
-            Self::Feed(_) => &Text { en: "a cutting move", de: "eine Fräsbewegung" },
-            Self::Probe { .. } => &Text { en: "a probing move", de: "eine Messbewegung" },
-        }
-    }
-}
-
-/// Places that a program calls by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Named {
-    /// G53: coordinates of the machine. Where its zero is not known, the numbers of the unknown axes are the machine's.
-    Machine,
-    /// G28.
-    Home1,
-    /// G30.
-    Home2,
-}
-
 /// The spindle's state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -268,6 +110,13 @@ pub enum Turning {
     Counterclockwise,
 }
 
+impl Turning {
+    /// Whether it is known to turn.
+    pub fn is_on(self) -> bool {
+        matches!(self, Self::Clockwise | Self::Counterclockwise)
+    }
+}
+
 /// The coolant's state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coolant {
@@ -275,6 +124,20 @@ pub struct Coolant {
     pub mist: bool,
     /// M8.
     pub flood: bool,
+}
+
+impl Coolant {
+    /// M8.
+    pub const FLOOD: Self = Self { mist: false, flood: true };
+    /// M7.
+    pub const MIST: Self = Self { mist: true, flood: false };
+    /// M9.
+    pub const OFF: Self = Self { mist: false, flood: false };
+
+    /// Whether anything flows.
+    pub fn is_on(self) -> bool {
+        self.mist || self.flood
+    }
 }
 
 /// What changes beside position, spindle, tool and coordinate system. Positions in steps take account of all of it but the tool's length.
@@ -320,4 +183,51 @@ pub enum Corners {
     Exact,
     /// G64: it rounds them, by so many mm at most where P says so. (Q, by how much lines may be joined, counts likewise.)
     Rounded(Option<f64>),
+}
+
+/// G54 (index 0) to G59 (5), G59.1 to G59.3 (8).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WorkSystem(u8);
+
+impl WorkSystem {
+    /// The system with this number, from 1 (G54) to 9 (G59.3).
+    pub fn from_number(number: u32) -> Option<Self> {
+        u8::try_from(number).ok().filter(|number| (1..=9).contains(number)).map(|number| Self(number - 1))
+    }
+
+    /// From 0 (G54) to 8 (G59.3).
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// Such as `G54`.
+    pub fn name(self) -> &'static str {
+        ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"][self.index()]
+    }
+}
+
+/// Groups of G words, of each of which one may stand in a line. (NIST RS274/NGC, table 4)
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Group {
+    NonModal,
+    Motion,
+    Plane,
+    Distance,
+    ArcDistance,
+    FeedMode,
+    Units,
+    CutterCompensation,
+    ToolLength,
+    Retract,
+    System,
+    PathControl,
+    SpindleMode,
+    LatheMode,
+    /// Scaling, mirroring, rotation, polar coordinates.
+    Transform,
+    /// G53 goes beside a motion.
+    MachineCoordinates,
+    /// G4, which takes no coordinates.
+    Dwell,
 }

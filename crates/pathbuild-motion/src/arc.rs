@@ -1,0 +1,250 @@
+//! Arcs: how far they go round, where they lead, and the straight pieces that may stand for them.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::position::{Plane, Position};
+
+/// An arc in a plane; the third axis goes evenly from one end to the other (a helix).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// Which plane.
+    pub plane: Plane,
+    /// The centre in mm, as the plane's first and second axis.
+    pub centre: [f64; 2],
+    /// Seen from the third axis' positive end.
+    pub clockwise: bool,
+    /// Whole turns beside the arc itself.
+    pub extra_turns: u32,
+}
+
+/// The smallest angle in radians between two directions. An arc between ends in directions from its centre that differ by no more is a
+/// full circle, as it is to GRBL.
+const SAME_DIRECTION: f64 = 5e-7;
+
+/// The angle in radians from one direction to another in the direction of travel: above 0, and a full turn where both are the same.
+pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
+    let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
+    let turn = if clockwise { -counterclockwise } else { counterclockwise };
+    if turn <= SAME_DIRECTION { turn + TAU } else { turn }
+}
+
+impl Arc {
+    /// The radius at a place, in mm.
+    pub fn radius(&self, end: &Position) -> f64 {
+        let [a, b] = self.spoke(&end.at);
+        libm::hypot(a, b)
+    }
+
+    /// The angle that it goes through, in radians, extra turns included.
+    pub fn sweep(&self, from: &Position, to: &Position) -> f64 {
+        turn(self.spoke(&from.at), self.spoke(&to.at), self.clockwise) + TAU * f64::from(self.extra_turns)
+    }
+
+    /// The angle in radians from one place to another around the centre, in its direction, between -pi and pi.
+    pub fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
+        let ([a, b], [c, d]) = (self.spoke(from), self.spoke(to));
+        let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
+        if self.clockwise { -counterclockwise } else { counterclockwise }
+    }
+
+    /// The direction of travel in the plane at one of its ends, as a unit vector in the plane's axes.
+    pub fn tangent(&self, at: &[f64; 3]) -> [f64; 2] {
+        let [a, b] = self.spoke(at);
+        let radius = libm::hypot(a, b);
+        if radius == 0.0 {
+            return [0.0, 0.0];
+        }
+        if self.clockwise { [b / radius, -a / radius] } else { [-b / radius, a / radius] }
+    }
+
+    /// From the centre to a place, in the plane.
+    fn spoke(&self, at: &[f64; 3]) -> [f64; 2] {
+        let [a, b] = self.plane.project(at);
+        [a - self.centre[0], b - self.centre[1]]
+    }
+
+    /// Adds the outermost points of the circle that the arc comes through.
+    pub(crate) fn widen(&self, from: &Position, to: &Position, extent: &mut [Option<(f64, f64)>; 3]) {
+        if !from.known.and(to.known).has(self.plane.axes_of_plane()) {
+            return;
+        }
+        let [a, b] = self.spoke(&from.at);
+        let (radius, sweep) = (libm::hypot(a, b), self.sweep(from, to));
+        let start = libm::atan2(b, a);
+        for (quarter, (slot, sign)) in [(0, 1.0), (1, 1.0), (0, -1.0), (1, -1.0)].into_iter().enumerate() {
+            let outermost = quarter as f64 * PI / 2.0;
+            let way = if self.clockwise { start - outermost } else { outermost - start };
+            let way = way - TAU * libm::floor(way / TAU);
+            if way <= sweep {
+                let at = self.centre[slot] + sign * radius;
+                let axis = &mut extent[self.plane.axes()[slot]];
+                *axis = axis.map(|(low, high)| (low.min(at), high.max(at)));
+            }
+        }
+    }
+}
+
+/// The widest angle in radians of a chord that leaves a circle by at most `tolerance` mm; never more than a quarter turn.
+pub fn widest_chord(radius: f64, tolerance: f64) -> f64 {
+    (2.0 * libm::acos(1.0 - tolerance / radius.max(tolerance))).min(PI / 2.0)
+}
+
+/// An arc between two places, with what is asked of it again and again.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    arc: Arc,
+    from: [f64; 3],
+    to: [f64; 3],
+    sweep: f64,
+    /// The radius at its beginning, and how much it grows on the way, as a share of that.
+    radius: f64,
+    growth: f64,
+}
+
+impl Course {
+    /// An arc between places that are known in its plane.
+    pub fn new(arc: Arc, from: &Position, to: &Position) -> Self {
+        let (radius, end) = (arc.radius(from), arc.radius(to));
+        let growth = if radius > 0.0 { end / radius - 1.0 } else { 0.0 };
+        Self { arc, from: from.at, to: to.at, sweep: arc.sweep(from, to), radius, growth }
+    }
+
+    /// The arc itself.
+    pub fn arc(&self) -> Arc {
+        self.arc
+    }
+
+    /// The directions from the centre to its beginning and to its end, in radians from the plane's first axis. The end's is not brought
+    /// back to the first turn.
+    pub fn directions(&self) -> [f64; 2] {
+        let [a, b] = self.arc.spoke(&self.from);
+        let start = libm::atan2(b, a);
+        [start, start + if self.arc.clockwise { -self.sweep } else { self.sweep }]
+    }
+
+    /// The angle that it goes through, in radians, extra turns included.
+    pub fn sweep(&self) -> f64 {
+        self.sweep
+    }
+
+    /// The radius at its beginning, in mm.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Its length in space, in mm.
+    pub fn length(&self) -> f64 {
+        let third = self.arc.plane.third();
+        libm::hypot(self.length_in_plane(), self.to[third] - self.from[third])
+    }
+
+    /// Its length in its plane, in mm.
+    pub fn length_in_plane(&self) -> f64 {
+        self.radius * self.sweep
+    }
+
+    /// The greatest distance in mm between the arc and the line from its start to its end.
+    pub fn sagitta(&self) -> f64 {
+        self.radius * (1.0 - libm::cos(self.sweep / 2.0))
+    }
+
+    /// The place that a share (0 to 1) of the way leads to.
+    pub fn point(&self, share: f64) -> [f64; 3] {
+        self.place(turned(self.arc.spoke(&self.from), self.turn(share)), share)
+    }
+
+    /// The places a quarter, half and three quarters of the way along, turned on from one to the next.
+    pub fn quarters(&self) -> [[f64; 3]; 3] {
+        let quarter = self.turn(0.25);
+        let mut spoke = self.arc.spoke(&self.from);
+        [0.25, 0.5, 0.75].map(|share| {
+            spoke = turned(spoke, quarter);
+            self.place(spoke, share)
+        })
+    }
+
+    /// The sine and cosine of the angle that a share of the way turns by.
+    fn turn(&self, share: f64) -> (f64, f64) {
+        let angle = self.sweep * share;
+        libm::sincos(if self.arc.clockwise { -angle } else { angle })
+    }
+
+    /// The place at the end of a spoke of the first radius that was turned by a share of the way.
+    fn place(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
+        let stretch = 1.0 + share * self.growth;
+        let [first, second] = self.arc.plane.axes();
+        let third = self.arc.plane.third();
+        let mut at = [0.0; 3];
+        at[first] = self.arc.centre[0] + a * stretch;
+        at[second] = self.arc.centre[1] + b * stretch;
+        at[third] = self.from[third] + share * (self.to[third] - self.from[third]);
+        at
+    }
+}
+
+fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
+    [a * cos - b * sin, a * sin + b * cos]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::moves::{Move, Pace, Path};
+
+    const QUARTER: Arc = Arc { plane: Plane::Xy, centre: [0.0; 2], clockwise: false, extra_turns: 0 };
+
+    fn along(arc: Arc, to: [f64; 3]) -> Move {
+        let (from, to) = (Position::known(10.0, 0.0, 0.0), Position::known(to[0], to[1], to[2]));
+        Move { from, to, path: Path::Arc(arc), pace: Pace::Feed(100.0), named: None }
+    }
+
+    fn sweep(arc: Arc, to: [f64; 3]) -> f64 {
+        let it = along(arc, to);
+        arc.sweep(&it.from, &it.to)
+    }
+
+    #[test]
+    fn the_sweep_follows_the_direction() {
+        let end = [0.0, 10.0, -1.0];
+        assert!((sweep(QUARTER, end) - PI / 2.0).abs() < 1e-12);
+        assert!((sweep(Arc { clockwise: true, ..QUARTER }, end) - 1.5 * PI).abs() < 1e-12);
+        assert!((sweep(Arc { extra_turns: 2, ..QUARTER }, end) - 4.5 * PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn ends_in_one_direction_make_a_full_circle() {
+        let ahead = |angle: f64| {
+            let (sin, cos) = libm::sincos(angle);
+            [10.0 * cos, 10.0 * sin, -1.0]
+        };
+        for clockwise in [false, true] {
+            let arc = Arc { clockwise, ..QUARTER };
+            let sign = if clockwise { -1.0 } else { 1.0 };
+            assert_eq!(sweep(arc, [10.0, 0.0, -1.0]), TAU, "the same end");
+            assert!(sweep(arc, ahead(sign * 4.9e-7)) > TAU, "ahead by less than a direction");
+            assert!(sweep(arc, ahead(sign * 5.1e-7)) < 1e-6, "ahead by more");
+            assert!((sweep(arc, ahead(sign * -1e-6)) - TAU).abs() < 2e-6, "nearly all round");
+        }
+    }
+
+    #[test]
+    fn chords_stay_within_the_tolerance() {
+        let course = along(QUARTER, [0.0, 10.0, -1.0]).course().unwrap();
+        let widest = widest_chord(10.0, 0.01);
+        let count = (course.sweep() / widest).ceil();
+        let sagitta = |count: f64| Course { sweep: course.sweep() / count, ..course }.sagitta();
+        assert!(sagitta(count) <= 0.01 && sagitta(count - 1.0) > 0.01, "{count} is just enough");
+        assert_eq!(widest_chord(0.005, 0.01), PI / 2.0, "a circle does not become a point");
+    }
+
+    #[test]
+    fn pieces_join_and_end_exactly_where_the_arc_does() {
+        let pieces: Vec<Move> = along(QUARTER, [0.0, 10.0, -1.0]).split(2).collect();
+        assert_eq!(pieces[0].to, pieces[1].from);
+        assert_eq!(pieces[1].to.at, [0.0, 10.0, -1.0]);
+        let [x, y, z] = pieces[0].to.at;
+        let side = 10.0 * std::f64::consts::FRAC_1_SQRT_2;
+        assert!((x - side).abs() < 1e-12 && (y - side).abs() < 1e-12);
+        assert_eq!(z, -0.5);
+    }
+}

@@ -1,0 +1,197 @@
+//! Moves of the tool's tip.
+
+use pathbuild_diagnostic::Text;
+
+use crate::arc::{Arc, Course};
+use crate::position::{Axes, Plane, Position};
+
+/// A move of the tool's tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the types say it")]
+pub struct Move {
+    pub from: Position,
+    pub to: Position,
+    pub path: Path,
+    pub pace: Pace,
+    /// Where it goes, when the program says it by name.
+    pub named: Option<Named>,
+}
+
+/// The way from one end of a move to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the types say it")]
+pub enum Path {
+    Line,
+    Arc(Arc),
+}
+
+/// How fast a move is, and what for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// As fast as the machine can.
+    Rapid,
+    /// Cutting, at so many mm/min. 0 where the program says none, which is reported.
+    Feed(f64),
+    /// Until the probe answers, at most to the end.
+    Probe {
+        /// mm/min.
+        feed: f64,
+        /// Towards the material; else away from it.
+        toward: bool,
+        /// No answer is an alarm.
+        must_answer: bool,
+    },
+}
+
+impl Pace {
+    /// The feed in mm/min, unless it is a rapid move.
+    pub fn feed(self) -> Option<f64> {
+        match self {
+            Self::Rapid => None,
+            Self::Feed(feed) | Self::Probe { feed, .. } => Some(feed),
+        }
+    }
+
+    /// The feed in mm/min that the program states.
+    pub fn stated_feed(self) -> Option<f64> {
+        self.feed().filter(|feed| *feed > 0.0)
+    }
+
+    /// Gives a move that has no feed this one, in mm/min.
+    pub fn set_missing_feed(&mut self, missing: f64) {
+        match self {
+            Self::Feed(feed) | Self::Probe { feed, .. } if *feed == 0.0 => *feed = missing,
+            _ => {}
+        }
+    }
+
+    /// What a move at this pace is called in messages.
+    pub fn word(self) -> &'static Text {
+        match self {
+            Self::Rapid => &Text { en: "a rapid move", de: "eine Eilgangbewegung" },
+            Self::Feed(_) => &Text { en: "a cutting move", de: "eine Fräsbewegung" },
+            Self::Probe { .. } => &Text { en: "a probing move", de: "eine Messbewegung" },
+        }
+    }
+}
+
+/// Places that a program calls by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Named {
+    /// G53: coordinates of the machine. Where its zero is not known, the numbers of the unknown axes are the machine's.
+    Machine,
+    /// G28.
+    Home1,
+    /// G30.
+    Home2,
+}
+
+impl Move {
+    /// Its length in space, in mm. An axis of which one end is not known adds nothing.
+    pub fn length(&self) -> f64 {
+        let known = self.from.known.and(self.to.known);
+        let step =
+            |axis: usize| if known.has(Axes::of(axis)) { self.to.at[axis] - self.from.at[axis] } else { 0.0 };
+        match self.path {
+            Path::Arc(arc) if known.has(arc.plane.axes_of_plane()) => {
+                libm::hypot(Course::new(arc, &self.from, &self.to).length_in_plane(), step(arc.plane.third()))
+            }
+            _ => libm::hypot(libm::hypot(step(0), step(1)), step(2)),
+        }
+    }
+
+    /// Whether it goes straight up or down: its length in the plane XY is below 0.0005 mm, which no program of three decimals can say.
+    pub fn is_upright(&self) -> bool {
+        let in_plane = match self.path {
+            Path::Arc(arc) if arc.plane == Plane::Xy => {
+                Course::new(arc, &self.from, &self.to).length_in_plane()
+            }
+            Path::Arc(_) => return false,
+            Path::Line => libm::hypot(self.to.x() - self.from.x(), self.to.y() - self.from.y()),
+        };
+        self.from.known.and(self.to.known).has(Axes::XY) && in_plane < 0.0005
+    }
+
+    /// The smallest box that it stays in, as lowest and highest coordinates; unknown ends are left out, and an axis with none known
+    /// is `None`.
+    pub fn extent(&self) -> [Option<(f64, f64)>; 3] {
+        let mut extent = [0, 1, 2].map(|axis| {
+            let known = |end: &Position| end.known.has(Axes::of(axis)).then(|| end.at[axis]);
+            match (known(&self.from), known(&self.to)) {
+                (Some(from), Some(to)) => Some((from.min(to), from.max(to))),
+                (from, to) => from.or(to).map(|at| (at, at)),
+            }
+        });
+        if let Path::Arc(arc) = self.path {
+            arc.widen(&self.from, &self.to, &mut extent);
+        }
+        extent
+    }
+
+    /// The most that each axis gets of the move's speed, from 0 to 1.
+    pub fn axis_shares(&self) -> [f64; 3] {
+        let length = self.length();
+        if length == 0.0 {
+            return [0.0; 3];
+        }
+        let known = self.from.known.and(self.to.known);
+        let mut shares = [0, 1, 2].map(|axis| {
+            let way = if known.has(Axes::of(axis)) { self.to.at[axis] - self.from.at[axis] } else { 0.0 };
+            libm::fabs(way) / length
+        });
+        if let Path::Arc(arc) = self.path {
+            // Somewhere on its way an arc points along each axis of its plane, or nearly so.
+            let across = shares[arc.plane.third()];
+            for axis in arc.plane.axes() {
+                shares[axis] = libm::sqrt((1.0 - across * across).max(0.0));
+            }
+        }
+        shares
+    }
+
+    /// Whether every number in it is finite.
+    pub fn is_finite(&self) -> bool {
+        let centre = match self.path {
+            Path::Line => [0.0; 2],
+            Path::Arc(arc) => arc.centre,
+        };
+        let places = self.from.at.into_iter().chain(self.to.at);
+        places.chain(centre).chain(self.pace.feed()).all(f64::is_finite)
+    }
+
+    /// Whether it goes nowhere.
+    pub fn is_nothing(&self) -> bool {
+        matches!(self.path, Path::Line) && self.from == self.to
+    }
+
+    /// Its arc, if it goes along one.
+    pub fn course(&self) -> Option<Course> {
+        match self.path {
+            Path::Line => None,
+            Path::Arc(arc) => Some(Course::new(arc, &self.from, &self.to)),
+        }
+    }
+
+    /// The place that a share (0 to 1) of the way leads to.
+    pub fn point(&self, share: f64) -> [f64; 3] {
+        let (from, to) = (&self.from.at, &self.to.at);
+        match self.path {
+            _ if share >= 1.0 => *to,
+            Path::Line => std::array::from_fn(|axis| from[axis] + share * (to[axis] - from[axis])),
+            Path::Arc(arc) => Course::new(arc, &self.from, &self.to).point(share),
+        }
+    }
+
+    /// Equal pieces, each of which begins where the one before ends. The last ends exactly where the move does.
+    pub fn split(&self, count: u32) -> impl Iterator<Item = Self> + use<> {
+        let (it, course) = (*self, self.course());
+        let mut from = it.from;
+        (1..=count).map(move |number| {
+            let share = f64::from(number) / f64::from(count);
+            let at = course.filter(|_| number < count).map_or_else(|| it.point(share), |it| it.point(share));
+            let piece = Self { from, to: Position { at, ..it.to }, ..it };
+            from = piece.to;
+            piece
+        })
+    }
+}
