@@ -1,4 +1,4 @@
-//! G-code text: writing, reading, checking and post-processing programs. (book: program/gcode, book: program/posts,
+//! Writes, reads, checks and post-processes programs in G-code. (book: program/gcode, book: program/posts,
 //! book: program/reading)
 
 pub mod adjust;

@@ -1,11 +1,11 @@
-//! Lengths and times of a program, from its own moves. (book: program/gcode)
+//! Lengths and times of a program, calculated from its own moves. (book: program/gcode)
 
 use pathbuild_motion::{Action, Axes, Move, Pace, Path, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
 use crate::interpret::each_move_of;
 
-/// The statistics of a program with a rapid feed in mm/min: what its moves come to. A compatible program has those of the reference.
+/// The statistics of a program with a rapid feed in mm/min, calculated from its moves. A compatible program has those of the original tool.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     if program.compatible {
         return Statistics::of_reference(program, rapid);
@@ -22,16 +22,17 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     }
 }
 
-/// Which moves of a program that was read have a length: those between positions that are wholly known, and stated by the program since
-/// the last tool change.
+/// Decides which moves of a parsed program have a length: those between positions that are completely known and that the program has
+/// specified
+/// since the last tool change.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counting {
-    /// What the program had stated before the present step.
+    /// The axes specified before the current step.
     stated: Axes,
 }
 
 impl Counting {
-    /// Whether the length of the next step counts. Every step must be asked for.
+    /// Whether the length of the next step counts. It must be called for every step.
     pub(crate) fn counts(&mut self, step: &Step) -> bool {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
@@ -43,27 +44,27 @@ impl Counting {
     }
 }
 
-/// Moves by kind.
+/// Totals by kind of move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// Rapid moves. Their time depends on the machine's rapid feed.
+    /// Rapid moves. Their time depends on the rapid feed of the machine.
     pub rapid: MoveTotals,
     /// Cutting moves other than drilling.
     pub milling: MoveTotals,
-    /// Cutting moves straight down or up.
+    /// Straight cutting moves up or down.
     pub drilling: MoveTotals,
-    /// Number of probing moves. How far they go is not known beforehand, so that they have no length.
+    /// Number of probing moves. They have no length, because it is not known in advance how far they go.
     pub probing: u64,
     /// Number of arcs among all moves.
     pub arcs: u64,
 }
 
-/// Moves of a kind.
+/// The totals of one kind of move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MoveTotals {
-    /// Number of moves, also of those without a known length.
+    /// Number of moves, including those of unknown length.
     pub moves: u64,
-    /// Length in mm, and minutes of length / feed; infinite where a feed is not known.
+    /// Length in mm, and length / feed in minutes, which is infinite if some feed is unknown.
     pub total: Total,
 }
 
@@ -85,11 +86,11 @@ impl Tally {
 
     fn sweeps(&self, rapid: f64) -> Total {
         let length = self.rapid.total.length;
-        // No way takes no time, whatever the feed.
+        // Without length there is no time either, whatever the feed.
         Total { length, time: if length > 0.0 { length / rapid } else { 0.0 } }
     }
 
-    /// Adds a move. `has_length`: whether its length is known, and counts.
+    /// Adds a move. `has_length` tells whether its length is known and counts.
     pub(crate) fn add(&mut self, it: &Move, has_length: bool) {
         self.arcs += u64::from(matches!(it.path, Path::Arc(_)));
         let kind = match it.pace {

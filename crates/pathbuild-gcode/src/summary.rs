@@ -1,4 +1,4 @@
-//! What a program is, in numbers: moves, lengths, times, the box it needs, tools, feeds. (book: program/reading, `import`)
+//! Summarizes a program in numbers: moves, lengths, times, bounding box, tools, feeds. (book: program/reading, `import`)
 
 use std::collections::{HashMap, HashSet};
 
@@ -13,40 +13,41 @@ use crate::statistics::{Counting, Tally};
 /// A program in numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// All of it.
+    /// The totals of the program.
     pub total: Tally,
-    /// The same for each tool, in order of first use; of XpertMILL, for each layer.
+    /// The totals of each tool in order of first use; for XpertMILL, of each layer.
     pub tools: Vec<Used>,
-    /// Lowest and highest X, Y, Z of all moves, in mm; `None` for an axis that never moves to a known place.
+    /// Least and greatest X, Y, Z of all moves in mm; `None` for axes that never move to a known position.
     pub extent: Extent,
-    /// The same of those that cut.
+    /// The same for cutting moves.
     pub cut: Extent,
-    /// Seconds of G4.
+    /// Total dwell time (G4) in seconds.
     pub dwell: f64,
-    /// How often it waits for a person.
+    /// Number of stops for the operator.
     pub stops: u64,
-    /// How often the tool is changed.
+    /// Number of tool changes.
     pub tool_changes: u64,
 }
 
-/// Lowest and highest coordinate of each axis, in mm.
+/// Least and greatest coordinate of each axis, in mm.
 pub type Extent = [Option<(f64, f64)>; 3];
 
-/// What a tool does.
+/// The totals of a tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Used {
-    /// Its number; `None` before the program names one.
+    /// Number of the tool; `None` before the program names one.
     pub tool: Option<u32>,
-    /// Its moves.
+    /// Totals of its moves.
     pub tally: Tally,
-    /// The spindle's speeds while it cuts, in turns a minute, in order of first use.
+    /// Spindle speeds while cutting, in 1/min, in order of first use.
     pub speeds: Vec<f64>,
-    /// Its feeds in mm/min, in order of first use.
+    /// Feeds in mm/min, in order of first use.
     pub feeds: Vec<f64>,
 }
 
 impl Summary {
-    /// Adds up steps. `layers`: tools are XpertMILL's layers, of which the first is there from the beginning, and S belongs to each.
+    /// Summarizes steps. With `layers`, tools are XpertMILL layers, the first of which is active from the beginning, and S belongs to a
+    /// layer.
     pub fn of(steps: &[Step], layers: bool) -> Self {
         let mut collector = Collector {
             summary: Self::default(),
@@ -66,9 +67,9 @@ impl Summary {
 
 struct Collector {
     summary: Summary,
-    /// Where the tools are in it, with what is noted of each.
+    /// The tools used so far, with what has been recorded for each.
     known: HashMap<Option<u32>, Known>,
-    /// M6 changes tools; in programs without it, T does.
+    /// Whether M6 changes tools; in programs without it, T does.
     has_changes: bool,
     layers: bool,
     tool: Option<u32>,
@@ -76,9 +77,9 @@ struct Collector {
     counting: Counting,
 }
 
-/// A tool that was used.
+/// A tool used so far.
 struct Known {
-    /// Its place among the used ones.
+    /// Index among the tools used.
     index: usize,
     feeds: HashSet<u64>,
     speeds: HashSet<u64>,
@@ -131,7 +132,7 @@ impl Collector {
     }
 }
 
-/// Adds a value that is new and says something. Numbers above 0 are equal where their bits are.
+/// Adds a positive value unless it is already known. Positive numbers are equal if their bits are.
 fn note(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
     if value > 0.0 && known.insert(value.to_bits()) {
         values.push(value);
@@ -147,7 +148,7 @@ fn widen(extent: &mut Extent, it: &Move) {
     }
 }
 
-/// Lowest and highest X, Y, Z of the cutter's tip in a drawn program's cutting moves, in mm; `None` where it cuts nothing.
+/// Least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
 pub fn cutting_box(program: &Program) -> Extent {
     let mut extent = Extent::default();
     for (_, it) in each_move_of(program).filter(|(_, it)| matches!(it.pace, Pace::Feed(_))) {
@@ -156,7 +157,7 @@ pub fn cutting_box(program: &Program) -> Extent {
     extent
 }
 
-/// Whether a diagnostic says that something was taken for granted that the program does not say.
+/// Whether a diagnostic reports an assumption about something that the program does not specify.
 pub fn is_guess(diagnostic: &Diagnostic) -> bool {
     matches!(
         diagnostic.code(),

@@ -1,4 +1,4 @@
-//! Adjusting: what is put where, and everything that must not be. (book: language/probes)
+//! Tests of adjusting programs, including everything that must be rejected. (book: language/probes)
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,
@@ -13,7 +13,7 @@ use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
 
-/// A value file of one probe that was drawn at 2.
+/// A file with the value of one probe that was drawn at 2.
 const VALUES: &str = "([1.000 2.000]/T=2.000) #51=2.100\n";
 
 fn run(program: impl AsRef<[u8]>, values: impl AsRef<[u8]>) -> Result<Adjusted, Vec<Diagnostic>> {
@@ -62,7 +62,7 @@ fn value(formula: &str) -> String {
     program.strip_prefix('X').unwrap().split('(').next().unwrap().to_owned()
 }
 
-/// The column of what is wrong with a formula, counted in the formula.
+/// The column of an error in a formula, relative to the formula.
 #[track_caller]
 fn column(formula: &str) -> u32 {
     let problems = run(format!("X0.000(={formula})"), VALUES).expect_err("it has a value");
@@ -321,13 +321,13 @@ fn a_height_that_is_extrapolated_too_far_is_refused() {
     let formula = |weight: &str| format!("Z1.000(=1.000+{weight}*[#51-2.000]-0.5*[#52-2.000])");
     assert!(run(formula("1.114"), values).is_ok());
     assert_eq!(refused(run(formula("1.120"), values)), ["a_Clean.gcode:1:2 PB602"]);
-    // Downwards as upwards.
+    // The same for negative corrections.
     let down = "([0.000 0.000]/T=2.000) #51=1.100\n([1.000 0.000]/T=2.000) #52=2.000\n";
     assert!(run(formula("1.114"), down).is_ok());
     assert_eq!(refused(run(formula("1.120"), down)), ["a_Clean.gcode:1:2 PB602"]);
-    // Weights of three decimals may come to a little more than 1.
+    // Weights with three decimals may sum to slightly more than 1.
     assert!(run("Z1.000(=1.000+1.002*[#51-2.000])", "([1 2]/T=2) #51=3").is_ok());
-    // Only heights are meant.
+    // The limit only applies to heights.
     assert!(run("F1.000(=1.000+9*#51)", values).is_ok());
 }
 
@@ -356,7 +356,7 @@ fn an_older_line_whose_height_no_formula_says_is_refused() {
         let result = run(format!("X5.000(={formula})"), "@ [138.000|299.000] #2001=5,1");
         assert_eq!(refused(result), ["a_Z.txt:1:27 PB601"], "{formula}");
     }
-    // Where nothing uses it, it does no harm.
+    // If nothing uses it, it is harmless.
     assert!(run("X5.000(=5)", "@ [138.000|299.000] #2001=5,1").is_ok());
 }
 
@@ -367,7 +367,7 @@ fn an_older_line_must_fit_every_formula() {
     assert_eq!(refused(run(program, "@ [1|2] #2001=5,1")), ["a_Z.txt:1:15 PB602"]);
 }
 
-/// A program that says what it was made with.
+/// A program that lists the probe it was made with.
 const MADE: &str = "%\n(pathbuild)\n(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000)\nG01 X1.000(=#51)\n";
 
 #[test]
@@ -467,7 +467,7 @@ fn a_value_that_was_entered_must_be_that_of_the_log() {
     assert_eq!(refused(run_with_log("X1(=#51)", &values("x"), log)), ["a_Z.txt:2:29 PB601"]);
 }
 
-/// Nine probes on a grid of 100 mm, as a program's header and as a value file, each off by what the function says.
+/// Nine probes on a grid of 100 mm, as the header of a program and as a file of values, each deviating by the result of `off`.
 fn grid(off: impl Fn(f64, f64) -> f64) -> (String, String) {
     let (mut program, mut values) = (String::new(), String::new());
     for probe in 0..9 {
@@ -504,8 +504,9 @@ fn tilted_and_bent_plates_have_no_odd_probes() {
     assert_eq!(odd(|x, y| 0.5 * x * y), [""; 0]);
 }
 
-/// A twisted plate's corners lie 0.1 mm from the plane through all: eight probes less the plane's three leave five for their scatter,
-/// which is 0.1 * sqrt(4/5 * 9/8) where the middle one is.
+/// The corners of a twisted plate are 0.1 mm from the plane through all probes. Eight probes minus three for the plane leave five degrees
+/// of freedom
+/// for their scatter, which at the middle one is 0.1 * sqrt(4/5 * 9/8).
 #[test]
 fn a_probe_is_odd_beyond_four_times_the_scatter_of_the_others() {
     let raised = |middle: f64| odd(|x, y| if (x, y) == (0.0, 0.0) { middle } else { 0.1 * x * y });

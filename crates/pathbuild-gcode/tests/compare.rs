@@ -1,4 +1,4 @@
-//! Comparison of move lists: what counts as the same program.
+//! Tests which lists of moves count as the same program.
 
 mod common;
 
@@ -25,7 +25,7 @@ fn differ(found: &str, expected: &str) -> Option<Difference> {
     compare(&moves(found), &moves(expected), &Tolerance::of_decimals(3))
 }
 
-/// What they differ in, and the lines.
+/// The kind of difference, and the lines.
 fn kind(found: &str, expected: &str) -> Option<(DifferenceKind, Option<u32>, Option<u32>)> {
     differ(found, expected)
         .map(|it| (it.kind, it.found.map(|found| found.0), it.expected.map(|expected| expected.0)))
@@ -97,7 +97,7 @@ fn pieces_have_the_feed_of_the_whole() {
 fn moves_that_go_nowhere_do_not_count() {
     assert_same("G1 X10\nX10\nG0 X10\nG1 Y10", "G1 X10\nY10");
     assert_same("G1 X10\nG0 Z5\nG1 Y10", "G1 X10\nY10");
-    // What a short arc's end is moved by so that it is no circle.
+    // The distance by which the end of a short arc may be moved to avoid a full circle.
     assert_same("G1 X10\nX10.0014\nX10 Y10", "G1 X10\nY10");
     assert!(differ("G1 X10\nX10.0016\nX10 Y10", "G1 X10\nY10").is_some());
 }
@@ -146,7 +146,7 @@ fn arcs_may_be_chords_where_that_is_tolerated() {
     };
     let arc = moves("G2 X10 Y0 Z3 I5 J0");
     let tolerance = Tolerance { chord: 0.01, ..Tolerance::of_decimals(3) };
-    // 0.01 mm beside a radius of 5 mm: chords of up to 7.2 degrees.
+    // For 0.01 mm at a radius of 5 mm, chords of up to 7.2 degrees suffice.
     assert_eq!(compare(&moves(&chords(26)), &arc, &tolerance), None);
     assert_eq!(compare(&arc, &moves(&chords(26)), &tolerance), None);
     assert!(compare(&moves(&chords(16)), &arc, &tolerance).is_some());
@@ -217,7 +217,7 @@ fn height(z: f64) -> Height {
     Height { z, at: Xy::new(0.0, 0.0) }
 }
 
-/// A program of every kind of move, with coordinates that three decimals do not hold.
+/// A program with every kind of move and coordinates that need more than three decimals.
 fn program() -> Program {
     let third = 1.0 / 3.0;
     let mut names = Names::default();
@@ -262,7 +262,7 @@ fn a_program_is_the_same_as_its_own_text() {
 fn every_number_of_a_programs_text_counts() {
     let expected = moves_of(&program());
     let lines: Vec<&str> = NATIVE.lines().collect();
-    // Lines 7 to 14 are the program's own; each digit before the last of each coordinate and feed is changed in turn.
+    // Lines 7 to 14 belong to the program itself. Each digit of each coordinate and feed, except the last, is changed in turn.
     for (index, line) in lines.iter().enumerate().take(14).skip(6) {
         for (at, digit) in line.char_indices().filter(|(at, letter)| letter.is_ascii_digit() && *at > 3) {
             if line.starts_with('(') {
@@ -278,7 +278,7 @@ fn every_number_of_a_programs_text_counts() {
     }
 }
 
-/// What does not move the tool is left out, in the middle of a line too.
+/// Anything that does not move the tool is ignored, even in the middle of a line.
 #[test]
 fn lines_are_alike_by_their_words() {
     let same = pathbuild_gcode::verify::same_move_lines;

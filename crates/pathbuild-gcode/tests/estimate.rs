@@ -1,10 +1,10 @@
-//! Times with accelerations, against what the laws of motion say.
+//! Tests estimated times against the laws of motion.
 
 use pathbuild_gcode::dialect::Dialect::Native;
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Options, interpret};
 
-/// 6000 mm/min are 100 mm/s.
+/// 6000 mm/min is 100 mm/s.
 const MACHINE: Kinematics = Kinematics {
     rates: [6000.0, 6000.0, 600.0],
     accelerations: [100.0, 100.0, 20.0],
@@ -24,14 +24,14 @@ fn takes(program: &str, machine: &Kinematics, expected: f64) {
 
 #[test]
 fn a_long_way_is_ramps_and_a_stretch_at_full_speed() {
-    // Up to 100 mm/s in 1 s over 50 mm, 100 mm at full speed, down again.
+    // Acceleration to 100 mm/s in 1 s over 50 mm, 100 mm at full speed, then deceleration.
     takes("G0 X200", &MACHINE, 3.0);
     takes("G1 F6000 X200", &MACHINE, 3.0);
 }
 
 #[test]
 fn a_short_way_never_reaches_its_speed() {
-    // To the middle at 25 mm with 100 mm/s²: sqrt(2 * 25 / 100) s, twice.
+    // With 100 mm/s² the middle at 25 mm is reached after sqrt(2 * 25 / 100) s; the same again to the end.
     takes("G0 X50", &MACHINE, 2.0 * libm::sqrt(0.5));
 }
 
@@ -43,9 +43,9 @@ fn a_slow_feed_takes_nearly_its_length() {
 
 #[test]
 fn the_weakest_axis_decides() {
-    // Z alone: 10 mm/s in 0.5 s over 2.5 mm.
+    // Z alone reaches 10 mm/s in 0.5 s over 2.5 mm.
     takes("G0 Z10", &MACHINE, 1.0 + 0.5);
-    // At 45 degrees each of X and Y does its 100 mm/s.
+    // At 45 degrees both X and Y move at 100 mm/s.
     takes("G0 X200 Y200", &MACHINE, 3.0);
     takes("G0 X10 Z10", &MACHINE, 1.0 + 0.5);
 }
@@ -63,7 +63,7 @@ fn corners_are_taken_as_fast_as_the_deviation_allows() {
     let corner = "G1 F6000 X200\nY200";
     takes(corner, &MACHINE, 6.0);
     let soft = Kinematics { junction_deviation: 0.01, ..MACHINE };
-    // GRBL: v² = a d sin(θ/2) / (1 - sin(θ/2)), θ the angle between the ways.
+    // GRBL: v² = a d sin(θ/2) / (1 - sin(θ/2)), where θ is the angle between the moves.
     let half_sine = libm::sqrt(0.5);
     let corner_speed = libm::sqrt(100.0 * 0.01 * half_sine / (1.0 - half_sine));
     let saved_each = {
@@ -72,13 +72,13 @@ fn corners_are_taken_as_fast_as_the_deviation_allows() {
         3.0 - (1.0 + ramp + (150.0 - ramp_length) / 100.0)
     };
     takes(corner, &soft, 6.0 - 2.0 * saved_each);
-    // Back where it came from it has to stop.
+    // A reversal requires a full stop.
     takes("G1 F6000 X200\nX0", &soft, 6.0);
 }
 
 #[test]
 fn a_small_circle_is_not_taken_at_full_speed() {
-    // 1 mm radius: sqrt(100 * 1) = 10 mm/s.
+    // With a radius of 1 mm: sqrt(100 * 1) = 10 mm/s.
     let circumference = 2.0 * std::f64::consts::PI;
     takes("G2 F6000 X0 Y0 I1", &MACHINE, 0.2 + (circumference - 1.0) / 10.0);
     let large = time("G0 X0 Y0 Z0\nG2 F6000 X0 Y0 I200", &MACHINE);

@@ -1,4 +1,4 @@
-//! Guessing dialects.
+//! Tests of guessing dialects.
 
 use pathbuild_gcode::dialect::Dialect::{
     self, Fanuc, Grbl, Haas, LinuxCnc, Marlin, Native, Rs274, Xpertmill,

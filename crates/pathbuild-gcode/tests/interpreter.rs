@@ -1,4 +1,4 @@
-//! The interpreter: what words do, in which order. (book: program/reading)
+//! Tests of the interpreter: the effects of words, and their order. (book: program/reading)
 
 mod common;
 
@@ -12,7 +12,7 @@ use pathbuild_gcode::interpret::{Heights, MachineOffsets, Options, interpret};
 
 const HEAD: &str = "G17 G21 G90 G94\n";
 
-/// The steps of a program behind [`HEAD`], and M30.
+/// The steps of a program after [`HEAD`], with M30 at its end.
 fn run(dialect: Dialect, program: &str) -> Vec<String> {
     trace(dialect, &format!("{HEAD}{program}\nM30\n"))
         .into_iter()
@@ -20,7 +20,7 @@ fn run(dialect: Dialect, program: &str) -> Vec<String> {
         .collect()
 }
 
-/// The faults of a program behind [`HEAD`], and M30.
+/// The problems of a program after [`HEAD`], with M30 at its end.
 fn wrong(dialect: Dialect, program: &str) -> Vec<String> {
     faults(dialect, &format!("{HEAD}{program}\nM30\n"))
 }
@@ -198,7 +198,7 @@ fn arcs_need_a_centre() {
     );
 }
 
-/// It is not known that Marlin and XpertMILL repeat the motion before.
+/// Marlin and XpertMILL are not known to repeat the previous motion.
 #[test]
 fn a_motion_that_is_not_stated_is_missed_where_it_must_be() {
     let missed = |dialect| {
@@ -270,7 +270,7 @@ fn linuxcnc_counts_turns_and_takes_absolute_centres() {
         run(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 J0 F10")[1],
         "3 feed 10 to 0 -1 0 cw round 0 0 by 90"
     );
-    // Centres count from the zero of the program, wherever that is.
+    // Centres are relative to the origin of the program, wherever that is.
     let shifted = run(LinuxCnc, "G0 X11 Y7 Z0\nG92 X1 Y0\nG90.1 G2 X0 Y-1 I0 J0 F10");
     assert_eq!(shifted[1], "4 feed 10 to 10 6 0 cw round 10 7 by 90");
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 F10"), ["3 missing-word"]);
@@ -430,7 +430,7 @@ fn named_places_are_unknown_without_configuration() {
         run(Native, "G0 X1 Y1 Z1\nG91 G28 Z2\nG90 G0 Z5"),
         ["2 rapid to 1 1 1", "3 rapid to 1 1 3", "3 rapid to 1 1 ? Home1", "4 rapid to 1 1 5"]
     );
-    // Nothing depends on where that is until something is cut from there.
+    // Nothing depends on its position until something is cut from there.
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30"), FINE);
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30\nG0 X1 Y1\nG0 Z1\nG1 Z0 F9"), FINE);
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG30\nG0 Z1\nG1 Z0 F9"), ["3 unknown-offset"]);
@@ -878,7 +878,7 @@ fn ignored_feeds_are_not_missing() {
     );
 }
 
-/// As a unit vector, at both ends; none where the arc has no radius.
+/// As unit vectors at both ends; `None` if the arc has no radius.
 #[test]
 fn an_arc_begins_and_ends_along_its_tangents() {
     for (code, ends) in [("G3", [[0.0, 1.0], [-1.0, 0.0]]), ("G2", [[0.0, -1.0], [1.0, 0.0]])] {
@@ -908,7 +908,7 @@ fn a_number_of_holes_names_its_letter() {
     }
 }
 
-/// Whole messages are in one language.
+/// Messages do not mix languages.
 #[test]
 fn limits_of_values_are_said_in_both_languages() {
     let help = |program: &str, lang| {

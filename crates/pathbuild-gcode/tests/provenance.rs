@@ -1,4 +1,4 @@
-//! The header line by which programs are traced. (book: program/gcode)
+//! Tests of the header line that identifies the origin of programs. (book: program/gcode)
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::provenance::Provenance;

@@ -1,4 +1,4 @@
-//! The reader: how lines become words in each dialect. (book: program/reading)
+//! Tests of the reader: how lines become words in each dialect. (book: program/reading)
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::{faults, reading_faults, spelled_out, words};
 use pathbuild_gcode::dialect::Dialect::{Grbl, LinuxCnc, Native, Rs274, Xpertmill};
 use pathbuild_gcode::read::{BlockReader, Op, Value};
 
-/// The value and decimals of the first word.
+/// Value and number of decimals of the first word.
 fn number(text: &str) -> (f64, u8) {
     let mut reader = BlockReader::new(text.as_bytes(), Rs274.rules());
     let block = reader.next_block().expect("a block");
@@ -206,7 +206,7 @@ fn a_line_without_end_is_not_kept() {
 fn grbl_obeys_some_bytes_wherever_they_stand() {
     assert_eq!(reading_faults(Grbl, b"(Hallo!)\n"), ["1 real-time-character"]);
     assert_eq!(reading_faults(Grbl, "(Ä)\n".as_bytes()), ["1 real-time-character"]);
-    // An ä is C3 A4: both are merely removed.
+    // An ä is C3 A4; both bytes are only removed.
     assert_eq!(reading_faults(Grbl, "(ä)\n".as_bytes()), [""; 0]);
     assert_eq!(reading_faults(LinuxCnc, "(Ä!)\n".as_bytes()), [""; 0]);
 }

@@ -1,4 +1,4 @@
-//! Bad input never panics, hangs, or grows without bound.
+//! Bad input never causes panics, hangs or unbounded growth.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
@@ -13,12 +13,12 @@ fn dialects() -> impl Strategy<Value = Dialect> {
     proptest::sample::select(Dialect::ALL)
 }
 
-/// Pieces of G-code; ends of lines are added to them.
+/// Parts of G-code, to which line ends are added.
 const PIECES: &str = "G0 G1 G2 G3 G4 G10 G17 G18 G19 G20 G21 G28 G28.1 G30 G38.2 G38.5 G40 G43 G52 G53 G54 G55 G59.3 G73 G80 G81 G82 \
     G83 G85 G89 G90 G90.1 G91 G92 G92.1 G92.2 G92.3 G93 G94 G95 G98 G99 M0 M2 M3 M5 M6 M7 M9 M30 X Y Z I J K R P Q L F S T N O H # \
     #<a>= #1= [ ] ** MOD ATAN SIN EXISTS ( ) (= (== ; // ! % / 1 1 -2.5 0 . 1e9 99999999999999999999 0.0000001 ä \u{84} ,";
 
-/// Pieces of G-code in any order: likelier to get deep into the interpreter than random bytes.
+/// Parts of G-code in any order, which reach deeper into the interpreter than random bytes.
 fn programs() -> impl Strategy<Value = String> {
     let ends = ["\n", "\n", "\n", "\n", "\r\n", " ", " "];
     let pieces: Vec<&str> = PIECES.split_whitespace().chain(ends).collect();
@@ -50,7 +50,7 @@ fn run(text: &[u8], dialect: Dialect) {
     }
 }
 
-/// Names in a message or its help for which the diagnostic has no value.
+/// Placeholders in a message or its help for which the diagnostic has no value.
 fn missing_values(problem: &Diagnostic) -> Vec<&'static str> {
     let (text, help) = (&problem.message.text, &problem.message.help);
     let names = [text.en, text.de, help.en, help.de].into_iter().flat_map(|template| {
@@ -85,7 +85,7 @@ proptest! {
         prop_assert_eq!(usize::from(number.decimals), decimals);
     }
 
-    /// Whether a line goes the reader's short way or its long one is not to be seen.
+    /// The fast path and the general path of the reader give the same result.
     #[test]
     fn blanks_between_words_change_nothing(words in proptest::collection::vec(("[A-Z]", -999_999_i32..999_999), 1..8)) {
         let join = |blank: &str| {
@@ -106,7 +106,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Nor whether a formula does.
+    /// The same for formulas.
     #[test]
     fn blanks_in_formulas_change_nothing(
         pieces in proptest::collection::vec(
@@ -133,7 +133,7 @@ proptest! {
             let codes: Vec<_> = reader.into_problems().into_diagnostics().iter().map(Diagnostic::code).collect();
             (blocks, codes)
         };
-        // With a blank in front it is read as any expression.
+        // With a blank before it, it is read like any other expression.
         prop_assert_eq!(read(""), read(" "));
     }
 }

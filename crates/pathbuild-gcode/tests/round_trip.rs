@@ -1,4 +1,4 @@
-//! What the native writer writes, the reader reads back: the same moves, and nothing wrong with them.
+//! The reader reads back what the native writer writes: the same moves, without problems.
 
 mod common;
 
@@ -13,7 +13,7 @@ use pathbuild_motion::Path;
 use pathbuild_toolpath::{Class, Comment, Count, Height, Move, ProbePoint, Program, Step, Xy};
 use proptest::prelude::*;
 
-/// A move, as numbers that are independent of where the tool is.
+/// A move in numbers that do not depend on the position of the tool.
 #[derive(Clone, Debug)]
 enum Sketch {
     Sweep(f64, f64),
@@ -60,7 +60,7 @@ fn program(sketches: &[Sketch]) -> Program {
                 let centre = spoke(direction);
                 let turned = spoke(if clockwise { direction - angle } else { direction + angle });
                 let is_full = angle == std::f64::consts::TAU;
-                // No slope is so steep that a move of less than a digit in the plane goes down.
+                // Slopes are never so steep that a move of less than a digit in the plane descends.
                 let z = if length < 0.01 { height_now } else { z };
                 let to = if is_full { at } else { at + centre.coords - turned.coords };
                 Move::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }
@@ -75,7 +75,7 @@ fn program(sketches: &[Sketch]) -> Program {
         let count = Count { class: Class::Milling, length, feed: None };
         steps.push(Step::Move { to, count });
         if matches!(to, Move::Arc { .. }) && length < 0.01 {
-            // Such arcs stand beside support bars: there is always another part of the edge behind them.
+            // Such arcs are beside support bars, so that another part of the edge always follows.
             at += Xy::new(0.5, 0.5).coords;
             steps.push(Step::Move {
                 to: Move::Line { feed: 100.0, to: at, z: Height { z: height_now, at } },
@@ -121,7 +121,7 @@ proptest! {
     }
 }
 
-/// The lines of a text without what stands in comments, of which none is active, nested or open.
+/// The lines of a text without comments, none of which must be active, nested or unclosed.
 fn code_of(text: &str, compatible: bool) -> Vec<String> {
     let code = |line: &str| {
         let (mut code, mut rest) = (String::new(), line);
@@ -137,7 +137,7 @@ fn code_of(text: &str, compatible: bool) -> Vec<String> {
     text.lines().map(code).collect()
 }
 
-/// Every byte and every known way to be heard in each text that a drawing, a file's name or an option gives.
+/// Every byte and every known active text, in each text that comes from a drawing, a file name or an option.
 #[test]
 fn no_text_of_others_leaves_its_comment() {
     let hostile = [
@@ -187,7 +187,7 @@ fn no_text_of_others_leaves_its_comment() {
     }
 }
 
-/// One arc from there: how it is written and read back, with the end that the program gives it.
+/// A single arc from this position: as it is written and read back, and as it is in the program.
 fn arc_from(at: [f64; 2], radius: f64, direction: f64, clockwise: bool, length: f64) -> (Move, Program) {
     let angle = length / radius;
     let program = program(&[
@@ -202,15 +202,15 @@ fn arc_from(at: [f64; 2], radius: f64, direction: f64, clockwise: bool, length: 
     (program.steps.iter().find_map(is_arc).expect("an arc"), program)
 }
 
-/// Gaps in mm between the ends of arcs: within rounding, a digit or two, and just inside and just outside of where ends are looked at.
+/// Distances in mm between the ends of arcs: within rounding, one or two digits, and just inside and outside of the range that is checked.
 const GAPS: [f64; 12] =
     [0.0, 1e-9, 0.0004, 0.0006, 0.001, 0.0014, 0.002, 0.003, 0.009_99, 0.010_01, 0.012, 0.02];
 
-/// Beginnings on, beside and between the numbers that can be printed.
+/// Starts on, beside and between the numbers that can be printed.
 const BEGINNINGS: [[f64; 2]; 5] =
     [[0.0, 0.0], [3.0005, -2.0005], [0.000_499_9, 0.000_500_1], [-7.123_45, 1.0004], [12.0002, 0.0005]];
 
-/// Calls for arcs with those gaps, of small and large radii all round.
+/// Calls a function for arcs with those distances, with small and large radii in all directions.
 fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     for gap in GAPS {
         for radius in [0.05, 0.0731, 0.4, 5.0, 80.0] {
@@ -225,7 +225,7 @@ fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
     }
 }
 
-/// Where the arc of a text leads, and how far round in radians.
+/// The end of the arc in a text, and its angle in radians.
 fn arc_in(text: &str) -> ([f64; 3], f64) {
     let read = interpret(text.as_bytes(), Native, &Options::default());
     let moves = read.moves();
@@ -256,7 +256,7 @@ fn an_arc_just_short_of_a_whole_turn_stays_one() {
             Path::Line => None,
         });
         let said = said.unwrap_or_else(|| panic!("{text}"));
-        // What is expected is what is drawn, not a full circle in its place.
+        // The expected arc is the one that was drawn, not a full circle instead.
         assert!((said.x() - to.x).abs() < 1e-8 && (said.y() - to.y).abs() < 1e-8, "{said:?}, {to:?}");
     });
 }
@@ -272,11 +272,11 @@ fn an_arc_of_next_to_nothing_never_goes_round() {
     });
 }
 
-/// The half of a circle so small that all of it is within rounding.
+/// The half of a circle that is so small that all of it is within rounding.
 #[test]
 fn half_a_tiny_circle_stays_half() {
     for radius in [0.001, 0.002, 0.003] {
-        // A hair more than a half.
+        // Slightly more than a half.
         let length = 1.0001 * std::f64::consts::PI * radius;
         for (angle, clockwise) in [(0.0, false), (0.7, true), (2.0, false), (4.1, true)] {
             let (arc, program) = arc_from([0.0, 0.0], radius, angle, clockwise, length);
@@ -306,7 +306,7 @@ fn with_another_number(text: &str, which: usize, thousandths: i32) -> String {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 500, ..ProptestConfig::default() })]
 
-    /// To compare move by move as they are read lets nothing pass that comparing the whole lists would not.
+    /// Comparing moves while reading accepts nothing that a comparison of the entire lists would reject.
     #[test]
     fn reading_back_says_what_the_comparison_says(
         sketches in sketches(),
@@ -317,7 +317,7 @@ proptest! {
         let text = with_another_number(&text_of(&program), which, thousandths);
         let read = interpret(text.as_bytes(), Native, &Options::default());
         let expected = moves_of(&program);
-        // Read back, an arc that would be a full circle may be a digit longer than it is.
+        // When read back, an arc that would be a full circle may be one digit longer.
         let differs = |place: f64| {
             let exactly = Tolerance::of_decimals(3);
             compare(&read.moves(), &expected, &Tolerance { place: exactly.place + place, ..exactly }).is_some()
@@ -361,7 +361,7 @@ fn what_is_not_what_the_program_says_is_found_when_read_back() {
     for at in digits.filter(|at| *at < end) {
         let digit = if &text[at..=at] == "9" { "7" } else { "9" };
         let other = format!("{}{digit}{}", &text[..at], &text[at + 1..]);
-        // The last digit of a centre moves an arc by less than its ends are rounded; `G90 Z5` goes on as before.
+        // The last digit of a centre moves an arc by less than the rounding of its ends; `G90 Z5` has the same effect as before.
         let may_be_the_same =
             text[..at].rsplit([' ', '\n']).next().is_some_and(|word| word.starts_with(['G', 'I', 'J']));
         if !may_be_the_same {
@@ -402,7 +402,7 @@ fn a_probing_run_is_read_back() {
     assert!(native::read_probing_back(&text, &program.probes[..1]).is_err());
 }
 
-/// Each letter of Latin 1 becomes letters of ASCII that people read as it, small or large as it is.
+/// Each letter of Latin 1 becomes similar ASCII letters of the same case.
 #[test]
 fn letters_are_transliterated() {
     let all: String = "äöüÄÖÜß àáâãå èéêë ìíîï òóôõø ùúû ÀÁÂÃÅ ÈÉÊË ÌÍÎÏ ÒÓÔÕØ ÙÚÛ çÇñÑ"

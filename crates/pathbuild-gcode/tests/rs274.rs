@@ -1,4 +1,4 @@
-//! Our interpreter against LinuxCNC's own, `rs274`: the same moves, the same refusals.
+//! Tests our interpreter against LinuxCNC's `rs274`: both must give the same moves and reject the same lines.
 
 mod common;
 #[path = "common/oracle.rs"]
@@ -37,7 +37,7 @@ fn programs_move_as_linuxcnc_moves_them() {
     }
 }
 
-/// Lines that LinuxCNC refuses, each behind a fine beginning, and the names of our codes.
+/// Lines that LinuxCNC rejects, each after a valid beginning, with the names of our codes.
 const REFUSED: &[(&str, &str)] = &[
     ("G1 X1", "missing-feed"),
     ("F100\nG94\nG1 X1", "missing-feed"),
@@ -115,7 +115,7 @@ fn what_linuxcnc_refuses_is_an_error_here() {
     }
 }
 
-/// Lines that are odd and that LinuxCNC takes.
+/// Unusual lines that LinuxCNC accepts.
 const TAKEN: &[&str] = &[
     "g0 x 1 0 y +0.5",
     "G2 X2 Y0 R0.9988 F10",
@@ -159,7 +159,7 @@ fn recorded_programs_move_as_linuxcnc_moves_them() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/programs/native/{name}.gcode"));
         #[expect(clippy::disallowed_methods, reason = "a fixture")]
         let text = std::fs::read_to_string(path).expect("the fixture");
-        // LinuxCNC forgets the feed at G94, so it is said again behind it.
+        // LinuxCNC clears the feed at G94, so it is repeated after that.
         assert_same(&rs274, name, &text.replace(" G94\n", " G94\nF150\n"));
     }
 }

@@ -1,4 +1,4 @@
-//! Lengths and times: of programs that were drawn, and of programs that were read.
+//! Tests of lengths and times of drawn and of parsed programs.
 
 use std::f64::consts::PI;
 
@@ -39,21 +39,21 @@ fn counting_begins_at_the_first_position_that_is_wholly_known() {
 
 #[test]
 fn counting_pauses_behind_a_position_that_is_not_known() {
-    // G28 goes to Z 8 first, which is known, then home.
+    // G28 goes to the known position Z 8 first, then home.
     assert_lengths(&format!("{START}G28 Z8\nG0 X50\nG0 Z5\nG0 X54"), [0.0, 0.0, 3.0 + 4.0]);
     assert_lengths(&format!("{START}G28\nG0 X0 Y0\nG0 Z5\nG0 Z6"), [0.0, 0.0, 1.0]);
     assert_lengths(&format!("{START}G53 G0 Z0\nG0 X50\nG1 Z5\nG1 X54"), [4.0, 0.0, 0.0]);
     assert_lengths(&format!("{START}G38.2 Z0\nG0 X50\nG0 Z5\nG0 X52"), [0.0, 0.0, 2.0]);
 }
 
-/// The machine may have moved the tool anywhere, so that all three axes have to be stated again, also with the same values.
+/// The machine may have moved the tool anywhere, so all three axes must be specified again, even with the same values.
 #[test]
 fn counting_pauses_behind_a_tool_change() {
     assert_lengths(&format!("{START}T1 M6\nG0 X0 Y0\nG0 Z5\nG0 Z6"), [0.0, 0.0, 1.0]);
     assert_lengths(&format!("{START}T1 M6\nG0 X40 Y0\nG0 X0\nG1 X9"), [0.0; 3]);
     assert_lengths(&format!("{START}T1 M6\nG0 X40 Y0\nG0 Z5\nG91\nG1 X9"), [9.0, 0.0, 0.0]);
     assert_lengths(&format!("{START}T1 M6\nG91\nG0 X40 Y1 Z1\nG1 X9"), [0.0; 3]);
-    // T alone changes nothing, nor do the layers of XpertMILL.
+    // T alone has no effect, nor do layers of XpertMILL.
     assert_lengths(&format!("{START}T2\nG0 X6"), [0.0, 0.0, 6.0]);
     let layers = "G0 X0 Y0 Z5\nT5 M6\nG0 X6 Y0 Z5";
     assert_eq!(lengths(layers, Xpertmill)[2], 6.0);
@@ -70,7 +70,7 @@ fn drilling_is_what_goes_less_than_a_two_thousandth_of_a_millimetre_in_the_plane
     // Both axes together.
     assert_lengths(&format!("{START}G1 X0.0003 Y0.0003 Z1"), [0.0, libm::hypot(4.0, 0.000_424_264), 0.0]);
     assert_lengths(&format!("{START}G1 X0.0004 Y0.0004 Z1"), [libm::hypot(4.0, 0.000_565_685), 0.0, 0.0]);
-    // A rapid move is a sweep, however it goes.
+    // Rapid moves are sweeps in any direction.
     assert_lengths(&format!("{START}G0 Z1\nG0 Z5"), [0.0, 0.0, 8.0]);
 }
 
@@ -82,7 +82,7 @@ fn slanted_moves_and_helices_count_in_space() {
     assert_lengths(&format!("{START}G3 X10 Y0 I5 Z2 P2"), [libm::hypot(15.0 * PI, 3.0), 0.0, 0.0]);
 }
 
-/// Down and up again; rapid moves of cycles are sweeps.
+/// Down and up again; rapid moves in cycles are sweeps.
 #[test]
 fn cycles_count_as_the_moves_that_they_stand_for() {
     assert_lengths(&format!("{START}G98 G81 X3 Y4 Z-1 R2 F100"), [0.0, 3.0, 5.0 + 3.0 + 6.0]);
@@ -102,7 +102,7 @@ fn times_are_those_of_counted_lengths() {
     assert!((found.sum(500.0).time - found.cutting().time - 50.0 / 500.0).abs() < 1e-9);
 }
 
-/// A program with planned lengths that are not those of its moves.
+/// A program whose planned lengths differ from those of its moves.
 fn drawn() -> Program {
     let height = |z| Height { z, at: Xy::origin() };
     let count = |class, feed| Count { class, length: 1000.0, feed };
@@ -123,7 +123,7 @@ fn drawn() -> Program {
             step(Move::Sweep { to: Xy::new(3.0, 4.0) }, Class::Sweep, None),
             step(Move::Lift { z: height(6.0) }, Class::Sweep, None),
             step(Move::Drill { feed: 50.0, z: height(4.0) }, Class::Drilling, Some(50.0)),
-            // Down by a move that is planned as milling, as half circles of no radius are.
+            // Descends by a move planned as milling, like half circles with no radius.
             step(
                 Move::Line { feed: 100.0, to: Xy::new(3.0, 4.0), z: height(3.0) },
                 Class::Milling,
@@ -142,7 +142,7 @@ fn a_drawn_program_counts_its_own_moves() {
     let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-3, "{found}, {expected}");
     near(found.milling.length, milling);
     near(found.drilling.length, 2.0 + 1.0);
-    // The sweep, the way down, and the last rise to S0.
+    // The sweep, the way down, and the final lift to S0.
     near(found.sweeps.length, 5.0 + 4.0 + 8.0);
     near(found.milling.time, milling / 100.0);
     near(found.drilling.time, 2.0 / 50.0 + 1.0 / 100.0);
@@ -158,7 +158,7 @@ fn a_compatible_program_has_the_planned_lengths() {
     assert_eq!((found.milling.length, found.drilling.length), (2000.0, 1000.0));
 }
 
-/// What a program says of itself is what its text comes to when it is read.
+/// The statistics in the comments of a program agree with those of its parsed text.
 #[test]
 fn a_programs_comments_are_what_its_text_comes_to() {
     let program = drawn();

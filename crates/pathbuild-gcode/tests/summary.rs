@@ -1,4 +1,4 @@
-//! What a program is, in numbers; and the vendor's two XpertMILL examples, which say the same in two spellings.
+//! Tests of summaries, including the two XpertMILL examples of the vendor, which describe the same program in two notations.
 
 mod common;
 
@@ -66,7 +66,7 @@ fn vendor_examples() -> Option<[String; 2]> {
     Some([column(|line, width| &line[..width]), column(|line, width| &line[width..])])
 }
 
-/// Each cutting move: layer, speed, where from and to, feed.
+/// A cutting move: layer, speed, start, end, feed.
 type Cut = (u32, f64, [f64; 3], [f64; 3], f64);
 
 fn cuts(read: &Interpretation) -> Vec<Cut> {

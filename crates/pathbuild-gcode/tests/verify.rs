@@ -1,4 +1,4 @@
-//! The rules of verify: each with a program that breaks it and one that just does not.
+//! Tests of the rules of verify, each with a program that violates it and one that just does not.
 
 mod common;
 
@@ -22,7 +22,7 @@ fn wrong(program: &str, checks: &Checks<'_>) -> Vec<String> {
     verify(&run(program).steps, checks).iter().map(fault_text).collect()
 }
 
-/// What is wrong on material up to Z 5 with a cutter of 2 mm.
+/// The problems on material up to Z 5 with a cutter of 2 mm.
 fn on_stock(program: &str) -> Vec<String> {
     wrong(program, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None })
 }
@@ -46,7 +46,7 @@ fn a_rapid_move_through_material_is_an_error() {
 fn a_rapid_move_where_all_is_cut_is_none() {
     assert_eq!(behind_slot("G0 X0\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 X10\nG0 X5\nG0 Z10"), FINE);
-    // A tenth of a millimetre beside the slot there is material; how wide the slot is, the grid knows to twice its resolution.
+    // There is material 0.1 mm beside the slot, but the grid only knows the width of the slot to twice its resolution.
     assert_eq!(behind_slot("G0 X10 Y0.15\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 X10 Y0.5\nG0 Z10"), ["6 rapid-in-material"]);
 }
@@ -68,7 +68,7 @@ fn a_rapid_move_just_above_the_material_is_none() {
 
 #[test]
 fn elsewhere_nothing_is_known_and_nothing_said() {
-    // O beside the slot's middle begins what nobody knows.
+    // At a distance of O from the middle of the slot, nothing is known.
     assert_eq!(behind_slot("G0 Z10\nG0 Y3.1\nG0 Z0\nG0 X0\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 Z10\nG0 Y2.5\nG0 Z0\nG0 Z10"), ["8 rapid-plunge"]);
 }
@@ -92,20 +92,20 @@ fn circles_are_cut_all_round() {
     let circle = "G0 X10 Y0 Z10\nG0 Z5\nG1 Z1\nG2 X10 Y0 I-10\nG0 Z10\n";
     assert_eq!(on_stock(&format!("{circle}G0 X0 Y-10\nG0 Z1\nG0 Z10")), FINE);
     assert_eq!(on_stock(&format!("{circle}G0 X0 Y-10.5\nG0 Z1\nG0 Z10")), ["8 rapid-plunge"]);
-    // From inside to the middle of a circle that the cutter has not emptied.
+    // From inside to the middle of a circle whose core has not been milled.
     assert_eq!(on_stock(&format!("{circle}G0 X8.5 Y0\nG0 Z1\nG0 Z10")), ["8 rapid-plunge"]);
 }
 
 #[test]
 fn the_centre_of_a_small_helix_may_be_reached_by_rapid() {
-    // The native helical circle of diameter 3.8 with a cutter of 2 mm ends with G00 to its centre, at depth.
+    // The native helical circle of diameter 3.8 with a cutter of 2 mm ends with G00 to its centre at depth.
     let helix = |radius: &str| {
         format!(
             "G0 X0 Y0 Z7\nG0 Y-{radius}\nG2 Y{radius} J{radius} Z3\nG2 Y-{radius} J-{radius} Z1\nG2 Y{radius} J{radius} Z1\nG2 Y-{radius} J-{radius} Z1\nG0 Y0\nG0 Z10"
         )
     };
     assert_eq!(on_stock(&helix("0.900")), FINE);
-    // With a larger one a core is left standing in the middle.
+    // A larger circle leaves a core in the middle.
     assert_eq!(on_stock(&helix("1.500")), ["8 rapid-in-material"]);
 }
 
@@ -138,7 +138,7 @@ fn a_large_program_is_checked_more_coarsely_not_never() {
     let stock = Stock::uniform(5.0, 2.0).with_resolution(0.02);
     let problems = verify(&steps, &Checks { stock: Some(&stock), machine: None });
     let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
-    // 20240 mm² in 16 million cells.
+    // 20240 mm² divided into 16 million cells.
     let help = plunge.help(Lang::En).expect("help");
     assert!(help.contains("stock known at 0.036"), "{help}");
 }
@@ -151,7 +151,7 @@ fn rapid_moves_of_any_length_are_checked_in_no_time() {
 
 #[test]
 fn a_slope_over_a_large_map_costs_what_it_covers() {
-    // 4096 pieces over a slot whose tiles lie in the same rows: 3000 tiles, of which each piece meets two.
+    // 4096 parts over a slot whose tiles are in the same rows: each part meets two of 3000 tiles.
     let slot = "G0 X0 Y0 Z10\nG1 Z1\nX32000\nG0 Z10\nG0 X0\nG1 Z205\nX30 Y1 Z0\nG0 Z10\n";
     let began = std::time::Instant::now();
     assert_eq!(on_stock(slot), FINE);
@@ -160,7 +160,7 @@ fn a_slope_over_a_large_map_costs_what_it_covers() {
 
 #[test]
 fn no_more_cells_are_visited_than_the_limit_says() {
-    // Slopes within the material at one place: next to no area, and no end of pieces.
+    // Slopes within the material at one position have almost no area, but many parts.
     let slopes = "G1 X20 Z-204\nX0 Z1\n".repeat(2);
     let steps = run(&format!("G0 X0 Y0 Z10\n{slopes}G0 Z10")).steps;
     let with = |cells| {
@@ -312,10 +312,10 @@ fn feeds_are_those_that_the_axes_can_do() {
         wrong("G0 X0 Y0 Z0\nG1 X10 F1000\nX20 F1001\nX30\nZ1 F201\nZ2 F200"),
         ["4 feed-too-high", "6 feed-too-high"]
     );
-    // What rounding makes of a share does no harm.
+    // Rounding errors in a component are harmless.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 F1000.0000009"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 F1000.0000011"), ["3 feed-too-high"]);
-    // At 45 degrees each axis has its share.
+    // At 45 degrees each axis has its component.
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1414\nX20 Y20 F1415"), ["4 feed-too-high"]);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG2 X10 Y0 I5 F1000\nX20 I5 F1001"), ["4 feed-too-high"]);
 }
@@ -385,7 +385,7 @@ fn recordings() -> Vec<PathBuf> {
         .collect()
 }
 
-/// What reading and verify find wrong with a native program whose cutter is this wide, and whether its material was known.
+/// The problems found by reading and verify in a native program with this cutter diameter, and whether its material was known.
 fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let result = interpret(text, Native, &options);
@@ -395,7 +395,7 @@ fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     (problems, stock.is_some())
 }
 
-/// O as the drawings beside a recording give it: all of a case have the same.
+/// O in the drawings next to a recording; all drawings of a case have the same.
 #[expect(clippy::disallowed_methods, reason = "recordings are files of the project")]
 fn cutter_of(recording: &Path) -> f64 {
     let case = recording.ancestors().nth(3).expect("CASE/expected/RUN/FILE");
@@ -424,7 +424,7 @@ fn no_recorded_program_has_an_error() {
         assert!(!problems.iter().any(Diagnostic::is_error), "{}: {}", file.display(), spelled_out(&problems));
         checked_on_stock += u32::from(has_stock);
     }
-    // Only programs that mill nothing, or never plunge by feed after a rapid move down, have no surface.
+    // Only programs that mill nothing, or never plunge at feed after a rapid move down, have no surface.
     assert!(checked_on_stock > 150, "{checked_on_stock}");
 }
 

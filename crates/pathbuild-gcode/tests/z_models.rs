@@ -1,4 +1,4 @@
-//! How heights between probes are found, where moves are corrected and how they are cut for it. (book: language/probes)
+//! Tests of how heights between probes are found, where moves are corrected, and how they are split for that. (book: language/probes)
 #![allow(
     clippy::unwrap_used,
     clippy::disallowed_methods,
@@ -24,7 +24,7 @@ fn grid() -> Vec<(f64, f64)> {
     (0..9).map(point).collect()
 }
 
-/// Weights at a point, one for each probe.
+/// The weight of each probe at a point.
 fn weights(model: ZModel, points: &[(f64, f64)], at: (f64, f64)) -> Vec<f64> {
     let mut all = vec![0.0; points.len()];
     for (probe, weight) in Surface::new(model, &places(points)).weights(Xy::new(at.0, at.1)) {
@@ -33,7 +33,7 @@ fn weights(model: ZModel, points: &[(f64, f64)], at: (f64, f64)) -> Vec<f64> {
     all
 }
 
-/// What a model makes at a point of measured values that are a function of the place.
+/// The value of a model at a point, for measured values given as a function of the position.
 fn modelled(model: ZModel, points: &[(f64, f64)], measured: impl Fn(f64, f64) -> f64, at: (f64, f64)) -> f64 {
     let weights = weights(model, points, at);
     weights.iter().zip(points).map(|(weight, (x, y))| weight * measured(*x, *y)).sum()
@@ -84,7 +84,7 @@ fn tin_is_linear_in_each_triangle() {
 
 #[test]
 fn tin_triangles_are_those_of_delaunay() {
-    // Of the two ways to cut this kite in two, the one with the short diagonal.
+    // Of the two ways to divide this kite, the one with the short diagonal.
     let kite = [(0.0, -1.0), (10.0, 0.0), (0.0, 1.0), (-10.0, 0.0)];
     assert_near(&weights(ZModel::Tin, &kite, (0.0, 0.0)), &[0.5, 0.0, 0.5, 0.0]);
 }
@@ -118,7 +118,7 @@ fn probes_on_a_line_say_nothing_across_it() {
     }
 }
 
-/// Whichever way the line runs, and whichever way round its probes stand.
+/// The line may run in any direction, with the probes in any order.
 #[test]
 fn a_line_of_probes_may_run_in_any_direction() {
     for (x, y) in [(1.0, 0.0), (0.0, 1.0), (3.0, 1.0), (1.0, 3.0), (-1.0, 3.0), (3.0, -1.0), (0.1, -7.0)] {
@@ -133,7 +133,7 @@ fn a_line_of_probes_may_run_in_any_direction() {
 
 #[test]
 fn probes_within_a_hundredth_of_a_line_are_on_it_for_the_plane() {
-    // Extent along the line and across it are those of (-100, 0), (100, 0), (0, d), (0, -d).
+    // The extents along and across the line are those of (-100, 0), (100, 0), (0, d), (0, -d).
     let across = |d: f64| {
         modelled(ZModel::Plane, &[(-100.0, 0.0), (100.0, 0.0), (0.0, d), (0.0, -d)], |_, y| y, (0.0, 50.0))
     };
@@ -161,7 +161,6 @@ fn places_far_out_do_no_harm() {
     assert!(Surface::new(ZModel::Tin, &[]).weights(Xy::origin()).is_empty());
 }
 
-// Programs.
 
 fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> Step {
     let (to, from) = (Xy::new(to.0, to.1), Xy::new(from.0, from.1));
@@ -200,7 +199,7 @@ fn written(program: &Program, correction: Correction) -> String {
     native::program(program, &Header::default(), &options)
 }
 
-/// The lines of moves behind the frame's.
+/// The lines of moves after those of the frame.
 fn moves(program: &Program, correction: Correction) -> Vec<String> {
     let text = written(program, correction);
     let body =
@@ -342,7 +341,7 @@ fn arcs_stay_arcs_and_pieces_end_on_the_circle() {
 
 #[test]
 fn a_piece_of_an_arc_departs_from_its_chord_by_a_hundredth_of_the_split_at_most() {
-    // 0.2 mm at a radius of 5 mm is an angle of 32.4 degrees.
+    // 0.2 mm at a radius of 5 mm corresponds to an angle of 32.4 degrees.
     for (angle, pieces) in [(32.3, 1), (32.5, 2), (180.0, 6), (360.0, 12)] {
         let (sin, cos) = libm::sincos(f64::to_radians(angle));
         let program =
@@ -421,7 +420,7 @@ fn milling_outside_the_probes_is_found() {
             outside(model, vec![beside, upright(Move::Lift { z: Height { z: 9.0, at: Xy::origin() } }, 1.0)]),
             None
         );
-        // An arc whose ends are inside.
+        // An arc whose ends are inside the probes.
         let bow =
             vec![line((100.0, 0.0), 1.0, (0.0, 0.0)), arc((50.0, 0.0), (200.0, 0.0), 1.0, (false, 180.0))];
         let (.., distance) = outside(model, bow).unwrap();
@@ -447,7 +446,7 @@ fn as_many_pieces_as_nobody_can_store_are_counted_without_making_them() {
     assert_eq!(TIN.count(&program), u64::MAX);
 }
 
-/// Points anywhere, the same in every run.
+/// Reproducible random points.
 fn scattered(count: usize, mut seed: u64) -> Vec<(f64, f64)> {
     let mut coordinate = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -456,7 +455,7 @@ fn scattered(count: usize, mut seed: u64) -> Vec<(f64, f64)> {
     (0..count).map(|_| (coordinate(), coordinate())).collect()
 }
 
-/// Probes are found by where they lie: the four nearest are those that a look at all of them finds, the first ones where equally near.
+/// The four nearest probes found by position equal those found by comparing all; the first ones if several are equally near.
 #[test]
 fn the_four_nearest_are_found_wherever_they_lie() {
     for (points, seed) in

@@ -1,27 +1,27 @@
-//! Arcs: how far they go round, where they lead, and the straight pieces that may stand for them.
+//! Arcs: swept angles, points along them, and division into chords.
 
 use std::f64::consts::{PI, TAU};
 
 use crate::position::{Plane, Position};
 
-/// An arc in a plane; the third axis goes evenly from one end to the other (a helix).
+/// An arc in a plane. Along the third axis it moves linearly from one end to the other (a helix).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
-    /// Which plane.
+    /// The plane of the arc.
     pub plane: Plane,
-    /// The centre in mm, as the plane's first and second axis.
+    /// The centre in mm, along the plane's first and second axis.
     pub centre: [f64; 2],
-    /// Seen from the third axis' positive end.
+    /// As seen from the positive end of the third axis.
     pub clockwise: bool,
-    /// Whole turns beside the arc itself.
+    /// Number of full turns in addition to the arc itself.
     pub extra_turns: u32,
 }
 
-/// The smallest angle in radians between two directions. An arc between ends in directions from its centre that differ by no more is a
-/// full circle, as it is to GRBL.
+/// Directions that differ by no more than this, in radians, are equal. An arc whose ends are in equal directions from its centre is a
+/// full circle, as in GRBL.
 const SAME_DIRECTION: f64 = 5e-7;
 
-/// The angle in radians from one direction to another in the direction of travel: above 0, and a full turn where both are the same.
+/// The angle in radians from one direction to another in the direction of travel: greater than 0, and a full turn if they are equal.
 pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
     let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
     let turn = if clockwise { -counterclockwise } else { counterclockwise };
@@ -29,25 +29,25 @@ pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
 }
 
 impl Arc {
-    /// The radius at a place, in mm.
+    /// The radius at a position, in mm.
     pub fn radius(&self, end: &Position) -> f64 {
         let [a, b] = self.spoke(&end.at);
         libm::hypot(a, b)
     }
 
-    /// The angle that it goes through, in radians, extra turns included.
+    /// The swept angle in radians, including extra turns.
     pub fn sweep(&self, from: &Position, to: &Position) -> f64 {
         turn(self.spoke(&from.at), self.spoke(&to.at), self.clockwise) + TAU * f64::from(self.extra_turns)
     }
 
-    /// The angle in radians from one place to another around the centre, in its direction, between -pi and pi.
+    /// The angle in radians from one position to another around the centre, in the direction of the arc, between -pi and pi.
     pub fn angle_ahead(&self, from: &[f64; 3], to: &[f64; 3]) -> f64 {
         let ([a, b], [c, d]) = (self.spoke(from), self.spoke(to));
         let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);
         if self.clockwise { -counterclockwise } else { counterclockwise }
     }
 
-    /// The direction of travel in the plane at one of its ends, as a unit vector in the plane's axes.
+    /// The direction of travel at one of its ends, as a unit vector along the plane's axes.
     pub fn tangent(&self, at: &[f64; 3]) -> [f64; 2] {
         let [a, b] = self.spoke(at);
         let radius = libm::hypot(a, b);
@@ -57,13 +57,13 @@ impl Arc {
         if self.clockwise { [b / radius, -a / radius] } else { [-b / radius, a / radius] }
     }
 
-    /// From the centre to a place, in the plane.
+    /// The vector from the centre to a position, in the plane.
     fn spoke(&self, at: &[f64; 3]) -> [f64; 2] {
         let [a, b] = self.plane.project(at);
         [a - self.centre[0], b - self.centre[1]]
     }
 
-    /// Adds the outermost points of the circle that the arc comes through.
+    /// Extends a box by the extreme points of the circle that the arc passes.
     pub(crate) fn widen(&self, from: &Position, to: &Position, extent: &mut [Option<(f64, f64)>; 3]) {
         if !from.known.and(to.known).has(self.plane.axes_of_plane()) {
             return;
@@ -84,25 +84,25 @@ impl Arc {
     }
 }
 
-/// The widest angle in radians of a chord that leaves a circle by at most `tolerance` mm; never more than a quarter turn.
+/// The widest angle in radians of a chord whose distance from the circle is at most `tolerance` mm; never more than a quarter turn.
 pub fn widest_chord(radius: f64, tolerance: f64) -> f64 {
     (2.0 * libm::acos(1.0 - tolerance / radius.max(tolerance))).min(PI / 2.0)
 }
 
-/// An arc between two places, with what is asked of it again and again.
+/// An arc between two positions, with precomputed values.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
     arc: Arc,
     from: [f64; 3],
     to: [f64; 3],
     sweep: f64,
-    /// The radius at its beginning, and how much it grows on the way, as a share of that.
+    /// The radius at the start, and by how much it grows along the arc, as a fraction of it.
     radius: f64,
     growth: f64,
 }
 
 impl Course {
-    /// An arc between places that are known in its plane.
+    /// Creates the course of an arc between positions that are known in its plane.
     pub fn new(arc: Arc, from: &Position, to: &Position) -> Self {
         let (radius, end) = (arc.radius(from), arc.radius(to));
         let growth = if radius > 0.0 { end / radius - 1.0 } else { 0.0 };
@@ -114,46 +114,46 @@ impl Course {
         self.arc
     }
 
-    /// The directions from the centre to its beginning and to its end, in radians from the plane's first axis. The end's is not brought
-    /// back to the first turn.
+    /// The directions from the centre to both ends, in radians from the plane's first axis. The direction to the end is not reduced to the
+    /// first turn.
     pub fn directions(&self) -> [f64; 2] {
         let [a, b] = self.arc.spoke(&self.from);
         let start = libm::atan2(b, a);
         [start, start + if self.arc.clockwise { -self.sweep } else { self.sweep }]
     }
 
-    /// The angle that it goes through, in radians, extra turns included.
+    /// The swept angle in radians, including extra turns.
     pub fn sweep(&self) -> f64 {
         self.sweep
     }
 
-    /// The radius at its beginning, in mm.
+    /// The radius at the start, in mm.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Its length in space, in mm.
+    /// Length in space, in mm.
     pub fn length(&self) -> f64 {
         let third = self.arc.plane.third();
         libm::hypot(self.length_in_plane(), self.to[third] - self.from[third])
     }
 
-    /// Its length in its plane, in mm.
+    /// Length in the plane, in mm.
     pub fn length_in_plane(&self) -> f64 {
         self.radius * self.sweep
     }
 
-    /// The greatest distance in mm between the arc and the line from its start to its end.
+    /// Greatest distance in mm between the arc and its chord from start to end.
     pub fn sagitta(&self) -> f64 {
         self.radius * (1.0 - libm::cos(self.sweep / 2.0))
     }
 
-    /// The place that a share (0 to 1) of the way leads to.
+    /// The position at a fraction (0 to 1) of the arc.
     pub fn point(&self, share: f64) -> [f64; 3] {
         self.place(turned(self.arc.spoke(&self.from), self.turn(share)), share)
     }
 
-    /// The places a quarter, half and three quarters of the way along, turned on from one to the next.
+    /// The positions at a quarter, half and three quarters of the arc, each rotated from the previous one.
     pub fn quarters(&self) -> [[f64; 3]; 3] {
         let quarter = self.turn(0.25);
         let mut spoke = self.arc.spoke(&self.from);
@@ -163,13 +163,13 @@ impl Course {
         })
     }
 
-    /// The sine and cosine of the angle that a share of the way turns by.
+    /// Sine and cosine of the angle swept by a fraction of the arc.
     fn turn(&self, share: f64) -> (f64, f64) {
         let angle = self.sweep * share;
         libm::sincos(if self.arc.clockwise { -angle } else { angle })
     }
 
-    /// The place at the end of a spoke of the first radius that was turned by a share of the way.
+    /// The position at the end of a vector from the centre with the initial radius, which has been rotated by a fraction of the arc.
     fn place(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
         let stretch = 1.0 + share * self.growth;
         let [first, second] = self.arc.plane.axes();

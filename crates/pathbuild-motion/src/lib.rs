@@ -1,7 +1,7 @@
-//! Moves of a machine: where its tool goes and how, and what else it does. (book: program/reading)
+//! The moves and other actions of a machine. (book: program/reading)
 //!
-//! Every part of pathbuild that asks what a program does asks these [`Step`]s: the writers, the reader, `verify`, posts, pictures and
-//! statistics. Everything is in millimetres and absolute. Nothing here knows drawings or texts.
+//! All parts of pathbuild use these [`Step`]s to describe the effects of a program: writers, reader, `verify`, posts, pictures and
+//! statistics. Everything is absolute and in millimetres. This crate knows neither drawings nor texts.
 
 mod arc;
 mod moves;

@@ -1,11 +1,11 @@
-//! Moves of the tool's tip.
+//! Moves of the tool tip.
 
 use pathbuild_diagnostic::Text;
 
 use crate::arc::{Arc, Course};
 use crate::position::{Axes, Plane, Position};
 
-/// A move of the tool's tip.
+/// A move of the tool tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the types say it")]
 pub struct Move {
@@ -13,11 +13,11 @@ pub struct Move {
     pub to: Position,
     pub path: Path,
     pub pace: Pace,
-    /// Where it goes, when the program says it by name.
+    /// The named target of the move, if the program specifies it by name.
     pub named: Option<Named>,
 }
 
-/// The way from one end of a move to the other.
+/// The shape of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the types say it")]
 pub enum Path {
@@ -25,26 +25,26 @@ pub enum Path {
     Arc(Arc),
 }
 
-/// How fast a move is, and what for.
+/// Speed and purpose of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// As fast as the machine can.
+    /// At full speed.
     Rapid,
-    /// Cutting, at so many mm/min. 0 where the program says none, which is reported.
+    /// Cutting, with the feed in mm/min; 0 if the program does not specify it, which is reported.
     Feed(f64),
-    /// Until the probe answers, at most to the end.
+    /// Until the probe makes contact, at most to the end.
     Probe {
-        /// mm/min.
+        /// In mm/min.
         feed: f64,
-        /// Towards the material; else away from it.
+        /// Towards the material instead of away from it.
         toward: bool,
-        /// No answer is an alarm.
+        /// Whether a missing contact is an alarm.
         must_answer: bool,
     },
 }
 
 impl Pace {
-    /// The feed in mm/min, unless it is a rapid move.
+    /// The feed in mm/min, unless it is a rapid.
     pub fn feed(self) -> Option<f64> {
         match self {
             Self::Rapid => None,
@@ -52,12 +52,12 @@ impl Pace {
         }
     }
 
-    /// The feed in mm/min that the program states.
+    /// The feed in mm/min specified by the program.
     pub fn stated_feed(self) -> Option<f64> {
         self.feed().filter(|feed| *feed > 0.0)
     }
 
-    /// Gives a move that has no feed this one, in mm/min.
+    /// Sets the feed in mm/min, unless the move has one.
     pub fn set_missing_feed(&mut self, missing: f64) {
         match self {
             Self::Feed(feed) | Self::Probe { feed, .. } if *feed == 0.0 => *feed = missing,
@@ -65,7 +65,7 @@ impl Pace {
         }
     }
 
-    /// What a move at this pace is called in messages.
+    /// The name of such a move in messages.
     pub fn word(self) -> &'static Text {
         match self {
             Self::Rapid => &Text { en: "a rapid move", de: "eine Eilgangbewegung" },
@@ -75,10 +75,10 @@ impl Pace {
     }
 }
 
-/// Places that a program calls by name.
+/// Positions that a program specifies by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
-    /// G53: coordinates of the machine. Where its zero is not known, the numbers of the unknown axes are the machine's.
+    /// G53: machine coordinates. If the machine's origin is unknown, unknown axes contain machine coordinates.
     Machine,
     /// G28.
     Home1,
@@ -87,7 +87,7 @@ pub enum Named {
 }
 
 impl Move {
-    /// Its length in space, in mm. An axis of which one end is not known adds nothing.
+    /// Length in space, in mm. Axes that are unknown at either end are ignored.
     pub fn length(&self) -> f64 {
         let known = self.from.known.and(self.to.known);
         let step =
@@ -100,7 +100,7 @@ impl Move {
         }
     }
 
-    /// Whether it goes straight up or down: its length in the plane XY is below 0.0005 mm, which no program of three decimals can say.
+    /// Whether the move is vertical: its length in the plane XY is below 0.0005 mm, less than a program with three decimals can express.
     pub fn is_upright(&self) -> bool {
         let in_plane = match self.path {
             Path::Arc(arc) if arc.plane == Plane::Xy => {
@@ -112,8 +112,7 @@ impl Move {
         self.from.known.and(self.to.known).has(Axes::XY) && in_plane < 0.0005
     }
 
-    /// The smallest box that it stays in, as lowest and highest coordinates; unknown ends are left out, and an axis with none known
-    /// is `None`.
+    /// Bounding box, as least and greatest coordinates. Unknown ends are ignored; an axis without known ends is `None`.
     pub fn extent(&self) -> [Option<(f64, f64)>; 3] {
         let mut extent = [0, 1, 2].map(|axis| {
             let known = |end: &Position| end.known.has(Axes::of(axis)).then(|| end.at[axis]);
@@ -128,7 +127,7 @@ impl Move {
         extent
     }
 
-    /// The most that each axis gets of the move's speed, from 0 to 1.
+    /// Maximum share of each axis in the speed of the move, from 0 to 1.
     pub fn axis_shares(&self) -> [f64; 3] {
         let length = self.length();
         if length == 0.0 {
@@ -140,7 +139,7 @@ impl Move {
             libm::fabs(way) / length
         });
         if let Path::Arc(arc) = self.path {
-            // Somewhere on its way an arc points along each axis of its plane, or nearly so.
+            // At some point an arc is parallel, or almost parallel, to each axis of its plane.
             let across = shares[arc.plane.third()];
             for axis in arc.plane.axes() {
                 shares[axis] = libm::sqrt((1.0 - across * across).max(0.0));
@@ -149,7 +148,7 @@ impl Move {
         shares
     }
 
-    /// Whether every number in it is finite.
+    /// Whether all its numbers are finite.
     pub fn is_finite(&self) -> bool {
         let centre = match self.path {
             Path::Line => [0.0; 2],
@@ -159,12 +158,12 @@ impl Move {
         places.chain(centre).chain(self.pace.feed()).all(f64::is_finite)
     }
 
-    /// Whether it goes nowhere.
+    /// Whether it does not move.
     pub fn is_nothing(&self) -> bool {
         matches!(self.path, Path::Line) && self.from == self.to
     }
 
-    /// Its arc, if it goes along one.
+    /// Its arc, if it is one.
     pub fn course(&self) -> Option<Course> {
         match self.path {
             Path::Line => None,
@@ -172,7 +171,7 @@ impl Move {
         }
     }
 
-    /// The place that a share (0 to 1) of the way leads to.
+    /// The position at a fraction (0 to 1) of the move.
     pub fn point(&self, share: f64) -> [f64; 3] {
         let (from, to) = (&self.from.at, &self.to.at);
         match self.path {
@@ -182,7 +181,7 @@ impl Move {
         }
     }
 
-    /// Equal pieces, each of which begins where the one before ends. The last ends exactly where the move does.
+    /// Splits it into equal parts. The last one ends exactly at the end of the move.
     pub fn split(&self, count: u32) -> impl Iterator<Item = Self> + use<> {
         let (it, course) = (*self, self.course());
         let mut from = it.from;

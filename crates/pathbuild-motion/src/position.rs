@@ -1,21 +1,21 @@
-//! Places, the axes along which they are known, and the planes of arcs.
+//! Positions, sets of axes, and the planes of arcs.
 
-/// A place in the coordinates of the program's first coordinate system, in mm.
+/// A position in the program's first coordinate system, in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Position {
     /// X, Y, Z.
     pub at: [f64; 3],
-    /// The axes of which that is known: at the program's beginning, and behind a move to a named place or a probe, it is not.
+    /// The known axes. Positions are unknown at the start of the program, and after a move to a named position or a probe.
     pub known: Axes,
 }
 
 impl Position {
-    /// A place that is wholly known.
+    /// A position with all axes known.
     pub fn known(x: f64, y: f64, z: f64) -> Self {
         Self { at: [x, y, z], known: Axes::ALL }
     }
 
-    /// X, Y and Z; `None` where one is not known.
+    /// X, Y and Z; `None` for unknown axes.
     pub fn axes(&self) -> [Option<f64>; 3] {
         [0, 1, 2].map(|axis| self.known.has(Axes::of(axis)).then(|| self.at[axis]))
     }
@@ -71,33 +71,33 @@ impl Axes {
         Self(1 << index)
     }
 
-    /// Whether all of `other` are in it.
+    /// Whether it contains all of `other`.
     pub fn has(self, other: Self) -> bool {
         self.0 & other.0 == other.0
     }
 
-    /// Both sets together.
+    /// The union of two sets.
     pub fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// Those that are not in `other`.
+    /// The axes that are not in `other`.
     pub fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
 
-    /// Those that are in both.
+    /// The intersection of two sets.
     pub fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
-    /// Whether there is none.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 }
 
-/// A plane of arcs and cycles.
+/// The plane of arcs and cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Plane {
     /// G17.
@@ -110,7 +110,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The indices of the plane's first and second axis; turning the first to the second is counterclockwise.
+    /// Indices of the plane's first and second axis. Turning from the first to the second is counterclockwise.
     pub fn axes(self) -> [usize; 2] {
         match self {
             Self::Xy => [0, 1],
@@ -119,7 +119,7 @@ impl Plane {
         }
     }
 
-    /// The index of the axis across.
+    /// Index of the axis across the plane.
     pub fn third(self) -> usize {
         match self {
             Self::Xy => 2,
@@ -133,7 +133,7 @@ impl Plane {
         Axes::ALL.without(Axes::of(self.third()))
     }
 
-    /// The coordinates of a place in the plane.
+    /// The coordinates of a position in the plane.
     pub fn project(self, at: &[f64; 3]) -> [f64; 2] {
         self.axes().map(|axis| at[axis])
     }

@@ -1,26 +1,26 @@
-//! The canonical steps that a program consists of.
+//! The canonical steps of a program.
 
 use crate::moves::Move;
 use crate::position::{Axes, Plane};
 
-/// One thing that the machine does, and the line that makes it.
+/// An action of the machine, with the line that causes it.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the types say it")]
 pub struct Step {
-    /// From 1. Of a program that was never text, the number of the step.
+    /// Line number, counted from 1, or the step number for a program that does not exist as text.
     pub line: u32,
     pub action: Action,
-    /// The axes whose position the program has stated since the last tool change, during which the machine may have moved the tool.
+    /// The axes whose position has been specified since the last tool change, during which the machine may have moved the tool.
     pub stated: Axes,
 }
 
 impl Step {
-    /// A move in a program without tool changes.
+    /// Creates a move in a program without tool changes.
     pub fn of_move(line: u32, it: Move) -> Self {
         Self { line, action: Action::Move(it), stated: Axes::ALL }
     }
 
-    /// The move, if it is one, with its line.
+    /// The move and its line, if the step is a move.
     pub fn as_move(&self) -> Option<(u32, Move)> {
         match self.action {
             Action::Move(it) => Some((self.line, it)),
@@ -34,41 +34,41 @@ impl Step {
 pub enum Action {
     /// The tool moves, or would if it were not there already.
     Move(Move),
-    /// It waits so many seconds.
+    /// A dwell, in seconds.
     Dwell(f64),
-    /// T: this tool is wanted next.
+    /// T: selects the next tool.
     SelectTool(u32),
-    /// M6: this tool is put in, `None` where no T has named any; of XpertMILL, the moves go to this layer.
+    /// M6: inserts this tool, `None` if no T has selected one. For XpertMILL, moves belong to this layer from here on.
     ChangeTool(Option<u32>),
-    /// The spindle from here on.
+    /// Changes the state of the spindle.
     Spindle(Spindle),
-    /// The coolant from here on.
+    /// Changes the state of the coolant.
     Coolant(Coolant),
-    /// The coordinate system from here on. Positions do not jump: they stay those of the program's first system.
+    /// Selects a coordinate system. Positions remain in the program's first system.
     System(WorkSystem),
-    /// A G or M word that is no motion, whatever it does.
+    /// A G or M word other than a motion, regardless of its effect.
     Word(StatedWord),
-    /// Something else that may change where, how deep or how fast the tool goes from here on.
+    /// Another change that may affect where, how deep or how fast the tool goes.
     Change(Change),
-    /// A remark.
+    /// A comment.
     Comment(Box<str>),
-    /// M0, M60; M1 if optional: it waits for a person.
+    /// M0, M60, or M1 if optional: waits for the operator.
     Stop {
-        /// A switch at the machine decides.
+        /// Whether a switch on the machine decides.
         optional: bool,
     },
     /// M2, M30.
     End,
 }
 
-/// A G or M word of a program that is no motion. What it does is in other steps, if anything.
+/// A G or M word other than a motion. Its effects, if any, are in other steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StatedWord {
     /// `G` or `M`.
     pub letter: char,
-    /// Ten times the number: `G38.2` is 382.
+    /// The number times ten: `G38.2` is 382.
     pub code: u16,
-    /// The modal group of a G word.
+    /// Modal group of a G word.
     pub group: Option<Group>,
     /// How far its effect is followed.
     pub effect: WordEffect,
@@ -77,29 +77,29 @@ pub struct StatedWord {
 /// How far the effect of a word is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordEffect {
-    /// Other steps and positions take account of it.
+    /// Other steps and positions reflect it.
     Followed,
-    /// It chooses a coordinate system, which a control may not have.
+    /// It selects a coordinate system, which the control may not have.
     System,
-    /// It goes to a place of the machine, or counts from its zero: where that is, is in no program.
+    /// It goes to a machine position or refers to machine zero, which no program contains.
     Place,
-    /// Not at all.
+    /// It is not followed.
     NotFollowed,
 }
 
-/// The spindle's state.
+/// State of the spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Spindle {
     pub turning: Turning,
-    /// Turns a minute, as set by S.
+    /// Speed in 1/min, as set by S.
     pub speed: f64,
 }
 
-/// Whether the spindle turns.
+/// Whether the spindle turns, and in which direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Turning {
-    /// The program has not said.
+    /// The program has not specified it.
     #[default]
     Unstated,
     /// M5.
@@ -117,7 +117,7 @@ impl Turning {
     }
 }
 
-/// The coolant's state.
+/// State of the coolant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coolant {
     /// M7.
@@ -134,58 +134,57 @@ impl Coolant {
     /// M9.
     pub const OFF: Self = Self { mist: false, flood: false };
 
-    /// Whether anything flows.
+    /// Whether any coolant flows.
     pub fn is_on(self) -> bool {
         self.mist || self.flood
     }
 }
 
-/// What changes beside position, spindle, tool and coordinate system. Positions in steps take account of all of it but the tool's length.
+/// Changes besides position, spindle, tool and coordinate system. Positions in steps reflect all of them except the tool length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// G43, G43.1, G43.2, G44, G49.
     ToolLength(ToolLength),
-    /// G10, G52, G92 and their kin: the coordinate systems move.
+    /// G10, G52, G92 and others: moves the coordinate systems.
     Offsets {
-        /// Ten times the number of the G code.
+        /// The number of the G code times ten.
         code: u16,
-        /// Whether G52 or G92 hold from here on; `None` where the command says nothing on that.
+        /// Whether G52 or G92 is active from here on; `None` if the command does not change that.
         are_shifted: Option<bool>,
     },
-    /// G61, G64: how near the tool keeps to corners.
+    /// G61, G64: behaviour at corners.
     Corners(Corners),
-    /// An arc's plane other than XY.
+    /// A plane of arcs other than XY.
     Plane(Plane),
-    /// From here on rapid moves have this feed in mm/min, on controls that move as fast as F says; 0 before
-    /// any F.
+    /// The feed of rapid moves in mm/min from here on, on controls where it is given by F; 0 before any F.
     RapidFeed(f64),
-    /// `#5221=...`: a parameter is set.
+    /// `#5221=...`: sets a parameter.
     Parameter,
-    /// An M code that no other step stands for, times ten.
+    /// An M code without a step of its own, times ten.
     Switch(u16),
 }
 
-/// Which tool length is counted.
+/// The active tool length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolLength {
-    /// None: G49.
+    /// G49: none.
     Off,
-    /// G43 H: that of the table's entry; without H that of the tool in the spindle.
+    /// G43 H: that of an entry in the tool table, or without H that of the tool in the spindle.
     OfTool(Option<u32>),
-    /// Another: G43.1, G43.2, G44, or G43 beside X or Y alone.
+    /// Others: G43.1, G43.2, G44, or G43 with only X or Y.
     Other,
 }
 
-/// How near the tool keeps to corners.
+/// Behaviour at corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Corners {
-    /// G61: it stops there, or keeps to the path.
+    /// G61: stops there, or keeps to the path.
     Exact,
-    /// G64: it rounds them, by so many mm at most where P says so. (Q, by how much lines may be joined, counts likewise.)
+    /// G64: rounds them, by at most this many mm if P is given. (Q, the tolerance for joining lines, counts in the same way.)
     Rounded(Option<f64>),
 }
 
-/// G54 (index 0) to G59 (5), G59.1 to G59.3 (8).
+/// G54 (index 0) to G59 (5), and G59.1 to G59.3 (8).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WorkSystem(u8);
 
@@ -206,7 +205,7 @@ impl WorkSystem {
     }
 }
 
-/// Groups of G words, of each of which one may stand in a line. (NIST RS274/NGC, table 4)
+/// Groups of G words, of which only one may occur in a line. (NIST RS274/NGC, table 4)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Group {
@@ -226,8 +225,8 @@ pub enum Group {
     LatheMode,
     /// Scaling, mirroring, rotation, polar coordinates.
     Transform,
-    /// G53 goes beside a motion.
+    /// G53, which accompanies a motion.
     MachineCoordinates,
-    /// G4, which takes no coordinates.
+    /// G4, which does not use coordinates.
     Dwell,
 }

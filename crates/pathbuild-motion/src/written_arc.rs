@@ -1,32 +1,33 @@
-//! Arcs as a controller reads them: from rounded numbers. (book: program/gcode)
+//! Arcs as a controller reads them, from rounded numbers. (book: program/gcode)
 //!
-//! A controller refuses an arc, or runs a wild one, whose centre is not as far from its end as from its start. Start, end and centre are
-//! rounded each on its own, which moves them by up to half a unit of the last digit each; together this may be too much, though the arc
-//! itself is right. A centre one digit beside the nearest one then fits both ends.
+//! A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are
+//! rounded separately,
+//! each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre one digit
+//! beside the nearest one fits both ends.
 
-/// An arc in its plane, and how its numbers are written.
+/// An arc in its plane, and the notation of its numbers.
 pub struct WrittenArc<'r> {
-    /// Where it begins, in mm.
+    /// Start in mm.
     pub from: [f64; 2],
-    /// Where it ends, in mm.
+    /// End in mm.
     pub to: [f64; 2],
-    /// Its centre in mm, as a place or relative to where the arc begins, as `is_absolute` says.
+    /// Centre in mm, absolute or relative to the start depending on `is_absolute`.
     pub centre: [f64; 2],
-    /// A length in mm as the number that is written, in the unit that is written.
+    /// Converts a length in mm to the number that is written, in the output unit.
     pub length: &'r dyn Fn(f64) -> f64,
-    /// The centre is written as a place, not relative to where the arc begins.
+    /// Whether the centre is absolute instead of relative to the start.
     pub is_absolute: bool,
-    /// mm in the unit that is written: 1 or 25.4.
+    /// Length of the output unit in mm: 1 or 25.4.
     pub unit: f64,
 }
 
 impl WrittenArc<'_> {
-    /// By how many mm the centre is to be moved so that the written radii at start and end agree: by nothing, or by at most one unit of
-    /// the third decimal of a millimetre (the fourth of an inch) along each axis.
+    /// By how many mm to move the centre so that the written radii at both ends agree: by nothing, or by at most one unit of the third
+    /// decimal of a
+    /// millimetre (the fourth of an inch) along each axis.
     ///
     /// # Errors
-    /// The written radii at start and end, where no centre nearby makes them agree. An arc that is wrong before its numbers are rounded
-    /// is never made to fit.
+    /// The written radii at both ends, if no centre nearby makes them agree. An arc that is wrong before rounding is never adjusted.
     pub fn fit(&self) -> Result<[f64; 2], [f64; 2]> {
         let nearest = self.radii([0.0; 2]);
         if difference(nearest) <= self.tolerance() {
@@ -43,7 +44,7 @@ impl WrittenArc<'_> {
         best.filter(|by| moved(by) <= self.tolerance()).ok_or(nearest)
     }
 
-    /// By how much the radii may differ in the unit that is written, as NIST's RS274/NGC has it.
+    /// Permitted difference of the radii in the output unit, as in NIST's RS274/NGC.
     fn tolerance(&self) -> f64 {
         if self.unit == 1.0 { 0.002 } else { 0.000_2 }
     }
@@ -56,7 +57,7 @@ impl WrittenArc<'_> {
         })
     }
 
-    /// The radii at start and end of what is written with the centre moved, in the unit that is written.
+    /// The radii at both ends in the output unit, after moving the centre and rounding.
     fn radii(&self, by: [f64; 2]) -> [f64; 2] {
         let centre = [0, 1].map(|axis| {
             let origin = if self.is_absolute { 0.0 } else { (self.length)(self.from[axis]) };

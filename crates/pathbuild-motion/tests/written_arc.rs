@@ -1,8 +1,8 @@
-//! Arcs keep both ends on one circle when their numbers are rounded. (book: program/gcode)
+//! Tests that arcs keep both ends on a single circle when their numbers are rounded. (book: program/gcode)
 
 use pathbuild_motion::WrittenArc;
 
-/// Start, end and centre relative to the start of arcs whose rounded radii differ by more than 0.002 mm.
+/// Start, end and centre relative to the start, of arcs whose rounded radii differ by more than 0.002 mm.
 const UNLUCKY: [[[f64; 2]; 3]; 3] = [
     [
         [17.795_257_996_527_887, -5.848_451_641_270_525],
@@ -25,7 +25,7 @@ fn thousandths(length: f64) -> f64 {
     libm::round(length * 1000.0) / 1000.0
 }
 
-/// By how much the radii at both ends differ, all numbers rounded, the centre moved.
+/// Difference of the radii at both ends with all numbers rounded and the centre moved.
 fn difference(arc: &WrittenArc<'_>, by: [f64; 2]) -> f64 {
     let round = arc.length;
     let origin = if arc.is_absolute { [0.0; 2] } else { arc.from.map(round) };
@@ -41,7 +41,7 @@ fn a_centre_beside_the_nearest_one_fits_both_ends() {
         assert!(difference(&arc, [0.0; 2]) > 0.002);
         let by = arc.fit().unwrap();
         assert!(difference(&arc, by) < 0.001 && by.iter().all(|by| by.abs() <= 0.001), "{by:?}");
-        // In inches with four decimals all is the same, 2.54 times as coarse.
+        // In inches with four decimals everything is the same, but 2.54 times as coarse.
         let large = |point: [f64; 2]| point.map(|at| at * 2.54);
         let inches = |length: f64| libm::round(length / 25.4 * 10_000.0) / 10_000.0;
         let [from, to, centre] = [large(from), large(to), large(centre)];

@@ -1,4 +1,4 @@
-//! Arcs as a post writes them: whole, in pieces, as chords, or with numbers that were rounded.
+//! Arcs as written by a post: unchanged, split, as chords, or with rounded numbers.
 
 use std::f64::consts::PI;
 
@@ -7,24 +7,24 @@ use pathbuild_motion::{Course, Move, Path, WrittenArc, widest_chord};
 
 use super::job::Units;
 
-/// Upper bound on the chords of an arc.
+/// Maximum number of chords per arc.
 pub(crate) const MOST_CHORDS: u32 = 100_000;
 
-/// How many lines stay within the tolerance in mm of an arc; `None` when they are too many.
+/// Number of chords needed to stay within `tolerance` mm of the arc, or `None` if that would be too many.
 pub(crate) fn chords(course: &Course, tolerance: f64) -> Option<u32> {
     let count = (course.sweep() / widest_chord(course.radius(), tolerance)).ceil().max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
     (count <= f64::from(MOST_CHORDS)).then_some(count as u32)
 }
 
-/// How many equal pieces of at most that angle (radians, not small) an arc takes.
+/// Number of equal parts needed so that none sweeps more than `widest` (in radians, not too small).
 pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
     (1..u32::from(u8::MAX))
         .find(|count| f64::from(*count) * widest >= course.sweep())
         .unwrap_or(u8::MAX.into())
 }
 
-/// Moves the centre of an arc as far from the end as from the start, if it is nearly that.
+/// If the centre of an arc is almost equidistant from start and end, moves it so that it is.
 pub(crate) fn centre(it: &mut Move) {
     let Path::Arc(arc) = &mut it.path else { return };
     let difference = (arc.radius(&it.from) - arc.radius(&it.to)).abs();
@@ -41,28 +41,28 @@ pub(crate) fn centre(it: &mut Move) {
     arc.centre[1] -= share * chord[1];
 }
 
-/// By how many mm the radii of an arc may differ that is written in mm (NIST RS274/NGC).
+/// Greatest permitted difference of an arc's radii in mm, for programs in mm (NIST RS274/NGC).
 const WIDEST_OF_MM: f64 = 0.002;
-/// The same, of one in inches.
+/// The same for programs in inches.
 const WIDEST_OF_INCHES: f64 = 0.005_08;
 
-/// How an arc's numbers are written.
+/// How the numbers of an arc are rounded.
 pub(crate) struct Rounding<'r> {
-    /// A length in mm as the number that is written, in the unit that is written.
+    /// Converts a length in mm to the number that is written, in the output unit.
     pub(crate) length: &'r dyn Fn(f64) -> f64,
-    /// Centres are absolute, not relative to where arcs begin.
+    /// Whether centres are absolute instead of relative to the start of the arc.
     pub(crate) is_absolute: bool,
 }
 
 impl Rounding<'_> {
-    /// Whether an arc would be read as a full circle because its ends are written alike.
+    /// Whether the arc would be read as a full circle because its ends are equal after rounding.
     pub(crate) fn closes(&self, it: &Move) -> bool {
         let Path::Arc(arc) = it.path else { return false };
         let alike = |axis: usize| (self.length)(it.from.at[axis]) == (self.length)(it.to.at[axis]);
         arc.sweep(&it.from, &it.to) < PI && arc.plane.axes().into_iter().all(alike)
     }
 
-    /// The arc with a centre whose rounded numbers are as far from its end as from its start: see [`WrittenArc::fit`].
+    /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::fit`].
     pub(crate) fn fitted(&self, it: &Move, units: Units) -> Result<Move, Box<Diagnostic>> {
         let Path::Arc(mut arc) = it.path else { return Ok(*it) };
         let [from, to] = [it.from, it.to].map(|end| arc.plane.project(&end.at));

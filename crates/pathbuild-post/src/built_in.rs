@@ -1,4 +1,4 @@
-//! The posts that come with pathbuild: definitions in the two languages, to be used, copied and changed. (crates/pathbuild-post/posts)
+//! The posts included in pathbuild, in both definition languages: ready for use, and templates for one's own. (crates/pathbuild-post/posts)
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
@@ -6,32 +6,32 @@ use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use super::definition::Post;
 use super::suggest::nearest;
 
-/// A post that comes with pathbuild.
+/// A post included in pathbuild.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltIn {
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// What it is written in.
+    /// Language of the definition.
     pub language: Language,
-    /// For whom it is, in one line.
+    /// One line saying which machines it is for.
     pub description: &'static str,
-    /// The definition's text; of the native program, what there is to know about it.
+    /// Text of the definition, or for the native program a description of it.
     pub text: &'static str,
 }
 
-/// What a post is written in.
+/// The language in which a post is defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
     /// A CamBam definition (.cbpp).
     CamBam,
     /// Control texts (.toml).
     Cad6,
-    /// The native writer itself: its drillings without F, its correction formulas and its statistics cannot be said in a definition.
+    /// The native writer itself. Its drillings without F, correction formulas and statistics cannot be expressed in a definition.
     Native,
 }
 
 impl Language {
-    /// The name as it is listed.
+    /// The name shown in listings.
     pub fn name(self) -> &'static str {
         match self {
             Self::CamBam => "CamBam",
@@ -40,7 +40,7 @@ impl Language {
         }
     }
 
-    /// The extension of a definition's file, without point.
+    /// File extension of a definition, without the dot.
     pub fn extension(self) -> &'static str {
         match self {
             Self::CamBam => "cbpp",
@@ -50,7 +50,7 @@ impl Language {
     }
 }
 
-/// Every post that comes with pathbuild, in the order in which they are listed.
+/// All posts included in pathbuild, in listing order.
 pub static BUILT_IN: &[BuiltIn] = &[
     BuiltIn {
         name: "native",
@@ -89,10 +89,10 @@ const fn cambam(name: &'static str, description: &'static str, text: &'static st
     BuiltIn { name, language: Language::CamBam, description, text }
 }
 
-/// The built-in post of a name. The native program is none: it is not written through a post.
+/// Loads the built-in post with this name. The native program does not count: it is not written through a post.
 ///
 /// # Errors
-/// There is none of that name.
+/// Fails if no built-in post has this name.
 pub fn load(name: &str) -> Result<Post, Vec<Diagnostic>> {
     let definitions = || BUILT_IN.iter().filter(|post| post.language != Language::Native);
     let Some(post) = definitions().find(|post| post.name == name) else {

@@ -1,4 +1,4 @@
-//! A definition of either language, and what it writes.
+//! A post definition in either language, and writing programs with it.
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
@@ -20,7 +20,7 @@ use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 use pathbuild_motion::{Coolant, Turning};
 
-/// A definition that was read, ready to write programs.
+/// A parsed definition, ready to write programs.
 #[derive(Clone, Debug)]
 pub struct Post {
     file: Utf8PathBuf,
@@ -34,29 +34,29 @@ enum Engine {
     Cad6(Box<cad6::Definition>),
 }
 
-/// What a post wrote.
+/// The output of a post.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// The content of the file.
+    /// Content of the file.
     pub text: Vec<u8>,
-    /// The extension of its name, without point.
+    /// Extension of the file, without the dot.
     pub extension: Box<str>,
-    /// What the user should know.
+    /// Information for the user.
     pub notes: Vec<Note>,
-    /// What is doubtful in the definition or the text.
+    /// Doubtful constructs in the definition or the text.
     pub warnings: Vec<Diagnostic>,
-    /// The command that the definition wants to be run on the file: the program, then its arguments, for no shell.
+    /// The command that the definition asks to run on the file: the program and its arguments, to be started without a shell.
     pub post_build: Option<Vec<String>>,
 }
 
-/// Larger definitions are refused unread.
+/// Larger definitions are refused.
 const LARGEST: usize = 1 << 20;
 
 impl Post {
-    /// Reads a definition. `file` is where it comes from, for diagnostics.
+    /// Reads a definition. `file` is its origin, for diagnostics.
     ///
     /// # Errors
-    /// Everything that is wrong in it, with lines.
+    /// All errors in it, with their lines.
     pub fn read(bytes: &[u8], file: &Utf8Path) -> Result<Self, Vec<Diagnostic>> {
         if bytes.len() > LARGEST {
             let diagnostic = Diagnostic::new(&posts::POST_TOO_LARGE).with("size", bytes.len());
@@ -74,7 +74,7 @@ impl Post {
         Ok(Self { file: file.to_owned(), engine, warnings })
     }
 
-    /// The dialect that the definition says its output is in.
+    /// The dialect that the definition declares for its output.
     pub fn dialect(&self) -> Option<&str> {
         match &self.engine {
             Engine::CamBam(definition) => definition.dialect(),
@@ -82,7 +82,7 @@ impl Post {
         }
     }
 
-    /// The extension of the files that it writes, without point.
+    /// Extension of the files it writes, without the dot.
     pub fn extension(&self) -> &str {
         match &self.engine {
             Engine::CamBam(definition) => definition.extension(),
@@ -90,8 +90,8 @@ impl Post {
         }
     }
 
-    /// The files that are part of every text, relative to the definition's directory. Further ones may depend on the program:
-    /// [`PostOptions::files`] is asked for every one.
+    /// The files that are part of every text, relative to the directory of the definition. Further files may depend on the program;
+    /// [`PostOptions::files`] is asked for all of them.
     pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
         match &self.engine {
             Engine::CamBam(_) => BTreeSet::new(),
@@ -99,7 +99,7 @@ impl Post {
         }
     }
 
-    /// What it is written in.
+    /// Language of the definition.
     pub fn language(&self) -> Language {
         match &self.engine {
             Engine::CamBam(_) => Language::CamBam,
@@ -107,7 +107,7 @@ impl Post {
         }
     }
 
-    /// The dialect in which its output is read back, if it names its own or `named` is one.
+    /// The dialect in which the output is read back: `named`, or the one that the definition declares.
     pub fn reader(&self, named: Option<&str>) -> Option<Dialect> {
         Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
@@ -115,7 +115,7 @@ impl Post {
     /// Writes a program.
     ///
     /// # Errors
-    /// Every macro that nobody defines, else the first thing that would make the text wrong.
+    /// All undefined macros, otherwise the first error that would make the text wrong.
     pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
         job.check().map_err(|error| vec![*error])?;
         self.check_spindle(job, options).map_err(|error| vec![*error])?;
@@ -161,8 +161,9 @@ impl Post {
         Ok(output)
     }
 
-    /// Whether the text makes the machine do what the job says, and nothing that it must not. Where no dialect says what its words mean, or where axes are the
-    /// definition's own, its shadow is read. What is only doubtful is returned.
+    /// Checks that the text makes the machine do what the job describes, and nothing forbidden. If no dialect defines the meaning of its
+    /// words, or if
+    /// the definition has its own axes, its shadow is checked instead. Doubtful constructs are returned.
     fn read_back(
         &self,
         text: &[u8],
@@ -176,7 +177,7 @@ impl Post {
             Engine::Cad6(definition) => (definition.decimals(), definition.chord()),
         };
         let half = 0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job) * (1.0 + 1e-6);
-        // Some definitions write whole feeds.
+        // Some definitions round feeds to integers.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let has_own_axes = matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes());
         let target = target.filter(|_| !has_own_axes);
@@ -189,7 +190,7 @@ impl Post {
         read_back::check(text, job, &Expected { target, tolerance, machine, unfollowed, is_manual, is_flat })
     }
 
-    /// The unit that is written, in mm.
+    /// The output unit, in mm.
     fn unit(&self, job: &Job) -> f64 {
         match &self.engine {
             Engine::CamBam(_) => job.units.millimetres(),
@@ -197,7 +198,7 @@ impl Post {
         }
     }
 
-    /// A spindle that the definition switches, and that nobody else does, has a speed wherever something is cut.
+    /// Checks that a spindle switched by the definition, and by nobody else, has a speed wherever something is cut.
     fn check_spindle(&self, job: &Job, options: &PostOptions<'_>) -> Result<(), Box<Diagnostic>> {
         let is_switched = match &self.engine {
             Engine::CamBam(definition) => definition.switches_spindle(),
@@ -226,14 +227,15 @@ impl Post {
         }
     }
 
-    /// Whom the output is for, if that is said.
+    /// The control that the output is for, if it is known.
     fn target(&self, options: &PostOptions<'_>) -> Result<Option<Target>, Vec<Diagnostic>> {
         let Some(name) = options.dialect.as_deref().or(self.dialect()) else { return Ok(None) };
         Target::of(name).map(Some).ok_or_else(|| vec![unknown_dialect(name).in_file(&self.file)])
     }
 
-    /// The options within what the target knows: a control without cycles gets their moves, unless the definition has a text of its own
-    /// in place of the cycle's word.
+    /// Restricts the options to what the target supports: for a control without cycles, holes are written as moves, unless the definition
+    /// replaces
+    /// the word of the cycle by a text of its own.
     fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {
@@ -242,7 +244,7 @@ impl Post {
             Engine::Cad6(_) => (false, false),
         };
         let has_cycles = target.is_none_or(Target::has_cycles);
-        // Round a cylinder only lines are wrapped, and a beam drills nothing.
+        // Only lines can be wrapped around a cylinder, and a beam does not drill.
         let cycles = options.cycles && (has_cycles || !writes_cycles) && !is_wrapped;
         PostOptions { cycles, ..options.clone() }
     }
@@ -275,7 +277,7 @@ impl Post {
     }
 }
 
-/// The text of a definition in UTF-8, or in UTF-16 with its mark, as some editors save XML.
+/// Decodes a definition in UTF-8, or in UTF-16 with a byte order mark, as some editors save XML.
 fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
     let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
@@ -297,7 +299,7 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
     })
 }
 
-/// A speed that belongs to a tool cannot change while the tool does not.
+/// Checks that the speed does not change without a tool change, for definitions where it belongs to the tool.
 fn one_speed_a_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
     let mut first_of = HashMap::new();
     for later in job.operations.iter().filter(|operation| operation.cuts()) {
@@ -325,7 +327,7 @@ fn unknown_dialect(name: &str) -> Diagnostic {
 }
 
 impl Output {
-    /// Tells what the job switches and the texts that were called do not. `switches`: the variables of switches in them.
+    /// Adds notes on what the job switches but the called texts do not. `switches` are the switch variables in those texts.
     fn note_switches(&mut self, switches: &[&str], job: &Job, spin_up: f64) {
         let cools = job.operations.iter().any(|it| it.coolant.is_some_and(Coolant::is_on));
         let turns = job.operations.iter().any(|it| it.spindle.is_some_and(Turning::is_on));

@@ -1,11 +1,11 @@
-//! What is wrong in a definition, and where: bounded, because a file of a megabyte may have a mistake in each of its letters.
+//! Collects the errors and warnings of a definition. Their number is limited, because in a large file every byte might cause one.
 
 use pathbuild_diagnostic::Diagnostic;
 
-/// Findings of one definition that are reported at most. Whoever mends them sees the next ones.
+/// Maximum number of findings reported per definition. After correcting them, the user sees the next ones.
 pub(crate) const MOST_FINDINGS: usize = 100;
 
-/// Findings in the order in which they were made.
+/// Findings in the order in which they were added.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     found: Vec<Diagnostic>,
@@ -13,12 +13,12 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Whether there are as many as are reported. A further error counts only if there is none yet.
+    /// Whether the limit is reached. Beyond it, an error is still accepted if there is none yet.
     pub(crate) fn is_full(&self, is_error: bool) -> bool {
         self.found.len() >= MOST_FINDINGS && (self.has_error || !is_error)
     }
 
-    /// Adds a finding, unless there are enough.
+    /// Adds a finding, unless the limit is reached.
     pub(crate) fn add(&mut self, finding: Diagnostic) {
         if !self.is_full(finding.is_error()) {
             self.has_error |= finding.is_error();
@@ -26,36 +26,36 @@ impl Findings {
         }
     }
 
-    /// Whether one of them is an error.
+    /// Whether any finding is an error.
     pub(crate) fn has_error(&self) -> bool {
         self.has_error
     }
 
-    /// The findings if none is an error.
+    /// Returns the findings if none of them is an error.
     ///
     /// # Errors
-    /// All of them if one is.
+    /// All findings if one of them is an error.
     pub(crate) fn warnings(self) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
         if self.has_error { Err(self.found) } else { Ok(self.found) }
     }
 }
 
-/// Where the lines of a text begin: finding a line takes no longer at the end of a file than at its beginning.
+/// The start of each line of a text, so that the line of a byte is found quickly anywhere in a file.
 #[derive(Debug)]
 pub(crate) struct LineStarts(Vec<usize>);
 
 impl LineStarts {
-    /// The lines of a text.
+    /// Finds the lines of a text.
     pub(crate) fn of(text: &str) -> Self {
         Self(std::iter::once(0).chain(text.match_indices('\n').map(|(end, _)| end + 1)).collect())
     }
 
-    /// The line, from 1, in which a byte is.
+    /// The line of a byte, counted from 1.
     pub(crate) fn line(&self, byte: usize) -> u32 {
         u32::try_from(self.index(byte)).unwrap_or(u32::MAX)
     }
 
-    /// The byte at which the line of a byte begins.
+    /// The start of the line that contains a byte.
     pub(crate) fn start(&self, byte: usize) -> usize {
         self.index(byte).checked_sub(1).map_or(0, |index| self.0[index])
     }

@@ -1,4 +1,4 @@
-//! Finished programs as a job: embedded paths become operations, drilled holes become holes.
+//! Converts finished programs to a job: embedded paths become operations, drilled holes become holes.
 
 use std::borrow::Borrow;
 use std::f64::consts::PI;
@@ -12,15 +12,17 @@ use super::job::{Entry, Job, Operation, describe};
 use super::step::{Hole, HoleKind, Step};
 use super::tools::{Fitted, Fitter, ToolTable};
 
-/// An arc that is shorter, in mm, may end, as a post prints it, where it begins: that would be a full circle, which cuts off the support
-/// bars beside it. As a line it is the same but for less than any machine can tell.
+/// Arcs shorter than this, in mm, are written as lines. A post might print the same coordinates for both ends, which would be a full circle
+/// that
+/// cuts off the adjacent support bars. As a line the difference is less than any machine can resolve.
 const SHORTEST_ARC: f64 = 0.002;
 
 impl Job {
-    /// The programs one after the other, as one. Where O differs, or the tool table says so, the tool is changed in between.
+    /// Joins programs in the given order into one job. The tool is changed between them if O differs or the tool table requires it.
     ///
-    /// `pecks`: holes with C are drilled in goes of that depth; else in one, as the native program has it. What is doubtful about the
-    /// tools is returned beside the job.
+    /// With `pecks`, holes with C are drilled in pecks of that depth, otherwise in one go as in the native program. Warnings about the
+    /// tools
+    /// are returned with the job.
     pub fn from_programs(
         name: &str,
         programs: &[impl Borrow<Program>],
@@ -33,7 +35,7 @@ impl Job {
             Builder::new(program, fitted, pecks).run()
         });
         let mut operations: Vec<Operation> = operations.collect();
-        // On the way from one program to the next the tool is above everything that either is.
+        // Between two programs the tool is above everything in both.
         let clearance =
             operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
         for operation in &mut operations {
@@ -44,16 +46,16 @@ impl Job {
     }
 }
 
-/// Goes through a program and collects its operations.
+/// Converts a program to operations.
 struct Builder<'a> {
     program: &'a Program,
     fitted: Fitted,
     pecks: bool,
-    /// The embedded paths that have begun, outermost first.
+    /// The embedded paths that are open, outermost first.
     embedded: Vec<&'a str>,
     operations: Vec<Operation>,
     at: [f64; 3],
-    /// Upper face of the material of the elements since the last step.
+    /// Upper face of the material at the elements since the last step.
     surface: Option<f64>,
 }
 
@@ -81,7 +83,7 @@ impl<'a> Builder<'a> {
         self.operations
     }
 
-    /// Returns the steps that are left: those of a hole are taken together.
+    /// Handles a comment and returns the remaining steps. The steps of a hole are consumed together.
     fn comment(&mut self, comment: &Comment, after: &'a [ProgramStep]) -> &'a [ProgramStep] {
         let names: &'a Names = &self.program.names;
         match *comment {
@@ -102,8 +104,8 @@ impl<'a> Builder<'a> {
         after
     }
 
-    /// Takes the steps that drill a hole together and returns those behind them. There is no hole when the tool does not come from
-    /// above the material, or goes on from the bottom.
+    /// Combines the steps that drill a hole and returns those after it. It is not a hole if the tool does not come from above the
+    /// material, or continues from the bottom.
     fn hole(&mut self, peck: Option<f64>, steps: &'a [ProgramStep]) -> Option<&'a [ProgramStep]> {
         let (remarks, steps) = comments(steps);
         let (retract, steps) = match steps.split_first()? {
@@ -114,7 +116,7 @@ impl<'a> Builder<'a> {
         else {
             return None;
         };
-        // The lift itself is left to whoever comes next: a step to where the tool is already.
+        // The lift itself is left to the next step, for which the tool is then already at its target.
         let exit = match comments(rest).1.first() {
             None => self.program.sweep_height,
             Some(ProgramStep::Move { to: Move::Lift { z }, .. }) => z.z,
@@ -144,7 +146,7 @@ impl<'a> Builder<'a> {
         Some(rest)
     }
 
-    /// Makes a move that is so long in mm.
+    /// Adds a move whose length is given in mm.
     fn go(&mut self, to: &Move, length: f64) {
         let from = self.at;
         let step = match *to {
@@ -193,7 +195,7 @@ impl<'a> Builder<'a> {
         self.operation_from(self.at)
     }
 
-    /// The operation of the embedded path that is under way; a new one when the last one is another path's.
+    /// Returns the operation of the current embedded path, creating it if the last one belongs to another path.
     fn operation_from(&mut self, at: [f64; 3]) -> &mut Operation {
         let name = self.embedded.last().copied().unwrap_or(&self.program.path);
         if self.operations.last().is_none_or(|last| *last.name != *name) {
@@ -220,15 +222,15 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// An arc that is so long in mm. A full circle ends where it begins, also where the numbers of both come from two drawn elements and differ
-/// by next to nothing: its angle would be nothing.
+/// Lets a full circle end exactly where it begins. Its end points may come from two drawn elements and differ minimally, so that the
+/// swept angle would be almost zero.
 fn whole(it: pathbuild_motion::Move, length: f64) -> pathbuild_motion::Move {
     let is_whole = it.course().is_some_and(|course| length > (course.sweep() + PI) * course.radius());
     let [x, y, _] = it.from.at;
     if is_whole { pathbuild_motion::Move { to: [x, y, it.to.z()].into(), ..it } } else { it }
 }
 
-/// The comments at the beginning of some steps, and the steps after them.
+/// Splits the comments at the beginning off some steps.
 fn comments(steps: &[ProgramStep]) -> (Vec<&Comment>, &[ProgramStep]) {
     let comments: Vec<&Comment> = steps.iter().map_while(as_comment).collect();
     let rest = &steps[comments.len()..];
@@ -242,7 +244,7 @@ fn as_comment(step: &ProgramStep) -> Option<&Comment> {
     }
 }
 
-/// The way from one hole to the next at one level is part of drilling the next.
+/// Removes the way between two holes at the same level, which is part of drilling the second one.
 fn drop_way_between_holes(steps: &mut Vec<Step>, next: &Hole) {
     if let [.., Step::Hole(before), way] = steps.as_slice() {
         let [x, y] = next.at;

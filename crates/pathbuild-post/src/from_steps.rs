@@ -1,4 +1,4 @@
-//! A program that was read as a job, to be written for another machine. (book: program/reading, `post FILE --post X`)
+//! Converts a parsed program to a job, so that it can be written for another machine. (book: program/reading, `post FILE --post X`)
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion as motion;
@@ -13,20 +13,20 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 
-/// What a remark of the program that was read means for the job.
+/// The meaning of a comment in the parsed program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remark<'a> {
-    /// It stays where it is.
+    /// An ordinary comment, which is kept.
     Stays,
-    /// The post says the same itself.
+    /// A comment that the post writes anyway, so it is dropped.
     Goes,
-    /// An operation of this name begins.
+    /// Start of an operation with this name.
     Operation(&'a str),
-    /// It ends; what follows belongs to the one round it.
+    /// End of an operation; the following steps belong to the enclosing one.
     End,
 }
 
-/// What remarks mean in programs of the native dialect; others stay.
+/// The meaning of comments in programs of the native dialect.
 pub fn native_remark(text: &str) -> Remark<'_> {
     let text = text.trim();
     match text.strip_prefix("START Subpath ") {
@@ -37,18 +37,19 @@ pub fn native_remark(text: &str) -> Remark<'_> {
     }
 }
 
-/// Whether a remark says what the program was made from, as the head of each program of ours does: the job's own remarks say it again.
+/// Whether a comment tells what the program was made from, as in the head of each of our programs. The comments of the job repeat it.
 pub fn is_of_head(text: &str) -> bool {
     text.parse::<Provenance>().is_ok() || path_of_title(text).is_some()
 }
 
 impl Job {
-    /// The steps of a program that was read in a dialect. Operations begin where the tool, the spindle or the coolant changes, and where
-    /// `remark` says so. Several moves of one line are taken for a drilled hole where they are one. The upper face of the material is
-    /// taken to be at Z 0, as a program does not say where it is: see [`set_surface`](Self::set_surface).
+    /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle or the coolant changes, and where
+    /// `remark` says so. Several moves in one line are combined to a drilled hole if they form one. The upper face of the material is
+    /// assumed to be at Z 0, because programs do not tell where it is: see [`set_surface`](Self::set_surface).
     ///
     /// # Errors
-    /// What a job cannot say: other coordinate systems, places that only the machine knows, cuts from or to a place that is not known,
+    /// Things that a job cannot express: other coordinate systems, positions known only to the machine, cuts from or to an unknown
+    /// position,
     /// arcs of several turns.
     pub fn from_steps(
         name: &str,
@@ -58,10 +59,10 @@ impl Job {
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut builder = Builder::new(name, steps, dialect);
         let mut rest = steps;
-        // A line of which the beginning is no hole has none further on either.
+        // If the beginning of a line is not a hole, the rest of it is not one either.
         let mut plain_line = None;
         while let Some((step, after)) = rest.split_first() {
-            // The word of a cycle stands in front of its moves.
+            // The word of a cycle precedes its moves.
             if matches!(step.action, Action::Word(_)) {
                 rest = after;
                 continue;
@@ -84,10 +85,10 @@ impl Job {
     }
 }
 
-/// What the machine is set to.
+/// The settings of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct State {
-    /// `None`: the program has named none.
+    /// `None` until the program names a tool.
     tool: Option<u32>,
     spindle: Option<Turning>,
     speed: Option<f64>,
@@ -99,23 +100,23 @@ struct State {
 struct Builder {
     job: Job,
     state: State,
-    /// M6 changes tools; in programs without it, T does.
+    /// Whether M6 changes tools; in programs without it, T does.
     has_tool_changes: bool,
-    /// XpertMILL: tools are layers, the first of which holds from the beginning, and S alone makes the spindle turn.
+    /// XpertMILL: tools are layers, the first of which applies from the beginning, and S alone starts the spindle.
     has_layers: bool,
     /// The line that changed to a tool without a number.
     unnamed_change: Option<u32>,
-    /// The tool was changed below the clearance plane, and no move has changed its height since.
+    /// Whether the tool was changed below the clearance plane and its height has not changed since.
     was_changed_low: bool,
     at: Position,
     clearance: f64,
-    /// The last operation has cut something.
+    /// Whether the last operation has cut something.
     has_cut: bool,
-    /// The operations that are under way, outermost first.
+    /// The open operations, outermost first.
     names: Vec<Box<str>>,
-    /// The last operation is over.
+    /// Whether the last operation has ended.
     has_ended: bool,
-    /// The last move probed: where it stopped only the machine knows.
+    /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
     errors: Vec<Diagnostic>,
 }
@@ -174,14 +175,14 @@ impl Builder {
         }
     }
 
-    /// Reports the first line of each kind: what follows is mostly a consequence.
+    /// Reports an error only for the first line of each kind, because further ones are mostly consequences.
     fn refuse(&mut self, line: u32, message: &'static pathbuild_diagnostic::Message) {
         if self.errors.iter().all(|error| error.message != message) {
             self.errors.push(Diagnostic::new(message).at_line(line, None));
         }
     }
 
-    /// Begins an operation where the tool is. One that has cut nothing yet gives way to it.
+    /// Starts an operation at the current position, replacing the last one if that has not cut anything.
     fn begin(&mut self, name: &str) {
         let mut operation = Operation::new(name, numbered(self.state.tool));
         operation.part.clone_from(&self.job.name);
@@ -201,7 +202,7 @@ impl Builder {
         if self.at.known == Axes::ALL { Entry::At(self.at.at) } else { Entry::Clearance }
     }
 
-    /// Sets the last operation to the state of the machine, while it has cut nothing.
+    /// Updates the last operation to the settings of the machine, unless it has already cut something.
     fn update(&mut self) {
         let State { tool, spindle, speed, coolant, plane } = self.state;
         if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
@@ -221,7 +222,7 @@ impl Builder {
         self.job.operations.last_mut().expect("one was begun if there was none")
     }
 
-    /// The operation for a cut: a new one when the machine was set otherwise since the last cut.
+    /// Returns the operation for a cut, creating one if the settings have changed since the last cut.
     fn cutting(&mut self) -> &mut Operation {
         if let Some(change) = self.unnamed_change.take() {
             self.refuse(change, &posts::JOB_TOOL_UNNAMED);
@@ -244,14 +245,14 @@ impl Builder {
         self.operation().steps.push(step);
     }
 
-    /// What was moved since the last cut was the way to the change.
+    /// Handles a tool change. Moves since the last cut only led to it.
     fn change_tool(&mut self, line: u32, tool: Option<u32>) {
-        // In the head, M6 without T means whatever is in the spindle; later it is a change by hand.
+        // In the head, M6 without T means the tool that is in the spindle; later it means a manual change.
         let has_cut = || self.job.operations.iter().any(Operation::cuts);
         self.unnamed_change = (tool.is_none() && has_cut()).then_some(line);
         let is_new = std::mem::replace(&mut self.state.tool, tool) != tool;
         if is_new && self.has_layers {
-            // S belongs to the layer.
+            // The speed belongs to the layer.
             (self.state.spindle, self.state.speed) = (None, None);
         }
         self.was_changed_low |= is_new && self.at.known.has(Axes::Z) && self.at.z() < self.clearance;
@@ -290,7 +291,8 @@ impl Builder {
         self.cutting().steps.push(Step::Hole(hole));
     }
 
-    /// Behind a change of tools the program goes on above a place in the plane: the new tool does not return to where the old one ended.
+    /// After a tool change the program continues above its next position, because the new tool does not return to where the old one
+    /// stopped.
     fn leave_change(&mut self, [x, y]: [Option<f64>; 2]) {
         if !std::mem::take(&mut self.was_changed_low) {
             return;
@@ -335,7 +337,7 @@ impl Builder {
             return Err(self.errors);
         }
         if !self.has_cut && self.job.operations.len() > 1 {
-            // The way home is the post's.
+            // The way home is up to the post.
             self.job.operations.pop();
         }
         self.job.set_surface(0.0);
@@ -345,7 +347,7 @@ impl Builder {
 }
 
 impl Job {
-    /// Puts the upper face of the material of a program that was read at a height in mm.
+    /// Sets the height in mm of the upper face of the material.
     pub fn set_surface(&mut self, surface: f64) {
         self.has_no_surface = false;
         for operation in &mut self.operations {
@@ -357,17 +359,17 @@ impl Job {
     }
 }
 
-/// Whether a step is none of those that only lead somewhere.
+/// Whether a step is more than a rapid.
 fn is_no_way(step: &Step) -> bool {
     !matches!(step, Step::Move(Move { pace: Pace::Rapid, .. }))
 }
 
-/// The tool of a number; `None` before the program names one.
+/// The tool with this number, or an unnamed one before the program names any.
 fn numbered(tool: Option<u32>) -> Tool {
     tool.map_or_else(Tool::unnamed, |index| Tool::new(index, 0.0, ""))
 }
 
-/// Whether a cut leads from a known place to a known one.
+/// Whether both ends of a cut are known.
 fn is_known(it: &Move, has_probed: bool) -> bool {
     it.to.known == Axes::ALL && (it.from.known == Axes::ALL || has_probed)
 }

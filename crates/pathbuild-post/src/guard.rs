@@ -1,4 +1,4 @@
-//! Texts of drawings, file names and options in the lines of a program: none of them makes a control do anything.
+//! Inserts texts from drawings, file names and options into the lines of a program in such a way that no control acts on them.
 
 use pathbuild_gcode::dialect::{is_active_comment, within_comment};
 use pathbuild_gcode::native::Charset;
@@ -6,7 +6,7 @@ use pathbuild_gcode::native::Charset;
 use crate::target::Target;
 use crate::words::{CommentMarks, words};
 
-/// How a post's lines tell comments from code.
+/// Knows how the lines of a post mark comments.
 #[derive(Debug)]
 pub(crate) struct Guard<'a> {
     target: Option<&'a Target>,
@@ -15,12 +15,12 @@ pub(crate) struct Guard<'a> {
 }
 
 impl<'a> Guard<'a> {
-    /// The comments of the target; without one, those of the definition and the usual ones.
+    /// Uses the comment marks of the target; without a target those of the definition and the usual ones.
     pub(crate) fn new(target: Option<&'a Target>, marks: CommentMarks, charset: Charset) -> Self {
         Self { target, marks, charset }
     }
 
-    /// A text as it may be added to the beginning of a line. `None`: it would stand outside a comment, as words.
+    /// Returns the text in a form that may be appended to a line. Returns `None` if it would be outside a comment and be read as words.
     pub(crate) fn put(&self, line: &str, text: &str) -> Option<String> {
         let plain = within_comment(text, self.target.map(|target| target.reader), self.charset);
         let is_title = line.trim_start().starts_with('%');
@@ -32,14 +32,14 @@ impl<'a> Guard<'a> {
                 Some(format!("{guard}{plain}"))
             }
             None if is_title => Some(plain),
-            // One that begins here would hide the words behind it.
+            // A comment that begins here would hide the words after it.
             None if self.open_comment(&format!("{line}{plain}")).is_some() => None,
             None if is_inert(&plain, &self.marks) => Some(plain),
             None => None,
         }
     }
 
-    /// The text of the comment that is open at the end of a line, and the sign that closes it.
+    /// The text of the comment that is open at the end of a line, and the mark that closes it.
     fn open_comment<'l>(&self, line: &'l str) -> Option<(&'l str, &str)> {
         let mut at = 0;
         while let Some(c) = line[at..].chars().next() {
@@ -57,7 +57,7 @@ impl<'a> Guard<'a> {
         None
     }
 
-    /// The length of the sign that opens a comment here, and the sign that closes it.
+    /// Length of the mark that opens a comment here, and the mark that closes it.
     fn marks_at(&self, text: &str) -> Option<(usize, &str)> {
         match self.target {
             Some(target) => target.comment_marks(text),
@@ -66,16 +66,16 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// What stands in front of a text that a control would take for a command to itself.
+/// Prefix for texts that a control would take for commands.
 const GUARD: &str = "text: ";
 
-/// A text with nothing of the sign that closes its comment: a definition's own may be any.
+/// Removes the closing mark from a comment text. Definitions may use any mark.
 fn unclosing(text: &str, close: &str) -> String {
     let instead = if close.contains(' ') { "_" } else { " " };
     text.replace(|c| close.contains(c), instead)
 }
 
-/// Whether a text says nothing to a control outside comments either.
+/// Whether a text is harmless even outside a comment.
 fn is_inert(text: &str, marks: &CommentMarks) -> bool {
     words(text, marks).words.is_empty()
         && !text.contains(['#', '[', ']', '%', '$', '{', '}', '"', '<', '>', '='])

@@ -1,15 +1,15 @@
-//! Drilled holes as moves, for controls without cycles.
+//! Converts drilled holes to moves, for controls without canned cycles.
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 
 use super::step::{Hole, HoleKind, Step};
 
-/// A hole with more pecks is a slip of the pen.
+/// Holes with more pecks than this are taken for errors.
 const MOST_PECKS: usize = 1_000;
-/// How far above the bottom reached so far the tool changes from rapid to feed, mm: as LinuxCNC does in G83.
+/// Height in mm above the depth already drilled at which the tool changes from rapid to feed; the same as in LinuxCNC's G83.
 const PECK_GAP: f64 = 0.254;
 
-/// The moves of a hole: over it at its level, down, and up to its exit.
+/// The moves of a hole: to its position at the start level, down, and up to its exit level.
 pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
     let [x, y] = hole.at;
     let to = |z| [x, y, z];
@@ -33,7 +33,7 @@ pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
     Ok(steps)
 }
 
-/// The depths to which the tool goes one after the other; the last is the bottom.
+/// The depths reached by successive pecks; the last is the bottom.
 fn depths(hole: &Hole) -> Result<Vec<f64>, Box<Diagnostic>> {
     let HoleKind::Peck { depth } = hole.kind else { return Ok(vec![hole.bottom]) };
     let mut depths = Vec::new();

@@ -1,6 +1,6 @@
-//! The program as a post-processor reads it: operations in order, each with its tool, spindle, feeds, heights and moves.
+//! The input of a post-processor: operations in order, each with its tool, spindle, feeds, heights and moves.
 //!
-//! Lengths are millimetres and feeds mm/min throughout; a post converts when [`Job::units`] or its own definition says inches.
+//! Lengths are in millimetres and feeds in mm/min. A post converts them if [`Job::units`] or its definition requires inches.
 //! (book: program/posts)
 
 use std::collections::HashSet;
@@ -15,26 +15,26 @@ use super::step::{Hole, Step};
 /// A program to be written by a post.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Job {
-    /// What the program is called: `{$cbfile.name}`, `~PrgName~`.
+    /// Name of the program: `{$cbfile.name}`, `~PrgName~`.
     pub name: Box<str>,
-    /// The drawing it was made from, without directory; empty when it was read from a program.
+    /// The drawing it was made from, without directory; empty if the job comes from a parsed program.
     pub drawing: Box<str>,
-    /// The unit of the numbers that are written.
+    /// Unit of the output.
     pub units: Units,
-    /// The operations in order. A job without any is not written.
+    /// The operations in order. A job without operations cannot be written.
     pub operations: Vec<Operation>,
-    /// What the head of the text tells, as comments.
+    /// Comments for the head of the text.
     pub remarks: Vec<Box<str>>,
-    /// Custom text for the head and foot of the file; may use the post's macros.
+    /// Custom texts for the head and foot of the file, in which macros of the post may be used.
     pub texts: Texts,
-    /// The raw material, where it is known.
+    /// The raw material, if it is known.
     pub stock: Option<Stock>,
-    /// Nobody says where the upper face of the material is: it is taken to be at Z 0.
+    /// Whether the upper face of the material is unknown and assumed to be at Z 0.
     pub has_no_surface: bool,
 }
 
 impl Job {
-    /// A job that can be written has operations, and every number in it is one.
+    /// Checks that the job can be written: it has operations, and all its numbers are finite.
     pub(super) fn check(&self) -> Result<(), Box<Diagnostic>> {
         if self.operations.is_empty() {
             return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));
@@ -47,7 +47,7 @@ impl Job {
         self.check_changes()
     }
 
-    /// A tool that was just put in never goes down to where the tool before it ended.
+    /// Checks that a new tool never descends to where the previous tool stopped.
     fn check_changes(&self) -> Result<(), Box<Diagnostic>> {
         let mut before = None;
         for operation in &self.operations {
@@ -68,7 +68,7 @@ impl Job {
         Ok(())
     }
 
-    /// The feeds of each operation, else any: an operation may have none.
+    /// The feeds of each operation. Operations without a feed get one from the others.
     pub(super) fn feeds(&self) -> Vec<Feeds> {
         let own = |operation: &Operation| operation.steps.iter().find_map(Step::stated_feed);
         let any = self.operations.iter().find_map(own);
@@ -80,13 +80,13 @@ impl Job {
         self.operations.iter().map(feeds).collect()
     }
 
-    /// The lowest upper face of the material, mm, where it is known.
+    /// The lowest upper face of the material in mm, if it is known.
     pub(super) fn lowest_surface(&self) -> Option<f64> {
         let surfaces = self.operations.iter().map(|operation| operation.surface);
         surfaces.reduce(f64::min).filter(|_| !self.has_no_surface)
     }
 
-    /// Gives the cuts of a program that was read without feeds this one, in mm/min: those of XpertMILL's layers are in no file.
+    /// Sets a feed in mm/min for cuts without one. Programs for XpertMILL's layers contain no feeds.
     pub fn set_missing_feeds(&mut self, feed: f64) {
         for operation in &mut self.operations {
             for step in &mut operation.steps {
@@ -99,8 +99,8 @@ impl Job {
         }
     }
 
-    /// Moves the centres of arcs as far from both ends, where they are not quite that: the numbers of a program in inches are rounded to
-    /// 0.0025 mm, which is more than arcs in millimetres may be wrong.
+    /// Makes the centres of arcs equidistant from both ends if they almost are. Programs in inches are rounded to 0.0025 mm, which exceeds
+    /// the tolerance for arcs in millimetres.
     pub fn centre_arcs(&mut self) {
         for step in self.operations.iter_mut().flat_map(|operation| &mut operation.steps) {
             if let Step::Move(it) = step {
@@ -109,7 +109,7 @@ impl Job {
         }
     }
 
-    /// The tools in order of first use, each once.
+    /// The distinct tools in order of first use.
     pub fn tools(&self) -> Vec<&Tool> {
         let mut seen = HashSet::new();
         let tools = self.operations.iter().map(|operation| &operation.tool);
@@ -117,16 +117,16 @@ impl Job {
     }
 }
 
-/// What feeds a post writes for an operation, in mm/min.
+/// The feeds of an operation, in mm/min.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Feeds {
-    /// Downwards.
+    /// Feed downwards.
     pub(super) plunge: Option<f64>,
-    /// In the plane.
+    /// Feed in the plane.
     pub(super) cut: Option<f64>,
 }
 
-/// The unit that a program is written in.
+/// Unit of a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Units {
@@ -136,7 +136,7 @@ pub enum Units {
 }
 
 impl Units {
-    /// The unit's length in mm.
+    /// The length of the unit in mm.
     pub(super) fn millimetres(self) -> f64 {
         match self {
             Self::Millimetres => 1.0,
@@ -145,7 +145,7 @@ impl Units {
     }
 }
 
-/// Custom text before and after something.
+/// Custom texts before and after something.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Texts {
@@ -153,7 +153,7 @@ pub struct Texts {
     pub footer: Box<str>,
 }
 
-/// The raw material as a block: its lower left corner, and its size, in mm.
+/// The raw material as a block, with its lower left corner and its size in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "coordinates")]
 pub struct Stock {
@@ -161,51 +161,51 @@ pub struct Stock {
     pub size: [f64; 3],
 }
 
-/// What one embedded path does, between two changes of anything.
+/// The moves of one embedded path, as long as no setting changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operation {
-    /// The path's name.
+    /// Name of the path.
     pub name: Box<str>,
-    /// The emitted path's name.
+    /// Name of the emitted path.
     pub part: Box<str>,
     /// The cutter.
     pub tool: Tool,
-    /// What the spindle is to do; `None` when nobody says.
+    /// State of the spindle; `None` if it is unspecified.
     pub spindle: Option<Turning>,
-    /// Spindle speed in 1/min, where it is known.
+    /// Spindle speed in 1/min, if it is known.
     pub speed: Option<f64>,
-    /// What the coolant is to do; `None` when nobody says.
+    /// State of the coolant; `None` if it is unspecified.
     pub coolant: Option<Coolant>,
-    /// Feed in the plane, mm/min, where the operation has one.
+    /// Feed in the plane in mm/min, if the operation has one.
     pub cut_feed: Option<f64>,
-    /// Feed downwards, mm/min, where the operation has one.
+    /// Feed downwards in mm/min, if the operation has one.
     pub plunge_feed: Option<f64>,
-    /// The height (S) at which the tool is above everything, mm.
+    /// Height (S) at which the tool is above everything, in mm.
     pub clearance: f64,
-    /// The height down to which rapids go (R of a drilling cycle), mm.
+    /// Height down to which rapids go (R of a drilling cycle), in mm.
     pub retract: f64,
-    /// Upper face (T) of the material, mm.
+    /// Upper face (T) of the material, in mm.
     pub surface: f64,
-    /// The deepest point, mm, where there is one.
+    /// Depth of the deepest point in mm, if there is one.
     pub target_depth: Option<f64>,
-    /// The largest infeed, mm, where there is one.
+    /// Largest infeed in mm, if there is one.
     pub depth_increment: Option<f64>,
     /// Free text.
     pub tag: Box<str>,
-    /// Custom text; may use the post's macros.
+    /// Custom texts, in which macros of the post may be used.
     pub texts: Texts,
-    /// The plane of the arcs.
+    /// Plane of the arcs.
     pub plane: Plane,
-    /// How corners are taken.
+    /// Behaviour at corners.
     pub velocity: VelocityMode,
-    /// Where the tool must be when the steps begin.
+    /// Where the tool must be before the first step.
     pub entry: Entry,
-    /// The moves.
+    /// The moves and other actions.
     pub steps: Vec<Step>,
 }
 
 impl Operation {
-    /// An operation without moves, everything else unknown or zero.
+    /// Creates an operation without moves, with everything else unknown or zero.
     pub fn new(name: &str, tool: Tool) -> Self {
         Self {
             name: name.into(),
@@ -232,7 +232,7 @@ impl Operation {
 }
 
 impl Operation {
-    /// The first place to which the moves lead, each coordinate by the first move that says it, else where they begin.
+    /// The first position reached by the moves. Each coordinate is that of the first move that specifies it, otherwise that of the entry.
     pub fn first_point(&self) -> Position {
         let target = |step: &Step| match step {
             Step::Move(it) => Some(it.to.axes()),
@@ -257,18 +257,18 @@ impl Operation {
             && self.steps.iter().all(Step::is_finite)
     }
 
-    /// Whether the tool cuts something in it.
+    /// Whether the operation cuts anything.
     pub fn cuts(&self) -> bool {
         self.steps.iter().any(|step| matches!(step, Step::Hole(_)) || step.as_cut().is_some())
     }
 
-    /// Whether it measures the material and cuts nothing: the tool touches it, so the spindle stands.
+    /// Whether the operation only probes. The tool touches the material, so the spindle must not turn.
     pub fn only_probes(&self) -> bool {
         !self.cuts()
             && self.steps.iter().any(|step| matches!(step, Step::Move(Move { pace: Pace::Probe { .. }, .. })))
     }
 
-    /// The holes in it.
+    /// The holes of the operation.
     pub fn holes(&self) -> impl Iterator<Item = &Hole> {
         self.steps.iter().filter_map(|step| match step {
             Step::Hole(hole) => Some(hole),
@@ -280,28 +280,28 @@ impl Operation {
 /// A cutter. Tools with the same index are the same tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
-    /// The number in T words.
+    /// Number in T words.
     pub index: u32,
-    /// The program says which tool it is. One that does not is written without a change of tools.
+    /// Whether the program names the tool. Otherwise no tool change is written.
     pub is_named: bool,
     /// O in mm.
     pub diameter: f64,
-    /// The name in the tool table.
+    /// Name in the tool table.
     pub name: Box<str>,
-    /// The corner's radius in mm: 0 for an end mill, half the diameter for a ball.
+    /// Corner radius in mm: 0 for an end mill, half the diameter for a ball cutter.
     pub radius: f64,
-    /// Length in mm, where it is known.
+    /// Length in mm, if it is known.
     pub length: Option<f64>,
-    /// The shape's name.
+    /// Name of the cutter's shape.
     pub profile: Box<str>,
-    /// A remark of the tool table.
+    /// Comment in the tool table.
     pub comment: Box<str>,
-    /// Angle of a V cutter in degrees, where it is one.
+    /// Angle of a V cutter in degrees.
     pub vee_angle: Option<f64>,
 }
 
 impl Tool {
-    /// An end mill of which no more is known.
+    /// Creates an end mill with otherwise unknown properties.
     pub fn new(index: u32, diameter: f64, name: &str) -> Self {
         Self {
             index,
@@ -316,7 +316,7 @@ impl Tool {
         }
     }
 
-    /// The tool of a program that names none.
+    /// The tool of a program that does not name any.
     pub fn unnamed() -> Self {
         Self { is_named: false, ..Self::new(0, 0.0, "") }
     }
@@ -334,14 +334,14 @@ pub enum VelocityMode {
 /// Where an operation begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Entry {
-    /// At the clearance plane, wherever the tool is in the plane.
+    /// At the clearance plane, at any X and Y.
     #[default]
     Clearance,
-    /// Exactly there, which may be deep in the material (sweepless milling): the tool is there already unless it was changed.
+    /// Exactly at this position, which may be deep in the material (sweepless milling). The tool is there already unless it was changed.
     At([f64; 3]),
 }
 
-/// Fills in what an operation's moves tell about it; a surface that nobody gave is at `thickness`.
+/// Derives properties of an operation from its moves. An unspecified surface is set to `thickness`.
 pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     if operation.surface == f64::NEG_INFINITY {
         operation.surface = thickness;
@@ -370,7 +370,7 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     operation.depth_increment = infeeds.filter(|infeed| *infeed > 0.0).reduce(f64::max);
 }
 
-/// Whether a step goes straight down by feed where the one before it ended.
+/// Whether a step descends at feed at the position where the previous one ended.
 fn is_straight_down(before: &Step, step: &Step) -> bool {
     let end_of = |step: &Step| match step {
         Step::Move(it) if !matches!(it.pace, Pace::Probe { .. }) => it.to.axes(),

@@ -1,7 +1,7 @@
-//! Post-processors: programs in the words of another machine. (book: program/posts)
+//! Post-processors, which write programs for other machines. (book: program/posts)
 //!
-//! A [`Job`] is what a post reads, made from finished programs or from a program that was read. A [`Post`] is a definition in one
-//! of two languages, CamBam's or CAD6's; [`Post::write`] makes the text. Nothing here does IO.
+//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`Post`] is a definition in one of two
+//! languages, that of CamBam or that of CAD6; [`Post::write`] produces the text. This crate does no IO.
 
 mod arcs;
 mod built_in;
@@ -40,7 +40,7 @@ pub use samples::samples;
 pub use step::{Hole, HoleKind, Step};
 pub use tools::{ToolEntry, ToolTable};
 
-/// A file name's extension, without point.
+/// Extension of a file name, without the dot.
 fn extension(text: &str) -> Option<Box<str>> {
     let text = text.trim_start_matches('.');
     let is_extension =

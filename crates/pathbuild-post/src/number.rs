@@ -1,36 +1,36 @@
-//! Numbers as text: patterns of `0` and `#` as .NET knows them, rounding half away from zero.
+//! Formats numbers by patterns of `0` and `#` as in .NET, rounding halves away from zero.
 
 use std::str::FromStr;
 
-/// A pattern such as `0.0###`: `0` is a digit that is always shown, `#` one that is shown when it is needed.
+/// A pattern such as `0.0###`, in which `0` is a digit that is always shown and `#` one that is shown if needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NumberFormat {
-    /// Digits before the point that are always shown.
+    /// Minimum number of digits before the decimal point.
     whole: usize,
-    /// Digits after the point that are always shown.
+    /// Minimum number of digits after the decimal point.
     least: usize,
-    /// Digits after the point at most.
+    /// Maximum number of digits after the decimal point.
     most: usize,
 }
 
-/// With fewer decimals coordinates are rounded to more than any cutter's accuracy.
+/// With fewer decimals, rounding coordinates would exceed the accuracy of any cutter.
 pub(crate) const FEWEST_DECIMALS: u8 = 2;
 
-/// More digits than any control reads, and than an `f64` has.
+/// More digits than any control reads, and more than an `f64` has.
 const MOST_DIGITS: usize = 15;
 
 impl NumberFormat {
-    /// At least one digit before the point, `least` to `most` after it.
+    /// At least one digit before the decimal point, and `least` to `most` after it.
     pub(crate) const fn decimals(least: usize, most: usize) -> Self {
         Self { whole: 1, least, most }
     }
 
-    /// Digits after the point at most.
+    /// Maximum number of digits after the decimal point.
     pub(crate) fn most_decimals(self) -> u8 {
         u8::try_from(self.most).unwrap_or(u8::MAX)
     }
 
-    /// The number as text; never `-0`.
+    /// Formats a number; never as `-0`.
     pub(crate) fn format(self, value: f64) -> String {
         let digits = Digits::of(value).round(self.most);
         let mut text = String::new();
@@ -45,7 +45,7 @@ impl NumberFormat {
         text
     }
 
-    /// The number that the text stands for.
+    /// The number represented by the formatted text.
     pub(crate) fn round(self, value: f64) -> f64 {
         self.format(value).parse().unwrap_or(value)
     }
@@ -69,10 +69,10 @@ impl FromStr for NumberFormat {
     }
 }
 
-/// A decimal number: its digits, and how many of them stand before the point (negative: zeros follow the point).
+/// A decimal number: its digits, and how many of them precede the decimal point. If that is negative, zeros follow the point.
 ///
-/// It has fifteen significant digits, so that what was meant as a tie (1.0005) is one, and the noise of a conversion between
-/// inches and millimetres is gone.
+/// It is limited to fifteen significant digits, so that intended ties (1.0005) are ties and the noise of converting between inches and
+/// millimetres disappears.
 struct Digits {
     digits: Vec<u8>,
     point: i32,

@@ -1,4 +1,4 @@
-//! What a post is told beside the program.
+//! Options for writing a program through a post.
 
 use std::fmt;
 
@@ -9,41 +9,41 @@ use pathbuild_diagnostic::reasons::NO_DIRECTORY_OF_POST;
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::Machine;
 
-/// How a program is written through a post.
+/// Options for writing a program through a post.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct PostOptions<'a> {
-    /// The text of `{$date}`; without it the date is left out, so that output depends on input only.
+    /// Value of `{$date}`. Without it the date is omitted, so that the output depends only on the input.
     pub date: Option<Box<str>>,
-    /// User macros of the configuration; they win over the definition's. In control texts they are variables.
+    /// User macros of the configuration, which take precedence over those of the definition. In control texts they are variables.
     pub macros: Vec<PostMacro>,
-    /// Holes become canned cycles, where the target knows them.
+    /// Whether holes become canned cycles, if the target supports them.
     pub cycles: bool,
-    /// The name of the file that will be written, for the post's own command.
+    /// Name of the output file, for the command of the definition.
     pub output: Option<Box<str>>,
-    /// The post's own command will be run: it is handed out instead of a note that it was skipped.
+    /// Whether the caller will run the command of the definition. Then the command is returned instead of a note that it was skipped.
     pub run_post_build: bool,
-    /// Characters that are written; targets that act on other bytes get ASCII in any case.
+    /// Permitted characters. Targets that act on other bytes always get ASCII.
     pub charset: Charset,
-    /// The dialect of the output, where the definition does not name one or names another.
+    /// Dialect of the output, if the definition does not declare one or declares another.
     pub dialect: Option<Box<str>>,
-    /// The most bytes of the text. (`[limits] output-size`)
+    /// Maximum size of the text in bytes. (`[limits] output-size`)
     pub most_bytes: usize,
-    /// Somebody answers for what cannot be read back.
+    /// Whether the user takes responsibility for output that cannot be read back.
     pub unchecked: bool,
-    /// The number of the program; `None`: the first number in the program's name.
+    /// Number of the program; `None` means the first number in its name.
     pub program_number: Option<u32>,
-    /// The operator sees to the spindle: no word of the definition's spindle macros is written.
+    /// Whether the operator switches the spindle, so that the spindle macros of the definition write nothing.
     pub manual_spindle: bool,
-    /// A definition that switches the spindle needs its speed: without one it would not turn.
+    /// Whether a definition that switches the spindle requires a speed, without which it would not turn.
     pub needs_speed: bool,
-    /// The machine counts P of dwells in milliseconds, where its control may count them either way.
+    /// Whether the machine counts P of dwells in milliseconds, for controls where that is a setting.
     pub milliseconds: bool,
-    /// The time in seconds that the spindle takes to reach its speed.
+    /// Time in seconds that the spindle needs to reach its speed.
     pub spin_up: f64,
-    /// What the machine can do, where that is known.
+    /// Capabilities of the machine, if they are known.
     pub machine: Option<Machine>,
-    /// Where files are that the definition inserts.
+    /// Access to the files that the definition inserts.
     pub files: &'a dyn PostFiles,
 }
 
@@ -70,7 +70,7 @@ impl Default for PostOptions<'_> {
     }
 }
 
-/// A user macro: `{$name}`, or `~name~` in control texts, stands for `value`, which may use macros itself.
+/// A user macro: `{$name}`, or `~name~` in control texts, expands to `value`, which may contain macros.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the type says it")]
 pub struct PostMacro {
@@ -80,15 +80,14 @@ pub struct PostMacro {
 
 /// The files below the directory of a definition.
 pub trait PostFiles: fmt::Debug {
-    /// The content of a file. The path is relative and leads nowhere but down; links that lead elsewhere are the implementation's to
-    /// refuse.
+    /// Reads a file. The path is relative and never leads upwards. Implementations must refuse links that lead outside the directory.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why the file cannot be read.
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value>;
 }
 
-/// No files at all.
+/// Provides no files.
 #[derive(Clone, Copy, Debug)]
 pub struct NoFiles;
 

@@ -1,10 +1,10 @@
-//! Where a definition has the text that wrote a line of the output.
+//! Records which text of a definition produced a line of the output.
 
-/// The text of a definition that wrote a line.
+/// The text of a definition that produced a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LineOrigin {
-    /// The section's or control text's name.
+    /// Name of the section or control text.
     pub(crate) section: &'static str,
-    /// 1-based line of the definition's file; 0 of a text that stands in for an absent one.
+    /// Line of the definition's file, counted from 1; 0 if the text is the default for an absent one.
     pub(crate) line: u32,
 }

@@ -1,4 +1,4 @@
-//! Reading a post's text back, and comparing its moves with those of the job. (book: program/posts, "Before a program is written")
+//! Reads the text of a post back and compares its moves with those of the job. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
@@ -16,25 +16,25 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
 
-/// What a text is held against.
+/// What a text is compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Expected<'a> {
-    /// Whom it is for. Without a target the text is one in RS274's words, which may have others.
+    /// The control it is for. Without a target the text consists of RS274 words, possibly among others.
     pub(super) target: Option<&'a Target>,
-    /// How far it may be from the job. `None`: somebody answers for its moves.
+    /// How far it may deviate from the job. `None` if the user takes responsibility for its moves.
     pub(super) tolerance: Option<Tolerance>,
-    /// What the machine can do.
+    /// Capabilities of the machine.
     pub(super) machine: Option<&'a Machine>,
-    /// Words of a text without a target that cannot be followed.
+    /// Words that cannot be followed, of a text without a target.
     pub(super) unfollowed: &'a [Unfollowed],
-    /// The spindle is not switched by the program.
+    /// Whether the operator switches the spindle.
     pub(super) is_manual: bool,
-    /// The text moves nothing in Z: its beam cuts, at whatever depth the job does.
+    /// Whether the text never moves in Z, because a beam cuts at all depths.
     pub(super) is_flat: bool,
 }
 
-/// What is wrong with a text, by line: what the target's reader says, else the first place where it moves otherwise than the job and the
-/// rules of `verify` that it breaks. What is only doubtful is returned.
+/// Checks a text and returns its errors by line: those reported by the reader of the target, otherwise the first deviation from the job and
+/// violations of the rules of `verify`. Doubtful constructs are returned if there are no errors.
 pub(super) fn check(
     text: &[u8],
     job: &Job,
@@ -51,7 +51,7 @@ pub(super) fn check(
     problems.clear();
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
     if target.is_none() && (tolerance.is_none() || !spindle::is_started(&read.steps)) {
-        // Nobody says that these words switch the spindle, or it is switched by hand and M5 at the end is for safety.
+        // The words may not be meant for the spindle, or the operator switches it and the final M5 is only for safety.
         broken.retain(|problem| !spindle::is_rule_of_spindle(problem));
     }
     doubts.extend(chosen_offsets(&read.steps));
@@ -83,7 +83,7 @@ pub(super) fn check(
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
 }
 
-/// Moves as seen from above; those that lead nowhere in the plane are left out.
+/// Moves seen from above, without those that do not move in the plane.
 fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     let level = |mut at: Position| {
         at.at[2] = 0.0;
@@ -94,7 +94,7 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
     seen.filter(|(_, it)| !it.is_nothing() || it.from.known != it.to.known).collect()
 }
 
-/// Words that choose where the program's zero is: the job says nothing about it.
+/// Reports words that select the origin of the program, about which the job says nothing.
 fn chosen_offsets(steps: &[motion::Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
@@ -111,10 +111,10 @@ fn chosen_offsets(steps: &[motion::Step]) -> Vec<Diagnostic> {
     doubts
 }
 
-/// More of them are no news.
+/// Maximum number of warnings reported.
 const MOST_DOUBTS: usize = 5;
 
-/// The rules of `verify` that need no map of the material. (book: program/reading)
+/// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
 fn broken_rules(
     steps: &[motion::Step],
     job: &Job,
@@ -127,7 +127,7 @@ fn broken_rules(
     }
     let (mut broken, mut doubts) = (Vec::new(), Vec::new());
     for mut problem in rules.finish() {
-        // What is only doubtful in a program of somebody else's is wrong in one that is about to be written.
+        // What is only doubtful in somebody else's program is an error in one we are about to write.
         if problem.message == &gcode::SPINDLE_LEFT_ON {
             problem.severity = Severity::Error;
         }
@@ -140,7 +140,7 @@ fn broken_rules(
     (broken, doubts)
 }
 
-/// Shows the line of the output that a problem is about, and the place of the definition that wrote it: there will be no file.
+/// Adds the line of the output and the part of the definition that produced it, because there will be no file to look at.
 pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineOrigin]) -> Diagnostic {
     let Some(number) = problem.place.line.take() else { return problem };
     let index = usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
@@ -163,12 +163,12 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
     problem
 }
 
-/// Whether a message names the line of the output itself.
+/// Whether the message itself contains the line of the output.
 fn says_line(problem: &Diagnostic) -> bool {
     problem.arguments.iter().any(|(name, _)| *name == "line")
 }
 
-/// Each control has its own word for probing, which complains where nothing is met or does not: the way is the same.
+/// Treats all probing words as equal. They differ between controls in whether a missing contact is an error, but the move is the same.
 fn answered((line, mut it): (u32, Move)) -> (u32, Move) {
     if let Pace::Probe { must_answer, .. } = &mut it.pace {
         *must_answer = true;
@@ -208,7 +208,7 @@ struct Mover {
 }
 
 impl Mover {
-    /// The way to where an operation begins, if the tool is not there.
+    /// Moves to the start of an operation, unless the tool is already there.
     fn enter(&mut self, operation: &Operation) {
         match operation.entry {
             Entry::At([x, y, z]) => {
@@ -244,7 +244,7 @@ impl Mover {
             Step::Move(it) => {
                 self.go(it.to.axes(), it.path, it.pace);
                 if matches!(it.pace, Pace::Probe { .. }) {
-                    // Where it stops is known when the machine is there.
+                    // Only the machine knows where the probe stops.
                     self.at.known = Axes::NONE;
                 }
             }

@@ -1,10 +1,10 @@
-//! Drilling cycles among the moves of a program that was read: its reader turns them into the moves that they stand for.
+//! Recognises drilling cycles among the moves of a parsed program. The reader has expanded them to moves.
 
 use pathbuild_motion::{Action, Axes, Move, Pace, Path, Step};
 
 use super::step::{Hole, HoleKind};
 
-/// The hole that some steps begin with, and the steps behind it. All its moves come from one line, which no other line's do.
+/// Returns the hole that some steps begin with, and the remaining steps. All its moves must come from one line that has no others.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     let [first, second, ..] = steps else { return None };
     if first.line != second.line {
@@ -41,14 +41,14 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     Some((hole, moves.steps))
 }
 
-/// The steps of a line, and those behind it.
+/// The remaining steps of a line.
 struct Moves<'a> {
     line: u32,
     steps: &'a [Step],
 }
 
 impl<'a> Moves<'a> {
-    /// Takes the next move, if it is a straight one to a known place and as wanted.
+    /// Takes the next move, if it is straight, leads to a known position and satisfies the condition.
     fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
         let (step, rest) = self.next()?;
         let Action::Move(it) = step.action else { return None };
@@ -59,7 +59,7 @@ impl<'a> Moves<'a> {
         })
     }
 
-    /// Out of the hole, down again, and deeper.
+    /// Takes the moves of a peck: out of the hole, back down, and deeper.
     fn peck(&mut self, retract: f64) -> Option<Move> {
         let before = self.steps;
         let is_rapid = |it: &Move| it.pace == Pace::Rapid && is_vertical(it);
@@ -73,7 +73,7 @@ impl<'a> Moves<'a> {
         deeper
     }
 
-    /// The line's next step, and those behind it.
+    /// The next step of the line, and those after it.
     fn next(&self) -> Option<(&'a Step, &'a [Step])> {
         self.steps.split_first().filter(|(step, _)| step.line == self.line)
     }

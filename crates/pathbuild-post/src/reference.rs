@@ -1,13 +1,13 @@
-//! The two languages of definitions as tables, which the book shows as they stand in the code. (book: reference/post-definitions)
+//! The two definition languages as tables, which the book includes. (book: reference/post-definitions)
 
 use pathbuild_diagnostic::Lang;
 
 use super::{cad6, cambam};
 
-/// The cells of a row, in Markdown.
+/// Cells of a row, in Markdown.
 pub type Row = Vec<String>;
 
-/// The rows of a table of the book; `None` if there is no such table.
+/// The rows of a table of the book, or `None` if there is no such table.
 pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     Some(match name {
         "post-keys" => cad6::reference::settings(lang),
@@ -24,7 +24,7 @@ pub fn reference_table(name: &str, lang: Lang) -> Option<Vec<Row>> {
     })
 }
 
-/// A text as it is typed. Line ends are shown as `\n`.
+/// Formats a text as code. Line breaks are shown as `\n`.
 pub(crate) fn code(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("`{}`", text.replace('\n', "\\n")) }
 }

@@ -1,12 +1,12 @@
-//! Small programs, each with one thing that a post may have words for.
+//! Small programs, each with a single feature that a post may have words for.
 
 use pathbuild_motion::{Arc, Coolant, Move, Pace, Path, Plane, Turning};
 
 use super::job::{Job, Operation, Tool};
 use super::step::{Hole, HoleKind, Step};
 
-/// Programs from which it can be seen which words a post writes. The first one is the plainest. A post that has no text for one of them
-/// refuses that one.
+/// Programs that reveal which words a post writes. The first one is the simplest. A post that has no text for a feature refuses the
+/// corresponding program.
 pub fn samples() -> Vec<Job> {
     let hole = |kind| {
         Step::Hole(Hole {
@@ -46,7 +46,7 @@ fn job(operations: Vec<Operation>) -> Job {
     Job { name: "1.1P".into(), drawing: "1.dxf".into(), operations, ..Job::default() }
 }
 
-/// To the clearance plane, and along it to X.
+/// Moves to the clearance plane, and along it to X.
 fn rapid(x: Option<f64>) -> Step {
     Step::rapid([x, x, Some(5.0)])
 }

@@ -1,36 +1,36 @@
-//! What the lines of a post say, in the words of RS274/NGC: so its text is read back where no dialect is named.
+//! Translates the lines of a post to RS274/NGC, so that its text can be read back if it declares no dialect.
 
 use std::fmt::Write;
 
 use crate::job::Units;
 use crate::words::{Word, Words};
 
-/// A program that moves and switches as the lines do that it was told of, line for line.
+/// A program that moves and switches like the lines passed to it, line by line.
 #[derive(Debug)]
 pub(crate) struct Shadow {
     text: String,
     line: u32,
     unfollowed: Vec<Unfollowed>,
-    /// The blank of a Heidenhain program has begun (G30), and ends with G31.
+    /// Whether the blank of a Heidenhain program has been started (G30) and not completed (G31).
     is_blank_open: bool,
 }
 
-/// A G or M word whose effect the shadow does not have.
+/// A G or M word whose effect the shadow cannot express.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Unfollowed {
-    /// From 1.
+    /// Line number, counted from 1.
     pub(crate) line: u32,
     /// Such as `G41`.
     pub(crate) word: String,
-    /// It changes where the tool goes on some controls, or what is run.
+    /// Whether it changes the tool path or the program flow on some controls.
     pub(crate) is_dangerous: bool,
 }
 
-/// More of them are no news.
+/// Maximum number reported.
 const MOST_UNFOLLOWED: usize = 20;
 
 impl Shadow {
-    /// No lines yet. The unit and the centres of arcs are the definition's, until a line says otherwise.
+    /// Creates an empty shadow. Unit and arc centres are those of the definition, until a line changes them.
     pub(crate) fn new(units: Units, absolute_centres: bool) -> Self {
         let units = if units == Units::Inches { "G20" } else { "G21" };
         let centres = if absolute_centres { "G90.1" } else { "G91.1" };
@@ -38,15 +38,16 @@ impl Shadow {
         Self { text, line: 1, unfollowed: Vec::new(), is_blank_open: false }
     }
 
-    /// A line with these words. `motion` is the number behind G of the move that a macro stands for in it. In a plane of which one axis is
-    /// turned round, arcs turn the other way.
+    /// Adds a line with these words. `motion` is the G number of a macro in it. If one axis of the plane is reversed, the direction of arcs
+    /// is
+    /// reversed too.
     pub(crate) fn line(&mut self, line: &Words, motion: Option<u32>, is_mirrored: bool) {
         if self.is_blank(line) {
             return self.end_line();
         }
         let codes = |word: &&Word| word.letter == 'G';
         let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
-        // G4 has coordinates that are none.
+        // The coordinates of G4 are not positions.
         if !line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
             let has_motion = line.words.iter().filter(codes).any(is_motion);
             if let Some(motion) = motion.filter(|_| !has_motion) {
@@ -73,8 +74,9 @@ impl Shadow {
         self.line += 1;
     }
 
-    /// Whether a line says how large the blank is: on a Heidenhain control G30 with the plane and all axes, then G31. Elsewhere a plane
-    /// does not stand beside G30.
+    /// Whether a line defines the blank: on a Heidenhain control that is G30 with the plane and all axes, followed by G31. Other controls
+    /// have no
+    /// plane in the same line as G30.
     fn is_blank(&mut self, line: &Words) -> bool {
         let has = |letter: char, number: i64| {
             line.words.iter().any(|word| word.letter == letter && tenths(word) == number)
@@ -87,14 +89,14 @@ impl Shadow {
         begins || ends
     }
 
-    /// An M word: spindle, coolant, tool, stops and ends are followed.
+    /// Handles an M word. The shadow follows spindle, coolant, tool, stops and ends.
     fn switch(&mut self, tenths: i64) {
         match tenths {
             0 | 10 | 20 | 30 | 40 | 50 | 60 | 70 | 80 | 90 | 300 => {
                 #[expect(clippy::cast_precision_loss, reason = "codes are small")]
                 self.word('M', tenths as f64 / 10.0);
             }
-            // Overrides, and pallets that nobody moves.
+            // Overrides, and pallets, which do not affect the moves.
             480 | 490 | 600 => {}
             _ => self.leave('M', tenths, matches!(tenths, 190 | 470 | 610 | 970..=990)),
         }
@@ -115,7 +117,7 @@ impl Shadow {
         }
     }
 
-    /// A code that says where or how the tool moves. Units are those of RS274, DIN's are translated.
+    /// Handles a G word that affects the moves. Units are those of RS274; those of DIN are translated.
     fn code(&mut self, tenths: i64, is_mirrored: bool) {
         let tenths = match tenths {
             20 if is_mirrored => 30,
@@ -160,7 +162,8 @@ impl Shadow {
                 #[expect(clippy::cast_precision_loss, reason = "codes are small")]
                 self.word('G', tenths as f64 / 10.0);
             }
-            // What is off already, and what does not change where the tool's tip goes: exact stops, rounded corners, lengths of the table.
+            // Modes that are off anyway, or that do not affect the position of the tool tip: exact stops, rounded corners, lengths from
+            // the tool table.
             40 | 80 | 90 | 150 | 281 | 301 | 400 | 430 | 490 | 500 | 610 | 611 | 640 | 690 | 970 => {}
             _ => self.leave('G', tenths, true),
         }
@@ -170,13 +173,13 @@ impl Shadow {
         write!(self.text, "{letter}{number} ").expect("a String takes everything");
     }
 
-    /// The program, and the words that it does not have.
+    /// Returns the program, and the words that it cannot express.
     pub(crate) fn finish(self) -> (String, Vec<Unfollowed>) {
         (self.text, self.unfollowed)
     }
 }
 
-/// Ten times the number of a code; -10 for numbers that no code has.
+/// Ten times the number of a code, or -10 if no code has such a number.
 fn tenths(word: &Word) -> i64 {
     let tenths = (word.number * 10.0).round();
     #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]

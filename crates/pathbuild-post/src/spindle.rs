@@ -1,4 +1,4 @@
-//! Whether a text that was read turns the spindle wherever a job cuts, and the way round that the job says.
+//! Checks that a parsed text turns the spindle wherever the job cuts, and in the required direction.
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{gcode, posts};
@@ -6,14 +6,14 @@ use pathbuild_motion::{Action, Move, Pace, Step, Turning};
 
 use super::job::{Job, Operation};
 
-/// The first cut of the text before which the spindle was not switched on, or is switched the other way round than the job says. A job in
-/// which some operation leaves the spindle to others is not asked.
+/// Finds the first cut before which the spindle was not switched on, or turns in the wrong direction. Jobs that leave the spindle to the
+/// operator in some operation are not checked.
 pub(super) fn check(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnostic> {
     let cutting = || job.operations.iter().filter(|operation| operation.cuts());
     let turning = |operation: &Operation| operation.spindle.filter(|turning| turning.is_on());
     let mut expected: Vec<Turning> = cutting().map(turning).collect::<Option<_>>()?;
     expected.dedup();
-    // A feed above the material, on the way to it, is no cut.
+    // A move at feed above the material is not a cut.
     let surface = cutting().map(|operation| operation.surface).reduce(f64::max);
     let surface = surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY);
     let (mut now, mut index) = (Turning::Unstated, 0);
@@ -31,7 +31,7 @@ pub(super) fn check(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnost
                 }
                 let message = match now {
                     Turning::Unstated => &posts::SPINDLE_NOT_STARTED,
-                    // The rules of `verify` say so.
+                    // Reported by the rules of `verify`.
                     Turning::Off => return None,
                     Turning::Clockwise | Turning::Counterclockwise => &posts::SPINDLE_OTHER_WAY,
                 };
@@ -43,7 +43,7 @@ pub(super) fn check(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnost
     None
 }
 
-/// The first rapid move over which a beam, which the words of the spindle switch, is not off.
+/// Finds the first rapid during which the beam, which is controlled by the spindle words, may be on.
 pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
     let mut is_on = false;
     for step in steps {
@@ -68,7 +68,7 @@ pub(super) fn is_started(steps: &[Step]) -> bool {
     })
 }
 
-/// Whether a rule of `verify` is about the spindle.
+/// Whether a rule of `verify` concerns the spindle.
 pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
     [&gcode::SPINDLE_OFF, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINDLE_LEFT_ON].contains(&problem.message)
 }

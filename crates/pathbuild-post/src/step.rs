@@ -1,39 +1,39 @@
-//! The moves of an operation. Lengths are millimetres, feeds mm/min.
+//! The moves of an operation. Lengths are in millimetres, feeds in mm/min.
 
 use pathbuild_motion::{Move, Pace, Path, Position};
 
-/// One thing that the machine does.
+/// An action of the machine.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// The tool moves. Where a straight move begins is where the step before it ended: `from` counts for arcs only.
+    /// A move of the tool. A straight move begins where the previous step ended; its `from` is ignored.
     Move(Move),
-    /// A hole, however it is drilled.
+    /// A hole, regardless of how it is drilled.
     Hole(Hole),
-    /// Standing still.
+    /// A dwell.
     Dwell {
-        /// For how long.
+        /// Duration.
         seconds: f64,
     },
-    /// Waiting for whoever stands at the machine.
+    /// Waits for the operator.
     Stop,
-    /// A remark for whoever stands at the machine.
+    /// A comment for the operator.
     Comment(Box<str>),
 }
 
-/// A drilled hole: from wherever the tool is, over it, down, and up again to `exit`.
+/// A drilled hole. The tool moves to its position, down, and up again to `exit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hole {
     /// X and Y in mm.
     pub at: [f64; 2],
-    /// The height from which the tool comes, at which it also goes from hole to hole, mm.
+    /// Height in mm from which the tool descends, and at which it moves between holes.
     pub level: f64,
-    /// The height down to which it goes by rapid, mm.
+    /// Height down to which the tool moves by rapid, in mm.
     pub retract: f64,
-    /// Z of the bottom, mm.
+    /// Z of the bottom, in mm.
     pub bottom: f64,
-    /// The height to which it is lifted afterwards, mm.
+    /// Height to which the tool is retracted afterwards, in mm.
     pub exit: f64,
-    /// mm/min.
+    /// In mm/min.
     pub feed: Option<f64>,
     /// How the bottom is reached.
     pub kind: HoleKind,
@@ -44,30 +44,30 @@ pub struct Hole {
 pub enum HoleKind {
     /// In one go.
     Plain,
-    /// In one go, then waiting there.
+    /// In one go, followed by a dwell at the bottom.
     Dwell {
-        /// For how long.
+        /// Duration.
         seconds: f64,
     },
-    /// Lifting the tool out of the hole again and again.
+    /// In several pecks, with the tool retracted from the hole after each.
     Peck {
-        /// Depth of one go, mm, greater than 0.
+        /// Depth of a peck in mm, greater than 0.
         depth: f64,
     },
 }
 
 impl Step {
-    /// Straight, as fast as the machine can.
+    /// A straight move at full speed.
     pub fn rapid(to: impl Into<Position>) -> Self {
         Self::straight(to, Pace::Rapid)
     }
 
-    /// Straight, cutting. `feed` is `None` where a program that was read says none.
+    /// A straight cut. `feed` is `None` if the parsed program does not specify it.
     pub fn feed(to: impl Into<Position>, feed: Option<f64>) -> Self {
         Self::straight(to, Pace::Feed(feed.unwrap_or_default()))
     }
 
-    /// Straight until the probe closes.
+    /// A straight move until the probe makes contact.
     pub fn probe(to: impl Into<Position>, feed: Option<f64>) -> Self {
         Self::straight(to, Pace::Probe { feed: feed.unwrap_or_default(), toward: true, must_answer: true })
     }
@@ -85,7 +85,7 @@ impl Step {
         }
     }
 
-    /// The feed in mm/min that it states.
+    /// The feed in mm/min, if the step specifies one.
     pub(super) fn stated_feed(&self) -> Option<f64> {
         match self {
             Self::Move(it) => it.pace.stated_feed(),
@@ -94,7 +94,7 @@ impl Step {
         }
     }
 
-    /// Whether every number in it is finite.
+    /// Whether all its numbers are finite.
     pub(super) fn is_finite(&self) -> bool {
         match self {
             Self::Move(it) => it.is_finite(),

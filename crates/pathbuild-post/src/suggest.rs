@@ -1,10 +1,10 @@
-//! The nearest known name to one that is not known.
+//! Finds the known name most similar to an unknown one.
 
-/// Longer names than this are not compared: nobody mistyped them.
+/// Longer names are not compared, because they are no typing errors.
 const LONGEST: usize = 64;
 
-/// The candidate that takes the fewest changed, added, left out or swapped letters, if it is near enough to have been meant.
-/// The first of several wins.
+/// The candidate that requires the fewest changed, added, omitted or swapped letters, if it is similar enough. Of several equally similar
+/// ones, the first is returned.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > LONGEST {
         return None;
@@ -19,7 +19,7 @@ pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) 
         .map(|(_, known)| known)
 }
 
-/// The number of changed, added or left out letters; two letters swapped count once. (Optimal string alignment)
+/// Number of changed, added or omitted letters; two swapped letters count once. (Optimal string alignment)
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut before: Vec<usize> = Vec::new();

@@ -1,4 +1,4 @@
-//! The tool table: which cutter, spindle and coolant a program with a given O runs with. (`[tool.NAME]` in pathbuild.toml)
+//! The tool table: cutter, spindle and coolant for programs with a given O. (`[tool.NAME]` in pathbuild.toml)
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Turning};
@@ -10,30 +10,31 @@ use super::job::Tool;
 /// The tools of the configuration.
 #[derive(Clone, Debug, Default)]
 pub struct ToolTable {
-    /// In the order of the configuration; the first that fits is taken.
+    /// In the order of the configuration; the first match is used.
     pub entries: Vec<ToolEntry>,
 }
 
-/// One tool of the configuration.
+/// A tool of the configuration.
 #[derive(Clone, Debug)]
 pub struct ToolEntry {
-    /// The name of its table.
+    /// Name of its table.
     pub name: Box<str>,
     /// O in mm.
     pub diameter: f64,
-    /// Which paths it is for, where several cutters have one diameter (S and T cutters): found anywhere in the path's name, so `T$`.
+    /// The paths it is for, if several cutters have the same diameter (S and T cutters). Matches anywhere in the name of the path, so use
+    /// `T$`.
     pub paths: Option<Regex>,
-    /// The number in T words; without one the next that is free, in order of use.
+    /// Number in T words; without one it gets the next free number, in order of use.
     pub index: Option<u32>,
-    /// What the spindle does; `None` when the machine's operator sees to it.
+    /// State of the spindle; `None` if the operator controls it.
     pub spindle: Option<Turning>,
     /// Spindle speed in 1/min.
     pub speed: Option<f64>,
-    /// What the coolant does; `None` when the machine's operator sees to it.
+    /// State of the coolant; `None` if the operator controls it.
     pub coolant: Option<Coolant>,
 }
 
-/// A cutter with what goes with it.
+/// A cutter with its settings.
 #[derive(Clone, Debug)]
 pub(super) struct Fitted {
     pub(super) tool: Tool,
@@ -42,14 +43,14 @@ pub(super) struct Fitted {
     pub(super) coolant: Option<Coolant>,
 }
 
-/// Gives every path its cutter; cutters without a number get one.
+/// Assigns a cutter to each path, and numbers to cutters without one.
 pub(super) struct Fitter<'a> {
     table: &'a ToolTable,
     fitted: Vec<(Key, Tool)>,
     pub(super) warnings: Vec<Diagnostic>,
 }
 
-/// What makes two cutters the same: an entry of the table, or a diameter that is in none.
+/// Identifies a cutter: an entry of the table, or a diameter that is not in the table.
 #[derive(Clone, Copy, Debug)]
 enum Key {
     Entry(usize),
@@ -57,7 +58,7 @@ enum Key {
 }
 
 impl ToolTable {
-    /// The tool for a path milled with the cutter diameter O. An entry that names paths wins over one that does not.
+    /// Finds the tool for a path with the cutter diameter O. Entries that specify paths take precedence over those that do not.
     pub fn find(&self, path: &str, diameter: f64) -> Option<&ToolEntry> {
         self.position(path, diameter).map(|index| &self.entries[index])
     }
@@ -107,7 +108,7 @@ impl<'a> Fitter<'a> {
         tool
     }
 
-    /// The least number that neither the table nor a cutter so far has.
+    /// The smallest number used neither by the table nor by a cutter so far.
     fn free_index(&self) -> u32 {
         let is_free = |index: &u32| {
             self.table.entries.iter().all(|entry| entry.index != Some(*index))

@@ -1,7 +1,9 @@
-//! Whether a text that was read makes the cuts of a job, move for move, and between them only ways that touch nothing else.
+//! Checks that a parsed text makes exactly the cuts of a job, and between them only moves that cannot touch material.
 //!
-//! Rapid moves of a post need not be those of the job, as they must where a program is held against its drawing (`verify --against`): it may lift the tool higher, or leave out what is done in the air. A place is free
-//! of material above every place where the job itself goes by rapid, and above the clearance plane.
+//! The rapids of a post need not equal those of the job, as they must when a program is compared with its drawing (`verify --against`): it
+//! may retract the
+//! tool higher, or omit moves in the air. A position is free of material if it is above all positions where the job itself moves by
+//! rapid, or above the clearance plane.
 
 #[cfg(test)]
 mod tests;
@@ -18,7 +20,7 @@ use rstar::{AABB, RTree};
 type Moves<'m> = &'m [(u32, Move)];
 type Checked<T> = Result<T, Box<Diagnostic>>;
 
-/// Holds what was read against the job's moves. `clearance` is the height above everything, mm.
+/// Compares parsed moves with those of the job. `clearance` is the height above everything, in mm.
 pub(crate) fn check(
     found: Moves<'_>,
     expected: Moves<'_>,
@@ -45,8 +47,8 @@ pub(crate) fn check(
     }
 }
 
-/// The number of the first cut that leads from or to a place that is not known: nothing could be compared with it. Where a probe stopped
-/// is known to the machine alone; the way back from there is compared by its end.
+/// Number of the first cut from or to an unknown position, which could not be compared. Only the machine knows where a probe has stopped;
+/// the move away from there is compared by its end.
 fn blind_cut(moves: Moves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, it) in moves {
@@ -63,13 +65,13 @@ fn is_rapid(it: &Move) -> bool {
     it.pace == Pace::Rapid
 }
 
-/// The moves at the beginning that are as wanted, and the others.
+/// Splits off the moves at the beginning that satisfy a condition.
 fn split(moves: Moves<'_>, is_wanted: impl Fn(&Move) -> bool) -> (Moves<'_>, Moves<'_>) {
     let length = moves.iter().take_while(|(_, it)| is_wanted(it)).count();
     moves.split_at(length)
 }
 
-/// Leaves out where the tool is lifted by rapid and comes back to the same place.
+/// Omits rapids that retract the tool and return it to the same position.
 fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
     let mut kept = Vec::with_capacity(moves.len());
     let mut rest = moves;
@@ -88,7 +90,7 @@ fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
     kept
 }
 
-/// Whether a place is the other or straight above it.
+/// Whether a position equals another one or is straight above it.
 fn is_above(place: &Position, other: &Position, slack: f64) -> bool {
     is_over(&place.at, &other.at, slack) && place.z() >= other.z() - slack
 }
@@ -97,13 +99,13 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     (a[0] - b[0]).abs() <= slack && (a[1] - b[1]).abs() <= slack
 }
 
-/// How many of the moves at the beginning make these cuts.
+/// Number of moves at the beginning that make these cuts.
 fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<usize> {
-    // A move to an unknown place is none of the job's cuts; whether it may be a way is for the check of ways to say.
+    // A move to an unknown position is not a cut of the job. The check of ways decides whether it is allowed.
     let (run, _) = split(found, |it| !is_rapid(it) && it.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
         None => Ok(run.len()),
-        // What comes after them may be a way that the post goes by feed.
+        // The remaining moves may be a way that the post follows at feed.
         Some(Difference { found: Some(next), expected: None, .. }) => {
             Ok(run.iter().position(|it| *it == next).unwrap_or(run.len()))
         }
@@ -111,7 +113,7 @@ fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<
     }
 }
 
-/// What is said of a difference: the program that the text is held against has no lines.
+/// Converts a difference to a diagnostic. The job, which the text is compared with, has no lines.
 fn said(difference: &Difference) -> Diagnostic {
     let said = match (&difference.found, &difference.expected) {
         (Some((_, found)), Some((_, expected))) => match difference.kind {
@@ -140,13 +142,13 @@ fn said(difference: &Difference) -> Diagnostic {
     }
 }
 
-/// A cut behind the last one.
+/// Reports a cut after the last one of the job.
 fn too_far(cut: (u32, Move)) -> Box<Diagnostic> {
     let found = Some(cut);
     Box::new(said(&Difference { kind: DifferenceKind::Place, found, expected: None }))
 }
 
-/// Where a move ends. Axes that are not known are left out.
+/// The end of a move, without unknown axes.
 fn place(it: &Move) -> Value {
     place_of(&it.to)
 }
@@ -161,18 +163,18 @@ fn place_of(at: &Position) -> Value {
     Value::quoted(known.join(" "))
 }
 
-/// The job's rapid moves between two cuts.
+/// The rapids of the job between two cuts.
 struct Way<'m> {
     expected: Moves<'m>,
     clearance: f64,
     slack: f64,
-    /// Where they run: a way may have thousands, and each move that is found asks for those near it.
+    /// Spatial index of the moves: there may be thousands, and each parsed move looks for those nearby.
     places: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
 impl<'m> Way<'m> {
     fn new(expected: Moves<'m>, clearance: f64, slack: f64) -> Self {
-        // The same move again says nothing more.
+        // Repeated moves add no information.
         let mut seen = HashSet::new();
         let mut is_new = |it: &Move| {
             let places = [it.from, it.to].map(|at| (at.known, at.at.map(f64::to_bits)));
@@ -186,7 +188,7 @@ impl<'m> Way<'m> {
         Self { expected, clearance, slack, places }
     }
 
-    /// The moves that may run over some place between two corners.
+    /// The moves that may pass over the rectangle between two corners.
     fn near(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = &Move> {
         let [low, high] = [f64::min as fn(f64, f64) -> f64, f64::max]
             .map(|choose| [0, 1].map(|axis| choose(corners[0][axis], corners[1][axis])));
@@ -194,7 +196,7 @@ impl<'m> Way<'m> {
         self.places.locate_in_envelope_intersecting(area).map(|place| &self.expected[place.data].1)
     }
 
-    /// How many of the moves at the beginning lead to where the next cut begins.
+    /// Number of moves at the beginning that lead to the start of the next cut.
     fn length(&self, found: Moves<'_>, next: &(u32, Move)) -> Checked<usize> {
         let begin = &next.1.from;
         if begin.known != Axes::ALL {
@@ -220,7 +222,7 @@ impl<'m> Way<'m> {
         Box::new(said(&Difference { kind: DifferenceKind::Place, found, expected }))
     }
 
-    /// Whether moves touch nothing that the job does not.
+    /// Checks that moves touch nothing that the job does not touch.
     fn check(&self, found: Moves<'_>) -> Checked<()> {
         let mut is_home = false;
         for &(line, it) in found {
@@ -236,13 +238,13 @@ impl<'m> Way<'m> {
             if !is_fine {
                 return Err(self.not_free(line, &it));
             }
-            // Behind a move to a place of the machine its height is not known, but above everything.
+            // After a move to a machine position the height is unknown, but above everything.
             is_home = !it.to.known.has(Axes::Z) && (it.named.is_some() || is_home);
         }
         Ok(())
     }
 
-    /// A move between two cuts that the job does not make, and that may meet material.
+    /// Reports a move between two cuts that the job does not contain and that may hit material.
     fn not_free(&self, line: u32, it: &Move) -> Box<Diagnostic> {
         if !is_rapid(it) && self.expected.is_empty() {
             return too_far((line, *it));
@@ -252,8 +254,9 @@ impl<'m> Way<'m> {
         Box::new(diagnostic.at_line(line, None))
     }
 
-    /// Behind the last cut: no more cuts, and the tool ends as high as in the job. A rapid of the job may be written as a feed, as between
-    /// two cuts.
+    /// Checks the moves after the last cut: there must be no further cuts, and the tool must end as high as in the job. As between two
+    /// cuts,
+    /// a rapid of the job may be written as a feed.
     fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
         let is_high = |it: &Move| it.from.z().min(it.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, it)| !is_rapid(it) && is_high(it)) {
@@ -267,7 +270,7 @@ impl<'m> Way<'m> {
         if is_high { Ok(()) } else { Err(self.difference(found.last().copied(), None)) }
     }
 
-    /// Whether it is one of the job's own rapid moves, from wherever that begins.
+    /// Whether a move is one of the job's own rapids, regardless of its start.
     fn is_expected(&self, it: &Move) -> bool {
         let is_same = |a: &Position, b: &Position| {
             let is_near =
@@ -281,14 +284,14 @@ impl<'m> Way<'m> {
                 .any(|expected| is_same(&expected.from, &it.from) && is_same(&expected.to, &it.to))
     }
 
-    /// Straight up to a place of the machine.
+    /// Whether a move leads straight up to a machine position.
     fn is_lift(&self, it: &Move) -> bool {
         let stays = it.to.known.has(Axes::XY) && is_over(&it.from.at, &it.to.at, self.slack);
         let is_unknown = !it.from.known.has(Axes::XY) && !it.to.known.has(Axes::XY);
         (stays || is_unknown) && !it.to.known.has(Axes::Z)
     }
 
-    /// Whether nothing stands in the way of a straight move.
+    /// Whether a straight move is free of obstacles.
     fn is_free(&self, it: &Move, is_home: bool) -> bool {
         let height = |at: &Position| {
             if at.known.has(Axes::Z) { Some(at.z()) } else { is_home.then_some(f64::INFINITY) }
@@ -307,7 +310,7 @@ impl<'m> Way<'m> {
             return true;
         }
         if it.from.known.and(it.to.known) != Axes::ALL {
-            // Over a known place from a height that is above everything.
+            // Above a known position, coming from a height above everything.
             return it.to.known == Axes::ALL
                 && is_upright
                 && self.floor(&it.to.at).is_some_and(|floor| lowest >= floor - self.slack);
@@ -321,14 +324,14 @@ impl<'m> Way<'m> {
         self.is_covered(&it.from.at, &it.to.at)
     }
 
-    /// The straight moves of the job between places that are known, where they may run over a place between two corners.
+    /// The straight moves of the job between known positions that may pass over the rectangle between two corners.
     fn legs(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         self.near(corners)
             .filter(|it| it.from.known.and(it.to.known) == Axes::ALL && it.named.is_none())
             .map(|it| (it.from.at, it.to.at))
     }
 
-    /// The lowest height at which the job is over a place.
+    /// The lowest height of the job above a position.
     fn floor(&self, place: &[f64; 3]) -> Option<f64> {
         let here = [[place[0], place[1]]; 2];
         let ends = self.near(here).map(|it| it.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
@@ -342,7 +345,7 @@ impl<'m> Way<'m> {
         over.chain(along).reduce(f64::min)
     }
 
-    /// Whether all of a straight move that is below the clearance plane runs above moves of the job.
+    /// Whether the part of a straight move below the clearance plane runs entirely above moves of the job.
     fn is_covered(&self, from: &[f64; 3], to: &[f64; 3]) -> bool {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         let grain = self.slack / length;
@@ -356,7 +359,7 @@ impl<'m> Way<'m> {
         reached >= low[1] - grain
     }
 
-    /// The shares of a move between which it runs above a leg of the job.
+    /// The range of a move, as fractions of its length, in which it runs above a straight move of the job.
     fn span(
         &self,
         from: &[f64; 3],
@@ -377,12 +380,12 @@ impl<'m> Way<'m> {
     }
 }
 
-/// A place from above; what is not known of it is 0.
+/// A position seen from above; unknown coordinates are 0.
 fn in_plane(at: &Position) -> [f64; 2] {
     [0, 1].map(|axis| if at.known.has(Axes::of(axis)) { at.at[axis] } else { 0.0 })
 }
 
-/// The shares between which a height that changes evenly is below another.
+/// The range, as fractions, in which a linearly changing height is below another one.
 fn below(from: f64, to: f64, height: f64) -> [f64; 2] {
     let crossing = if from == to { 0.0 } else { ((height - from) / (to - from)).clamp(0.0, 1.0) };
     match (from < height, to < height) {
@@ -393,7 +396,7 @@ fn below(from: f64, to: f64, height: f64) -> [f64; 2] {
     }
 }
 
-/// Where, as a share of a line's length in the plane, a place is nearest to it; `None` for an upright line.
+/// The fraction of a line's length in the plane at which it is nearest to a position; `None` for a vertical line.
 fn share_of(from: &[f64; 3], to: &[f64; 3], place: &[f64; 3]) -> Option<f64> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let square = along[0] * along[0] + along[1] * along[1];

@@ -1,29 +1,29 @@
-//! Words of a written line, read leniently: whatever is no word is passed over.
+//! Parses the words of a written line leniently: anything that is not a word is skipped.
 
 /// A letter and its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Word {
-    /// Upper case.
+    /// In upper case.
     pub(crate) letter: char,
     pub(crate) number: f64,
 }
 
-/// What a line says to the machine.
+/// The words of a line.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Words {
     pub(crate) words: Vec<Word>,
-    /// Something in the line is neither a word nor a comment.
+    /// Whether the line contains something that is neither a word nor a comment.
     pub(crate) has_more: bool,
 }
 
-/// How comments begin and end. An empty end is the end of the line.
+/// The marks that begin and end a comment. An empty end mark is the end of the line.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CommentMarks {
     pub(crate) open: String,
     pub(crate) close: String,
 }
 
-/// The words of a line.
+/// Parses the words of a line.
 pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
     let mut found = Words::default();
     let mut rest = line.trim_start();
@@ -42,7 +42,7 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> Words {
 }
 
 impl CommentMarks {
-    /// The length of the sign that opens a comment here, and the sign that closes it: the definition's own, or a usual one.
+    /// Length of the mark that opens a comment here, and the mark that closes it: those of the definition, or usual ones.
     pub(crate) fn at(&self, text: &str) -> Option<(usize, &str)> {
         let own = (self.open.as_str(), self.close.as_str());
         let (open, close) = [own, ("(", ")"), (";", "")]

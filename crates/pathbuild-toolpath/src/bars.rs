@@ -4,20 +4,20 @@ use pathbuild_path::{Bars, Curve};
 
 use crate::mill::Section;
 
-/// The pieces of a curve along which bars are left standing, with a cutter of that diameter; all of it where there is no room for a gap.
+/// The parts of a curve along which bars are left standing with a cutter of diameter `tool`; the whole curve if there is no room for gaps.
 pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<Curve> {
     let Some(plan) = BarPlan::new(bars, bottom, tool, curve.length()) else { return vec![*curve] };
     let tops = plan.pieces.iter().filter(|piece| !piece.starts_low && !piece.ends_low);
     tops.map(|piece| curve.section(piece.from, piece.to)).collect()
 }
 
-/// Where a segment with bars is milled how deep, as positions along it in mm.
+/// How deep the parts of a segment with bars are milled, by position along the segment in mm.
 #[derive(Clone, Debug)]
 pub(crate) struct BarPlan {
     pieces: Vec<BarSpan>,
 }
 
-/// From `from` to `to` along the segment; a slope goes from one level to the other.
+/// A range of positions along the segment. A slope leads from one level to the other.
 #[derive(Clone, Copy, Debug)]
 struct BarSpan {
     from: f64,
@@ -27,15 +27,15 @@ struct BarSpan {
 }
 
 impl BarPlan {
-    /// The plan for a segment of this length with B at `bottom`; `None` where there is no room for a gap: the segment then stays at the
-    /// bars' height.
+    /// Plans a segment of this length with B at `bottom`. Returns `None` if there is no room for gaps, so that the whole segment remains at
+    /// the height of the bars.
     pub(crate) fn new(bars: &Bars, bottom: f64, tool: f64, length: f64) -> Option<Self> {
         let count = bars.count(length);
         if count <= 0.0 {
             return None;
         }
         let pitch = length / count;
-        // Slopes of 45 degrees where there is room, else steeper.
+        // The slopes have 45 degrees if there is room for that, otherwise they are steeper.
         let slope = (bars.top - bottom).min(bars.length / 2.0).min((pitch - bars.length - tool) / 2.0);
         let edge = bars.length / 2.0 + tool / 2.0;
         let between = (pitch - bars.length - 2.0 * slope - tool).max(0.0);
@@ -57,7 +57,7 @@ impl BarPlan {
         Some(plan)
     }
 
-    /// Down, between, up; gives where it ends.
+    /// Adds a gap: down, along the bottom, and up. Returns its end position.
     fn gap(&mut self, start: f64, slope: f64, between: f64) -> f64 {
         let (low, high) = (start + slope, start + slope + between);
         self.piece(start, low, false, true);
@@ -70,7 +70,7 @@ impl BarPlan {
         self.pieces.push(BarSpan { from, to, starts_low, ends_low });
     }
 
-    /// The sections along a curve, in order from its start, low parts at `low` and bars at `high`.
+    /// The sections along a curve in order from its start, with gaps at `low` and bars at `high`.
     pub(crate) fn sections(&self, curve: &Curve, low: f64, high: f64) -> Vec<Section> {
         let level = |is_low| if is_low { low } else { high };
         let section = |piece: &BarSpan| Section {

@@ -1,4 +1,4 @@
-//! Milling chains, pass by pass. (book: program/gcode)
+//! Milling chains, milled pass by pass. (book: program/gcode)
 
 use pathbuild_path::approx::{above, at_least, coincide, near};
 use pathbuild_path::{Chain, ChainSegment, Curve, Cut};
@@ -9,22 +9,22 @@ use crate::mill::Section;
 use crate::nearest::OpenEdges;
 use crate::program::ElementKind;
 
-/// A segment of the chain, placed, with the depths of its edges from top to bottom.
+/// A segment of the chain in program coordinates, with the depths of its edges from top to bottom.
 pub(crate) struct Strand<'a> {
-    /// Q.
+    /// The comment (Q).
     comment: Option<&'a str>,
     pub(crate) curve: Curve,
     pub(crate) depths: Vec<f64>,
-    /// h + B, or h + D of a mark.
+    /// Depth of the segment: h + B, or h + D for a mark.
     bottom: f64,
-    /// h + D and where the bars are, for segments with bars; no plan where nothing goes below D.
+    /// For segments with bars, h + D and the positions of the bars. The plan is `None` if nothing is milled below D.
     bars: Option<(f64, Option<BarPlan>)>,
     feed: f64,
-    /// Index into [`Drawn::elements`](pathbuild_path::Drawn::elements).
+    /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements).
     element: u32,
 }
 
-/// An edge to run: a strand at one of its depths, from its start or from its end.
+/// An edge to be milled: a strand at one of its depths, in one of the two directions.
 #[derive(Clone, Copy)]
 pub(crate) struct Run {
     pub(crate) strand: usize,
@@ -71,7 +71,7 @@ impl<P: Parts> Fold<'_, P> {
         }
     }
 
-    /// Edges in the order of the nearest end, each after the one above it.
+    /// Mills the edge with the nearest end first; each edge only after the one above it.
     fn pass_by_pass(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
@@ -96,7 +96,7 @@ impl<P: Parts> Fold<'_, P> {
         self.travel(Tip { at: end, z: place.sweep_height }, place.surface, place.sweep_height, place.feed);
     }
 
-    /// To and fro in the groove, without leaving it.
+    /// Mills to and fro in the groove without leaving it.
     fn sweepless(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
         let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());
@@ -126,12 +126,12 @@ impl<P: Parts> Fold<'_, P> {
         self.edge(place, strand, z, run.is_backwards);
     }
 
-    /// The feed of a plunge to where an edge begins.
+    /// The feed of the plunge to the start of an edge.
     fn entry_feed(&self, place: &PlacedPath<'_>, strand: &Strand<'_>) -> f64 {
         if self.compatible { place.feed } else { place.feed.min(strand.feed) }
     }
 
-    /// Mills a segment once at a depth, its bars spared.
+    /// Mills a segment at one depth, except for its bars.
     fn edge(&mut self, place: &PlacedPath<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
         self.question(strand.comment);
         for section in strand.sections(z, is_backwards) {
@@ -141,13 +141,13 @@ impl<P: Parts> Fold<'_, P> {
 }
 
 impl Strand<'_> {
-    /// Where a run begins and where it ends.
+    /// Start and end of a run.
     fn ends(&self, is_backwards: bool) -> (pathbuild_path::Xy, pathbuild_path::Xy) {
         let (start, end) = (self.curve.start(), self.curve.end());
         if is_backwards { (end, start) } else { (start, end) }
     }
 
-    /// The height at which the tool comes to its end for a run at depth `z`.
+    /// The height at which the tool arrives at the start of a run at depth `z`.
     fn entry(&self, z: f64, compatible: bool) -> f64 {
         match &self.bars {
             Some((top, _)) if !compatible => z.max(*top),
@@ -176,7 +176,7 @@ impl Strand<'_> {
     }
 }
 
-/// Depths from the first down to the bottom, by subtracting again and again.
+/// Depths from the first to the bottom, computed by repeated subtraction.
 fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
     let mut depths = Vec::new();
     let mut z = first;

@@ -1,4 +1,4 @@
-//! Where moves are corrected, and how they are cut for it. (book: language/probes)
+//! Which moves are corrected by probes, and how they are split for that. (book: language/probes)
 
 use std::borrow::Cow;
 
@@ -11,36 +11,36 @@ use crate::z_model::{Tin, ZModel};
 /// How the heights of a program with probes are corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
-    /// What the material is taken for between the probes.
+    /// Model of the surface between the probes.
     pub model: ZModel,
-    /// The longest piece in mm that is corrected as one; 0: moves are never cut.
+    /// Maximum length in mm of a part that is corrected as a whole; with 0, moves are never split.
     pub longest: f64,
 }
 
-/// A place that is milled outside the probes.
+/// A point outside the probes at which the program mills.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outside {
-    /// Where, in the program.
+    /// The point in program coordinates.
     pub at: Xy,
-    /// How far outside their hull, in mm.
+    /// Distance from the convex hull of the probes, in mm.
     pub distance: f64,
 }
 
-/// Milling so little outside the probes, in mm, is not worth a word: the program's numbers have no more digits.
+/// Milling less than this far outside the probes, in mm, is not reported. Numbers in programs are not more precise.
 const NEGLIGIBLE: f64 = 0.001;
 
-/// The piece length that is looked at for [`Correction::outside`], where moves are not cut.
+/// Part length used for [`Correction::outside`] if moves are not split.
 const LOOKED_AT: f64 = 20.0;
 
 impl Correction {
-    /// Whether it is that of the original tool, which corrects a move by what holds where the move begins, and a helical circle by what
-    /// holds at its centre.
+    /// Whether the correction is that of the original tool, which corrects a move by the value at its start, and a helical circle by the
+    /// value at its centre.
     pub fn is_compatible(self) -> bool {
         self.model == ZModel::Idw4 && self.longest <= 0.0
     }
 
-    /// The steps of a program with probes as they are corrected: cut, and each height corrected at its own move's end. Other programs,
-    /// and those that are corrected as the original tool does, stay as they are.
+    /// The steps of a program with probes, split and with each height corrected at the end of its move. Programs without probes, and those
+    /// corrected as by the original tool, are returned unchanged.
     pub fn steps(self, program: &Program) -> Cow<'_, [Step]> {
         if program.probes.is_empty() || self.is_compatible() {
             return Cow::Borrowed(&program.steps);
@@ -48,7 +48,7 @@ impl Correction {
         Cow::Owned(cut(program, self.longest).collect())
     }
 
-    /// How many steps [`steps`](Self::steps) gives, without making them; saturates.
+    /// Number of steps returned by [`steps`](Self::steps), without computing them; saturates.
     pub fn count(self, program: &Program) -> u64 {
         if program.probes.is_empty() || self.is_compatible() {
             return program.steps.len() as u64;
@@ -59,7 +59,8 @@ impl Correction {
         steps.fold(0, u64::saturating_add)
     }
 
-    /// Where the program mills farthest outside the probes, if it does. Only for models to which that matters.
+    /// The point at which the program mills farthest outside the probes, if there is one. Only for models whose values there are
+    /// unreliable.
     pub fn outside(self, program: &Program) -> Option<Outside> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;
@@ -74,7 +75,7 @@ impl Correction {
     }
 }
 
-/// The steps of a program, cut.
+/// The steps of a program after splitting.
 fn cut(program: &Program, longest: f64) -> impl Iterator<Item = Step> + '_ {
     walk(program, longest).flat_map(|(before, cut)| {
         let pieces = cut.into_iter().flat_map(|cut| (1..=cut.pieces()).map(move |number| cut.piece(number)));
@@ -82,7 +83,7 @@ fn cut(program: &Program, longest: f64) -> impl Iterator<Item = Step> + '_ {
     })
 }
 
-/// What becomes of each step: a step as it is written, and a move that may be cut.
+/// Yields each step, either as it is or as a move to be split.
 fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Step>, Option<Cut>)> {
     let mut tool = Tool { at: Xy::origin(), z: program.start_height() };
     let mut is_settled = true;
@@ -99,14 +100,14 @@ fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Step>, 
     })
 }
 
-/// After a sweep the tool still has the height of where it came from. What is milled from there on at once, as a helical circle is, has to
-/// begin at the height of where it begins.
+/// After a sweep the tool is still at the corrected height of its previous position. A step that mills at once, such as a helical
+/// circle, must begin at the height corrected for its own position.
 fn settle(tool: Tool) -> Step {
     let count = Count { class: Class::Sweep, length: 0.0, feed: None };
     Step::Move { to: Move::Lift { z: Height { z: tool.z, at: tool.at } }, count }
 }
 
-/// Where a step cuts material.
+/// The point at which a step cuts material.
 fn milled(step: &Step) -> Option<Xy> {
     match step {
         Step::Move { to: Move::Line { to, .. } | Move::Arc { to, .. }, .. } => Some(*to),

@@ -1,4 +1,4 @@
-//! How many moves a path comes to, before they are made: limits are known before the fold starts.
+//! Estimates the number of moves of a path before they are computed, so that limits can be checked first.
 
 use std::ptr;
 
@@ -6,12 +6,12 @@ use pathbuild_path::{Chain, ChainSegment, CutParameters, Helix, Item, Path, Walk
 
 use crate::program::Step;
 
-/// About how many moves a path has without what it embeds: never fewer than half of them, saturating.
+/// Approximate number of moves of a path without its embedded paths: never less than half the real number; saturates.
 pub fn own_moves(path: &Path, walked: &WalkedPath) -> u64 {
     walked.items.iter().map(|item| moves(path, walked, item)).fold(0, u64::saturating_add)
 }
 
-/// About how many bytes so many moves take in a program, with a comment each.
+/// Approximate memory in bytes for this number of moves in a program, each with a comment.
 pub fn memory(moves: u64) -> u64 {
     moves.saturating_mul(2 * size_of::<Step>() as u64)
 }
@@ -26,7 +26,7 @@ fn moves(path: &Path, walked: &WalkedPath, item: &Item) -> u64 {
 
 fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
     let first = chain.first_depth.unwrap_or(path.thickness);
-    // Those that follow each other mostly share their parameters.
+    // Consecutive segments usually share their parameters.
     let mut last: Option<(&CutParameters, u64)> = None;
     let segments = members.iter().map(|member| {
         let cut = member.cut(path);

@@ -1,4 +1,4 @@
-//! The fold: one walk over a path and what it embeds that carries the tool's position.
+//! The fold: a single walk over a path and its embedded paths that keeps track of the position of the tool.
 
 use std::collections::BTreeMap;
 
@@ -14,30 +14,30 @@ use crate::program::{
 };
 use crate::trace::{Drawn, Occurrence, Trace};
 
-/// The paths that are joined: the emitted one and all it embeds.
+/// Provides the paths to be joined: the emitted path and all paths it embeds.
 pub trait Parts {
-    /// Names a path with its variables bound.
+    /// Identifies a path with given values of its variables.
     type Id: Copy;
 
-    /// The path.
+    /// Returns the path.
     fn path(&self, id: Self::Id) -> &Path;
 
-    /// What is done along it.
+    /// Returns the walk along the path.
     fn walked(&self, id: Self::Id) -> &WalkedPath;
 
-    /// What a subpath segment of it (an index into [`Path::segments`]) embeds.
+    /// Returns the path embedded by a subpath segment, which is given as an index into [`Path::segments`].
     fn embedded(&self, id: Self::Id, segment: usize) -> Option<Self::Id>;
 
-    /// Called now and then: the place to unwind from when the result is no longer wanted.
+    /// Called regularly. Implementations may unwind here if the result is no longer needed.
     fn checkpoint(&self) {}
 }
 
-/// Makes the program of a path, of about so many moves. Every path in it must be free of errors.
+/// Computes the program of a path. `moves` is an estimate of the number of moves. None of the paths may have errors.
 pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: PathOptions, moves: u64) -> Program {
     folded(parts, root, drawing, options, moves, None).0
 }
 
-/// The same, and where each step comes from.
+/// Like [`fold`], but also returns the origin of each step.
 pub fn fold_traced<P: Parts>(
     parts: &P,
     root: P::Id,
@@ -92,10 +92,10 @@ fn folded<P: Parts>(
     (program, fold.trace)
 }
 
-/// For so many moves there is room from the beginning: beyond, growing costs little against making them.
+/// Maximum number of steps for which memory is reserved in advance. Beyond that, growing is cheap compared with computing the steps.
 const MOST_FORESEEN: usize = 1 << 16;
 
-/// Where the tool is.
+/// Position of the tool tip.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
     pub(crate) at: Xy,
@@ -105,10 +105,10 @@ pub(crate) struct Tip {
 pub(crate) struct Fold<'a, P: Parts> {
     parts: &'a P,
     options: PathOptions,
-    /// F where neither an element nor its path gives one.
+    /// F for elements without a feed in paths without a feed.
     feed: f64,
     pub(crate) compatible: bool,
-    /// S of the emitted path: from there on nothing is in the way.
+    /// S of the emitted path, above which there are no obstacles.
     clearance: f64,
     /// F of the last move that had one.
     last_feed: f64,
@@ -116,28 +116,28 @@ pub(crate) struct Fold<'a, P: Parts> {
     steps: Vec<Step>,
     names: Names,
     probes: Vec<ProbePoint>,
-    /// By path.
+    /// By name of the path.
     left_out: BTreeMap<Box<str>, LeftOut>,
-    /// The last sweep, while nothing but comments follow it: another sweep replaces it.
+    /// Index of the last sweep as long as only comments follow it; another sweep replaces it.
     mergeable: Option<usize>,
-    /// The element that is gone along.
+    /// The current element.
     here: Drawn,
-    /// Where somebody wants to see where steps come from.
+    /// Records the origin of the steps, if requested.
     trace: Option<Trace<P::Id>>,
 }
 
-/// A path where it is placed: heights are absolute, lengths in mm.
+/// A path at its place in the program, with absolute heights and lengths in mm.
 #[derive(Clone, Copy)]
 pub(crate) struct PlacedPath<'a> {
     pub(crate) path: &'a Path,
     pub(crate) placement: Placement,
-    /// h: what the path is raised by.
+    /// Height h by which the path is raised.
     pub(crate) raised: f64,
     /// h + T.
     pub(crate) surface: f64,
     /// h + S.
     pub(crate) sweep_height: f64,
-    /// F of the path, or --feed.
+    /// F of the path, or the default feed (--feed).
     pub(crate) feed: f64,
 }
 
@@ -186,7 +186,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.here = outside;
     }
 
-    /// Notes what the path's layers hold beside its elements.
+    /// Records what the layers of the path contain besides its elements.
     fn note_left_out(&mut self, path: &Path) {
         if path.left_out.is_empty() {
             return;
@@ -200,7 +200,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         });
     }
 
-    /// What follows belongs to that path; gives what it belonged to so far.
+    /// Makes the given path the current one and returns the previous element.
     fn enter(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> Drawn {
         let outside = self.here;
         if let Some(trace) = &mut self.trace {
@@ -212,13 +212,14 @@ impl<'a, P: Parts> Fold<'a, P> {
         outside
     }
 
-    /// What follows belongs to that element of the path.
+    /// Makes the given element of the path the current one.
     pub(crate) fn along(&mut self, element: u32) {
         self.here.element = Some(element);
     }
 
-    /// The embedded path begins exactly at the segment's start; what follows it begins at the segment's end, though it may have ended
-    /// 0.001 mm beside that.
+    /// Adds an embedded path, which begins exactly at the start of the segment. The next element begins at the end of the segment, even if
+    /// the
+    /// embedded path ended up to 0.001 mm beside it.
     fn subpath(&mut self, outer: &PlacedPath<'a>, id: P::Id, subpath: &PlacedSubpath) {
         let Some(embedded) = self.parts.embedded(id, subpath.segment) else { return };
         let SegmentKind::Subpath(parameters) = &outer.path.segments[subpath.segment].kind else { return };
@@ -238,7 +239,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.travel(to, place.surface, height, place.feed);
     }
 
-    /// The tool stays at the bottom; what follows retracts it.
+    /// Drills a hole. The tool stays at the bottom; the next element retracts it.
     fn hole(&mut self, place: &PlacedPath<'_>, origin: &Origin, hole: &Hole) {
         let bottom = place.raised + hole.bottom;
         self.element(ElementKind::DrilledHole, origin, bottom, place, hole.peck);
@@ -259,7 +260,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.plunge(to.z, surface, feed);
     }
 
-    /// Up or down where the tool stands: fast above the material, drilling below its surface.
+    /// Moves up or down at the current point: rapidly above the material, drilling below its surface.
     pub(crate) fn plunge(&mut self, to: f64, surface: f64, feed: f64) {
         let from = self.tip.z;
         if near(from, to) {
@@ -274,24 +275,24 @@ impl<'a, P: Parts> Fold<'a, P> {
         if !near(to, surface) {
             let z = Height { z: to, at: self.tip.at };
             let count = Count { class: Class::Drilling, length: (surface - to).abs(), feed: Some(feed) };
-            // The original tool names no feed, so its plunges run at the last one.
+            // The original tool writes no feed, so its plunges run at the previous feed.
             let feed = if self.compatible { self.last_feed } else { feed };
             self.step(Move::Drill { feed, z }, count, Tip { z: to, ..self.tip });
         }
     }
 
-    /// `G00 Z` to a height, counted with a length of its own.
+    /// Adds `G00 Z`; `length` is the length used for statistics.
     pub(crate) fn lift(&mut self, to: f64, length: f64) {
         self.lift_corrected_at(to, self.tip.at, length);
     }
 
-    /// The same with the height corrected by the probes round another point: a helical circle's centre.
+    /// The same, with the height corrected by the probes around another point, the centre of a helical circle.
     pub(crate) fn lift_corrected_at(&mut self, to: f64, at: Xy, length: f64) {
         let count = Count { class: Class::Sweep, length, feed: None };
         self.step(Move::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
     }
 
-    /// `G00 X Y`. Of several with nothing but comments between only the last is kept, where nothing can be in the way.
+    /// Adds `G00 X Y`. Of several sweeps separated only by comments, the last one is kept, provided that there cannot be obstacles.
     pub(crate) fn sweep(&mut self, to: Xy, length: f64) {
         if let Some(index) = self.mergeable.take() {
             self.steps.remove(index);
@@ -306,7 +307,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.mergeable = is_clear.then_some(index);
     }
 
-    /// Writes a move down.
+    /// Adds a move.
     pub(crate) fn step(&mut self, to: Move, count: Count, tip: Tip) {
         self.mergeable = None;
         if let Move::Line { feed, .. } | Move::Arc { feed, .. } = to {
@@ -327,7 +328,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         }
     }
 
-    /// `(Q:...)`, where there is one.
+    /// Adds the comment `(Q:...)`, if there is one.
     pub(crate) fn question(&mut self, text: Option<&str>) {
         if let Some(text) = text {
             let name = self.names.intern(text);
@@ -335,7 +336,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         }
     }
 
-    /// Says which drawn element begins.
+    /// Adds a comment for the start of a drawn element.
     pub(crate) fn element(
         &mut self,
         kind: ElementKind,
@@ -355,12 +356,12 @@ impl<'a, P: Parts> Fold<'a, P> {
         });
     }
 
-    /// Says which pass begins.
+    /// Adds a comment for the start of a pass.
     pub(crate) fn pass(&mut self, number: u32, z: f64) {
         self.comment(Comment::Pass { number, z });
     }
 
-    /// A segment's feed, or --feed.
+    /// The feed of a segment, or the default feed (--feed).
     pub(crate) fn feed(&self, own: Option<f64>) -> f64 {
         own.unwrap_or(self.feed)
     }
@@ -370,7 +371,7 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 }
 
-/// The distance in space.
+/// Distance in space.
 pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
     let (plane, height) = ((b.at - a.at).norm_squared(), b.z - a.z);
     libm::sqrt(plane + height * height)

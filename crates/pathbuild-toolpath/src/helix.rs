@@ -9,7 +9,7 @@ use crate::bars::BarPlan;
 use crate::fold::{Fold, Parts, PlacedPath, Tip};
 use crate::program::{Class, Count, ElementKind, Height, Move};
 
-/// The circle that the cutter's centre runs on, placed in the program.
+/// The circle followed by the cutter's centre, in program coordinates.
 #[derive(Clone, Copy)]
 struct Circle {
     centre: Xy,
@@ -63,7 +63,7 @@ impl<P: Parts> Fold<'_, P> {
         self.sweep(circle.centre, circle.radius);
     }
 
-    /// Half circles down to the bottom, the last two at it. Gives the depth at which the last full circle began.
+    /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth at which the last full circle began.
     fn spiral(&mut self, circle: &Circle, surface: f64, infeed: f64, bottom: f64) -> f64 {
         let mut depth = surface;
         if at_least(bottom, surface) {
@@ -94,7 +94,8 @@ impl<P: Parts> Fold<'_, P> {
         self.step(half, count, Tip { at: to, z });
     }
 
-    /// Below D, full circles with bars, pass by pass down to B. Gives the depth of the last, or of the spiral where there is none.
+    /// Mills full circles with bars below D, pass by pass down to B. Returns the depth of the last one, or that of the spiral if there is
+    /// none.
     fn circles_with_bars(
         &mut self,
         place: &PlacedPath<'_>,
@@ -106,7 +107,7 @@ impl<P: Parts> Fold<'_, P> {
         let length = 2.0 * PI * circle.radius;
         let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
         let (low, high) = (place.raised + depth, place.raised + bars.top);
-        // The original tool goes on counting where its spiral ended, which may be below B already.
+        // The original tool continues from the end of its spiral, which may already be below B.
         let mut z = if self.compatible { done } else { high };
         while above(z, low) {
             self.checkpoint();

@@ -1,7 +1,7 @@
 //! The moves of a path, and the fold that places, joins and merges them into a program.
 //!
-//! [`fold`] goes through a path and all that it embeds and writes down every step of the machine, each with its numbers. What is known
-//! of the embedded paths it asks of a [`Parts`]. Nothing here formats text. (book: program/gcode, book: language/probes)
+//! [`fold`] walks over a path and all its embedded paths and records every step of the machine. It gets the embedded paths from a
+//! [`Parts`]. This crate does not format text. (book: program/gcode, book: language/probes)
 
 mod bars;
 mod chain;

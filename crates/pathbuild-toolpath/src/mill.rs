@@ -5,7 +5,7 @@ use pathbuild_path::Curve;
 use crate::fold::{Fold, Parts, Tip};
 use crate::program::{Class, Count, Height, Move};
 
-/// A piece of a segment with the heights of its ends, in mm.
+/// A part of a segment with the heights at its ends, in mm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Section {
     pub(crate) curve: Curve,
@@ -14,14 +14,14 @@ pub(crate) struct Section {
 }
 
 impl Section {
-    /// Run the other way.
+    /// The section in the opposite direction.
     pub(crate) fn reversed(self) -> Self {
         Self { curve: self.curve.reversed(), from_z: self.to_z, to_z: self.from_z }
     }
 }
 
 impl<P: Parts> Fold<'_, P> {
-    /// Mills a section (placed in the program) after coming to its height where it begins.
+    /// Mills a section, which is in program coordinates, after moving to the height of its start.
     pub(crate) fn mill(&mut self, section: &Section, surface: f64, feed: f64) {
         self.plunge(section.from_z, surface, feed);
         let to = section.curve.end();

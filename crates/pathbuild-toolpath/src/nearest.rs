@@ -1,8 +1,9 @@
-//! The edge that is nearest to the tool tip. (book: program/gcode)
+//! Finds the edge nearest to the tool tip. (book: program/gcode)
 //!
-//! Distances are compared approximately, which is not transitive: the choice is that of one scan in segment order. Only edges near the
-//! tip can matter to that scan, and of edges that begin at one point and one depth only the first: an R-tree of points finds them, so that
-//! neither a chain of many thousand segments nor a star of them takes the square of their number.
+//! Distances are compared approximately, which is not transitive, so the result is defined by a single scan in segment order. Only edges
+//! near
+//! the tip can affect that scan, and only the first of the edges that begin at the same point and depth. An R-tree of points finds them,
+//! which avoids quadratic time for chains or stars of many thousand segments.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,10 +17,10 @@ use rstar::primitives::GeomWithData;
 use crate::chain::{Run, Strand};
 use crate::fold::{Tip, distance};
 
-/// The edges of a chain that are still to be milled.
+/// The edges of a chain that have not been milled yet.
 pub(crate) struct OpenEdges<'a> {
     strands: &'a [Strand<'a>],
-    /// How many edges of each strand are done, from the top.
+    /// Number of edges of each strand that are done, counted from the top.
     done: Vec<usize>,
     /// Both ends of each strand, as indices into `points`.
     ends: Vec<[usize; 2]>,
@@ -27,14 +28,14 @@ pub(crate) struct OpenEdges<'a> {
     tree: RTree<GeomWithData<[f64; 2], usize>>,
 }
 
-/// Where strands end.
+/// An end point of one or more strands.
 struct Point {
     at: Xy,
-    /// The strands of which edges are left, by the depth of their next one.
+    /// The strands with edges left, by the depth of their next edge.
     levels: BTreeMap<Coordinate, BTreeSet<usize>>,
 }
 
-/// A coordinate in mm that is a key.
+/// A coordinate in mm that can be used as a key.
 #[derive(Clone, Copy)]
 struct Coordinate(f64);
 
@@ -56,7 +57,8 @@ impl<'a> OpenEdges<'a> {
         open
     }
 
-    /// Takes the next edge: of those whose edge above is done, the one with an end nearest to the tip; the first on a tie.
+    /// Takes the next edge: among those whose upper edges are done, the one with an end nearest to the tip, and the first of these if there
+    /// are several.
     pub(crate) fn take_nearest(&mut self, tip: Tip) -> Option<Run> {
         let mut best: Option<(f64, Run)> = None;
         for index in self.contenders(tip) {
@@ -76,7 +78,7 @@ impl<'a> OpenEdges<'a> {
         Some(run)
     }
 
-    /// A strand's next edge, and how far its nearer end is.
+    /// The next edge of a strand, and the distance to its nearer end.
     fn run(&self, index: usize, tip: Tip) -> (f64, Run) {
         let (strand, edge) = (&self.strands[index], self.done[index]);
         let to = |at: Xy| distance(tip, Tip { at, z: strand.depths[edge] });
@@ -86,9 +88,9 @@ impl<'a> OpenEdges<'a> {
         (least, Run { strand: index, edge, is_backwards })
     }
 
-    /// The strands that decide the scan, in segment order: the nearest, and those that cannot be told from it, from one to the next.
-    /// Whatever is farther than the first gap that comparing tells is passed over in any order, and so is a strand behind another one
-    /// that is as far.
+    /// The strands that decide the scan, in segment order: the nearest ones, and those that cannot be distinguished from these or from each
+    /// other. Strands beyond the first distinguishable gap are skipped in any order, as well as those after another one at the same
+    /// distance.
     fn contenders(&self, tip: Tip) -> Vec<usize> {
         let place = [tip.at.x, tip.at.y];
         let mut found: Vec<(f64, usize)> = Vec::new();
@@ -96,7 +98,8 @@ impl<'a> OpenEdges<'a> {
         if let Some(nearest) = self.tree.nearest_neighbor(place) {
             self.look(nearest.data, tip, &mut found, &mut reach);
         }
-        // The distance in space is at least that in the plane. To ask for one point after the other would sort all that are as far.
+        // The distance in space is at least the distance in the plane. Asking for points one by one would sort all those at equal
+        // distance.
         for point in self.tree.locate_within_distance(place, reach * reach) {
             self.look(point.data, tip, &mut found, &mut reach);
         }
@@ -107,7 +110,7 @@ impl<'a> OpenEdges<'a> {
             Some((farthest, _)) if above(reach, *farthest) => {
                 found[..=last].iter().map(|(_, strand)| *strand).collect()
             }
-            // Edge upon edge within the tolerance, as far as was looked: then all are scanned.
+            // If edges are within the tolerance of each other as far as the search reached, all of them are scanned.
             _ => (0..self.strands.len()).filter(|index| self.is_open(*index)).collect(),
         };
         contenders.sort_unstable();
@@ -115,7 +118,7 @@ impl<'a> OpenEdges<'a> {
         contenders
     }
 
-    /// Finds the first strand of each depth at a point, as far as the reach, which becomes smaller.
+    /// Finds the first strand of each depth at a point within the reach, and reduces the reach accordingly.
     fn look(&self, point: usize, tip: Tip, found: &mut Vec<(f64, usize)>, reach: &mut f64) {
         let Point { at, levels } = &self.points[point];
         let mut look = |(depth, strands): (&Coordinate, &BTreeSet<usize>)| {
@@ -136,7 +139,7 @@ impl<'a> OpenEdges<'a> {
         self.done[strand] < self.strands[strand].depths.len()
     }
 
-    /// Enters the next edge of a strand at both its ends.
+    /// Inserts the next edge of a strand at both its ends.
     fn enter(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
@@ -144,7 +147,7 @@ impl<'a> OpenEdges<'a> {
         }
     }
 
-    /// Takes the next edge of a strand out again.
+    /// Removes the next edge of a strand.
     fn leave(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
@@ -158,7 +161,7 @@ impl<'a> OpenEdges<'a> {
         }
     }
 
-    /// Takes the ends of a strand that is done out of the tree, where nothing else is left there.
+    /// Removes the ends of a completed strand from the tree, if no other strand has an edge left there.
     fn forget_points(&mut self, strand: usize) {
         for end in self.ends[strand] {
             let Point { at, levels } = &self.points[end];
@@ -169,7 +172,7 @@ impl<'a> OpenEdges<'a> {
     }
 }
 
-/// How far beyond the nearest is looked, as a part of the distance and in mm: many times what approximate comparison allows.
+/// How far beyond the nearest edge to search, as a fraction of the distance and in mm: many times the tolerance of comparisons.
 const MARGIN: f64 = 1e-4;
 
 impl PartialEq for Coordinate {

@@ -1,25 +1,25 @@
-//! Cutting a move into pieces, each of which ends on the move's way at the height that it has there.
+//! Splits a move into parts, each of which ends at the height that the move has there.
 
 use nalgebra::{Complex, UnitComplex};
 use pathbuild_path::Xy;
 
 use crate::program::{Count, Height, Move, Step};
 
-/// Where the tool is.
+/// Position of the tool.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tool {
     pub(crate) at: Xy,
     pub(crate) z: f64,
 }
 
-/// How far a piece of an arc may depart from its chord, as a part of the longest piece. Between its ends the height changes evenly along
-/// the arc, that of a tilted plate evenly along the chord: the error is at most the tilt times this departure.
+/// How far a part of an arc may deviate from its chord, as a fraction of the maximum length. Within a part the height changes linearly
+/// along the arc, whereas that of a tilted plate changes linearly along the chord. The error is at most the tilt times this deviation.
 const DEPARTURE: f64 = 0.01;
 
-/// What rounding may make a move longer that is to be exactly so many pieces.
+/// Relative increase in length that rounding may cause for a move of an exact number of parts.
 const ROUNDING: f64 = 1e-9;
 
-/// A move with the number of its pieces.
+/// A move and the number of parts it is split into.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cut {
     from: Tool,
@@ -29,14 +29,14 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// Cuts a move from `from`; `longest` is in mm, 0: it stays whole.
+    /// Splits a move from `from`; `longest` is in mm, with 0 for not splitting at all.
     pub(crate) fn new(from: Tool, to: Move, count: Count, longest: f64) -> Self {
         let parts = match to {
             _ if longest <= 0.0 => 1.0,
             Move::Line { .. } => count.length / longest,
             Move::Arc { centre, .. } => {
                 let radius = centre.coords.norm();
-                // The departure of an arc of an angle is radius * (1 - cos(angle / 2)), about radius * angle² / 8.
+                // The deviation of an arc is radius * (1 - cos(angle / 2)), approximately radius * angle² / 8.
                 let angle = libm::sqrt(8.0 * DEPARTURE * longest / radius);
                 (count.length / longest).max(count.length / radius / angle)
             }
@@ -45,12 +45,12 @@ impl Cut {
         Self { from, to, count, pieces: whole(parts - ROUNDING) }
     }
 
-    /// How many pieces there are, 1 or more.
+    /// Number of parts, at least 1.
     pub(crate) fn pieces(&self) -> u64 {
         self.pieces
     }
 
-    /// Where the move ends.
+    /// End of the move.
     pub(crate) fn end(&self) -> Tool {
         match self.to {
             Move::Sweep { to } => Tool { at: to, ..self.from },
@@ -59,7 +59,7 @@ impl Cut {
         }
     }
 
-    /// A piece, counted from 1, corrected where it ends.
+    /// A part, counted from 1, corrected at its end.
     pub(crate) fn piece(&self, number: u64) -> Step {
         let Tool { at: to, z } = self.after(number);
         let z = Height { z, at: to };
@@ -70,7 +70,7 @@ impl Cut {
             Move::Line { feed, .. } => Move::Line { feed, to, z },
             Move::Arc { feed, clockwise, centre, is_spiral, .. } => {
                 let centre = (self.from.at + centre.coords - self.after(number - 1).at).into();
-                // A half circle of a spiral has I0; what is cut off it has not.
+                // Half circles of a spiral are written with I0, but parts of them are not.
                 let is_spiral = is_spiral && self.pieces == 1;
                 Move::Arc { feed, clockwise, centre, to, z, is_spiral }
             }
@@ -81,7 +81,7 @@ impl Cut {
         }
     }
 
-    /// Where the tool is after so many pieces.
+    /// Position of the tool after this number of parts.
     fn after(&self, number: u64) -> Tool {
         let end = self.end();
         if number == self.pieces {
@@ -102,7 +102,7 @@ impl Cut {
     }
 }
 
-/// Rounded up, at least 1.
+/// Rounds up, to at least 1.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is positive")]
 fn whole(parts: f64) -> u64 {
     parts.ceil().max(1.0) as u64

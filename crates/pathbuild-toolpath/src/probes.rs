@@ -8,10 +8,10 @@ use rstar::primitives::GeomWithData;
 
 use crate::program::ProbePoint;
 
-/// Distances that differ by less than this part are as near as each other for the tree; the distances themselves decide.
+/// Distances in the tree with a smaller relative difference are considered equal and compared exactly.
 const ROUNDING: f64 = 1e-12;
 
-/// From (0, 0) always to the nearest probe not yet visited; the first found on a tie.
+/// Starts at (0, 0) and repeatedly goes to the nearest probe not yet visited; the first of these if there are several.
 pub(crate) fn in_order(found: &[ProbePoint]) -> Vec<ProbePoint> {
     let mut waiting = Waiting::new(found);
     let mut at = Xy::origin();
@@ -23,9 +23,9 @@ pub(crate) fn in_order(found: &[ProbePoint]) -> Vec<ProbePoint> {
     std::iter::from_fn(next).collect()
 }
 
-/// Probes that are not yet visited.
+/// Probes that have not been visited yet.
 struct Waiting {
-    /// Of each place its probes, by number.
+    /// The probes of each place, by index.
     places: Vec<VecDeque<usize>>,
     tree: RTree<GeomWithData<[f64; 2], usize>>,
 }
@@ -65,7 +65,7 @@ mod tests {
         ProbePoint { at, drawn_at: at, height: 0.0, feed: 1.0, label: Some(number.to_string().into()) }
     }
 
-    /// By a look at all that are left.
+    /// Compares all remaining probes in each step.
     fn one_by_one(mut found: Vec<ProbePoint>) -> Vec<ProbePoint> {
         let (mut ordered, mut at) = (Vec::new(), Xy::origin());
         while !found.is_empty() {

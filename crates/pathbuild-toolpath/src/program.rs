@@ -5,16 +5,16 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::EntityKind;
 use pathbuild_path::Xy;
 
-/// A finished program: what the machine does, step by step, before any dialect writes it down.
+/// A finished program: the steps of the machine before they are written in any dialect.
 ///
-/// It begins at (0, 0, `start_height`); the frame around it (book: program/gcode) is the writer's.
+/// It begins at (0, 0, `start_height`). The frame around it (book: program/gcode) is added when it is written.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
-    /// The emitted path's name, as the drawing spells its layer, with points.
+    /// Name of the emitted path, with dots, as the drawing spells its layer.
     pub path: Box<str>,
-    /// R: what is added to the names of its files.
+    /// Suffix added to the names of its files (R).
     pub output_suffix: Box<str>,
-    /// The drawing's file name, without directory.
+    /// File name of the drawing, without directory.
     pub drawing: Box<str>,
     /// Cutter diameter O in mm.
     pub tool: f64,
@@ -22,44 +22,44 @@ pub struct Program {
     pub sweep_height: f64,
     /// Upper face T of the material in mm.
     pub thickness: f64,
-    /// Whether it is the program of `PathDxf2GCode`, to be written in its form. (book: program/compatible)
+    /// Whether it is to be written in the form of `PathDxf2GCode`. (book: program/compatible)
     pub compatible: bool,
-    /// Texts that steps refer to.
+    /// Texts referred to by steps.
     pub names: Names,
-    /// The moves and comments in order. Sweeps are merged; nothing follows the last.
+    /// Moves and comments in order. Sweeps are merged; nothing follows the last step.
     pub steps: Vec<Step>,
-    /// Z-probes in the order in which they are measured: the first is #51.
+    /// Z-probes in the order in which they are measured, starting with #51.
     pub probes: Vec<ProbePoint>,
-    /// What is drawn on the layers of its paths and no part of it.
+    /// Elements on the layers of its paths that do not belong to them.
     pub left_out: Vec<LeftOut>,
 }
 
-/// Curves on the layers of a path that are no part of its program (PB111).
+/// Curves on the layers of a path that do not belong to its program (PB111).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOut {
-    /// The path.
+    /// Name of the path.
     pub path: Box<str>,
-    /// Their types, each once, with their number.
+    /// Their types, with the number of curves of each.
     pub entities: Vec<(EntityKind, usize)>,
 }
 
-/// A point whose real height is measured before milling. (book: language/probes)
+/// A point at which the real height is measured before milling. (book: language/probes)
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbePoint {
-    /// In the program.
+    /// In program coordinates.
     pub at: Xy,
-    /// In its own drawing, which is where a person finds it.
+    /// In the coordinates of its drawing, where the user will look for it.
     pub drawn_at: Xy,
-    /// The height that is expected there, mm.
+    /// Expected height in mm.
     pub height: f64,
     /// Probing feed in mm/min.
     pub feed: f64,
-    /// L.
+    /// Label (L).
     pub label: Option<Box<str>>,
 }
 
 impl Program {
-    /// O in mm, if everything is milled with the same.
+    /// O in mm, if the same cutter mills everything.
     pub fn cutter(&self) -> Option<f64> {
         let mut cutters = self.steps.iter().filter_map(|step| match step {
             Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
@@ -68,7 +68,7 @@ impl Program {
         cutters.all(|cutter| cutter == self.tool).then_some(self.tool)
     }
 
-    /// The upper face of the material in mm, if all of it has the same.
+    /// Height of the upper face of the material in mm, if it is the same everywhere.
     pub fn surface(&self) -> Option<f64> {
         let mut surfaces = self.steps.iter().filter_map(|step| match step {
             Step::Comment(Comment::Element { surface, .. }) => Some(*surface),
@@ -77,16 +77,16 @@ impl Program {
         surfaces.all(|surface| surface == self.thickness).then_some(self.thickness)
     }
 
-    /// S0, a little more than S, so that the first sweep always writes its Z.
+    /// S0, which is slightly above S, so that the first sweep always writes its Z.
     pub fn start_height(&self) -> f64 {
         self.sweep_height * (1.0 + 0.000_002)
     }
 }
 
-/// The feed in mm/min at which a compatible program begins: its header sets it, and its plunges name none.
+/// The feed in mm/min at the start of a compatible program: the header sets it, and plunges do not write a feed.
 pub(crate) const FIRST_FEED: f64 = 150.0;
 
-/// One move or comment.
+/// A move or a comment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the type says it")]
 pub enum Step {
@@ -94,40 +94,40 @@ pub enum Step {
     Comment(Comment),
 }
 
-/// A move from wherever the tool is. Coordinates are absolute, in mm; feeds in mm/min.
+/// A move from the current position. Coordinates are absolute and in mm, feeds in mm/min.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Move {
-    /// `G00 X Y`: rapid in the plane, at the present height.
+    /// `G00 X Y`: a rapid in the plane at the current height.
     Sweep { to: Xy },
-    /// `G00 Z`: rapid up or down.
+    /// `G00 Z`: a rapid up or down.
     Lift { z: Height },
     /// `G01 F Z`: down into the material.
     Drill { feed: f64, z: Height },
     /// `G01 F X Y Z`.
     Line { feed: f64, to: Xy, z: Height },
-    /// `G02`/`G03 F I J X Y Z`; `centre` is relative to where the arc begins, as I and J are. `is_spiral`: a half circle of a helical
+    /// `G02`/`G03 F I J X Y Z`. `centre` is relative to the start of the arc, like I and J. `is_spiral` marks a half circle of a helical
     /// circle, which the native dialect writes with a plain `I0`.
     Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height, is_spiral: bool },
 }
 
-/// A height, and the point whose measured material height corrects it in programs with probes. (book: program/gcode, `Z<expr(z, xy)>`)
+/// A height, and the point for which it is corrected in programs with probes. (book: program/gcode, `Z<expr(z, xy)>`)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Height {
     /// Z in mm.
     pub z: f64,
-    /// The point named, which is where a move begins, or a helical circle's centre, not where the move ends.
+    /// The point for which the height is corrected: the start of the move or the centre of a helical circle, not the end of the move.
     pub at: Xy,
 }
 
-/// What a move adds to the reference's statistics.
+/// The contribution of a move to the statistics of the original tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
-    /// Under which label.
+    /// The label it is counted under.
     pub class: Class,
-    /// Length in mm, as the reference counts it: in the plane, but a sweep's with its difference in height.
+    /// Length in mm as counted by the original tool: in the plane, but for sweeps including the difference in height.
     pub length: f64,
-    /// The feed in mm/min that its time is reckoned with; `None` is the rapid feed.
+    /// Feed in mm/min used to calculate the time; `None` is the rapid feed.
     pub feed: Option<f64>,
 }
 
@@ -140,40 +140,40 @@ pub enum Class {
     Sweep,
 }
 
-/// A remark between moves. Texts are in [`Program::names`].
+/// A comment between moves. Texts are in [`Program::names`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Comment {
-    /// `(Q:...)`, the drawing's own comment for the machine.
+    /// `(Q:...)`, a comment from the drawing for the operator.
     Question(NameId),
-    /// An embedded path begins.
+    /// Start of an embedded path.
     StartSubpath(NameId),
-    /// It ends.
+    /// End of an embedded path.
     EndSubpath(NameId),
-    /// A drawn element begins.
+    /// Start of a drawn element.
     Element {
-        /// What it is.
+        /// Kind of the element.
         kind: ElementKind,
-        /// Where it begins in its drawing (not in the program), in mm.
+        /// Its start in mm, in the coordinates of its drawing instead of those of the program.
         at: Xy,
-        /// Cutter feed-independent facts a cycle needs: bottom of the hole or chain in program heights, mm.
+        /// Bottom of the hole or chain in mm, in program heights. Drilling cycles need it.
         bottom: f64,
-        /// Upper face of the material there, mm.
+        /// Height of the upper face of the material there, in mm.
         surface: f64,
-        /// Diameter O of the cutter there, mm: an embedded path has its own.
+        /// Cutter diameter O in mm, which may differ between embedded paths.
         cutter: f64,
-        /// The depth C from which a hole is pecked.
+        /// Peck depth C of a hole.
         peck: Option<f64>,
     },
-    /// A milling chain comes to this depth (program height, mm), counted from 1.
+    /// Start of a pass of a milling chain.
     Pass {
-        /// Number of the pass.
+        /// Number of the pass, counted from 1.
         number: u32,
-        /// Its depth.
+        /// Depth in mm, in program heights.
         z: f64,
     },
 }
 
-/// The elements that a machinist tells apart in a program. (Glossary in book: reference/glossary)
+/// The kinds of elements distinguished in programs. (Glossary in book: reference/glossary)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum ElementKind {
@@ -187,7 +187,7 @@ pub enum ElementKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NameId(u32);
 
-/// Texts that steps refer to by number, so that a step is small and can be copied.
+/// Texts that steps refer to by index, so that steps are small and can be copied.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     texts: Vec<Box<str>>,
@@ -195,7 +195,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// The number of a text, adding it if it is new.
+    /// Returns the index of a text, adding it if it is new.
     pub fn intern(&mut self, text: &str) -> NameId {
         if let Some(number) = self.numbers.get(text) {
             return *number;
@@ -206,7 +206,7 @@ impl Names {
         number
     }
 
-    /// The text of a number that [`intern`](Self::intern) of the same table gave.
+    /// The text with an index returned by [`intern`](Self::intern) of the same table.
     pub fn get(&self, id: NameId) -> &str {
         &self.texts[id.0 as usize]
     }

@@ -4,32 +4,33 @@ use std::ops::Add;
 
 use crate::program::{Class, Count, Move, Program, Step};
 
-/// What a program adds up to.
+/// The totals of a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Statistics {
     pub milling: Total,
     pub drilling: Total,
     pub sweeps: Total,
-    /// How many moves count.
+    /// Number of moves counted.
     pub commands: u64,
 }
 
-/// Length and time of moves of a kind.
+/// Total length and time of moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Total {
-    /// mm.
+    /// In mm.
     pub length: f64,
-    /// Sum of length / feed, in minutes: without accelerations.
+    /// Sum of length / feed in minutes, which ignores acceleration.
     pub time: f64,
 }
 
-/// What a machine takes longer than length / feed.
+/// Factor by which a machine is slower than length / feed.
 const SLOWER: f64 = 1.4;
 
 impl Statistics {
-    /// The statistics that `PathDxf2GCode` gives a program, with a rapid feed in mm/min: planned lengths, which the moves may not come to.
-    /// Only compatible programs have them.
+    /// The statistics that `PathDxf2GCode` writes for a program, with a rapid feed in mm/min. They use planned lengths, which can differ
+    /// from
+    /// those of the moves. Only compatible programs have them.
     pub fn of_reference(program: &Program, rapid: f64) -> Self {
         let mut statistics = Self::default();
         let mut z = program.start_height();
@@ -44,7 +45,7 @@ impl Statistics {
         statistics
     }
 
-    /// All together.
+    /// The sum of all totals.
     pub fn sum(&self) -> Total {
         let totals = [self.milling, self.drilling, self.sweeps];
         totals.into_iter().fold(Total::default(), Add::add)
@@ -71,14 +72,14 @@ impl Add for Total {
 }
 
 impl Total {
-    /// What a person has to reckon with: whole minutes, rounded up after rounding off what is less than 0.0000001 s.
+    /// Estimated real time in whole minutes, rounded up after discarding less than 0.0000001 s.
     pub fn minutes(&self) -> f64 {
         let seconds = SLOWER * self.time * 60.0;
         ((seconds * 1e7).round() / 1e7 / 60.0).ceil()
     }
 }
 
-/// The height that a move ends at; `None` where it stays.
+/// Height at the end of a move, or `None` if it does not change.
 fn height_after(to: &Move) -> Option<f64> {
     match to {
         Move::Sweep { .. } => None,

@@ -1,26 +1,26 @@
-//! From which element of which path each step of a program comes.
+//! Records which element of which path each step of a program comes from.
 
 use pathbuild_path::Placement;
 
-/// Where the steps of a program come from. Kept only where somebody wants to see it: it is as long as the program.
+/// The origins of the steps of a program. It is as long as the program and only recorded on request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace<Id> {
-    /// The paths in the program, the emitted one first; one that is embedded twice is there twice.
+    /// The paths in the program, beginning with the emitted one. A path that is embedded twice occurs twice.
     pub occurrences: Vec<Occurrence<Id>>,
-    /// For each step of the program the element that it belongs to.
+    /// The element of each step of the program.
     pub steps: Vec<Drawn>,
 }
 
-/// A path where it lies in a program.
+/// A path at its place in a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Occurrence<Id> {
-    /// Which path, with which values.
+    /// Identifies the path and the values of its variables.
     pub id: Id,
-    /// What embeds it: index into [`Trace::occurrences`], and the element there; `None` for the emitted path.
+    /// The element that embeds it, or `None` for the emitted path.
     pub parent: Option<Drawn>,
-    /// How its drawing lies in the program.
+    /// Placement of its drawing in the program.
     pub placement: Placement,
-    /// What it is raised by, in mm.
+    /// Height by which it is raised, in mm.
     pub raised: f64,
     /// S in mm, before it is raised.
     pub sweep_height: f64,
@@ -31,7 +31,7 @@ pub struct Occurrence<Id> {
 pub struct Drawn {
     /// Index into [`Trace::occurrences`].
     pub occurrence: u32,
-    /// Index into [`Drawn::elements`](pathbuild_path::Drawn::elements) of its path; `None` where no element was begun yet.
+    /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements) of its path; `None` before the first element.
     pub element: Option<u32>,
 }
 

@@ -1,11 +1,11 @@
-//! The way of the tool's tip in each move of a program.
+//! The movement of the tool tip in each move of a program.
 
 use pathbuild_diagnostic::{Text, words};
 use pathbuild_path::{Arc, Curve, Line, Way, Xy};
 
 use crate::program::{Comment, Move, Program, Step};
 
-/// The moves of a program: the number of the step, what it is called, and the way.
+/// Iterates over the moves of a program: index of the step, name and movement.
 #[derive(Debug)]
 pub struct Ways<'p> {
     steps: std::iter::Enumerate<std::slice::Iter<'p, Step>>,
@@ -14,7 +14,7 @@ pub struct Ways<'p> {
 }
 
 impl<'p> Ways<'p> {
-    /// Those of a program from its beginning on, above X0 Y0.
+    /// Starts at the beginning of a program, above X0 Y0.
     pub fn of(program: &'p Program) -> Self {
         Self { steps: program.steps.iter().enumerate(), at: Xy::origin(), z: program.start_height() }
     }
@@ -54,7 +54,7 @@ impl Iterator for Ways<'_> {
 }
 
 impl Program {
-    /// The largest O in mm of all that is milled.
+    /// The largest cutter diameter O in mm used for milling.
     pub fn largest_cutter(&self) -> f64 {
         let cutters = self.steps.iter().filter_map(|step| match step {
             Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),

@@ -1,4 +1,4 @@
-//! Whether the values may be put into the program.
+//! Checks the measured values before they are put into the program.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,21 +14,21 @@ use super::table::{ProbePoint, ProbeTable, ProgramProbe};
 use super::values::{Entered, ProbeLine};
 use crate::native::{f3, push_exact};
 
-/// Measured heights by the number of the probe.
+/// Measured heights by probe number.
 pub(super) type Values = BTreeMap<u32, f64>;
 
-/// What the values are held against.
+/// What the values are compared with.
 pub(super) struct Check<'c, 'a> {
     pub(super) inputs: &'c Inputs<'a>,
     pub(super) table: &'c ProbeTable,
     pub(super) survey: &'c Survey<'a>,
 }
 
-/// Places and heights with three decimals that are as far apart as this are not the same.
+/// Two positions or heights with three decimals are different if they differ by at least this.
 pub(super) const DIFFERENT: f64 = 0.000_5;
 
 impl Check<'_, '_> {
-    /// The values, each of which was checked.
+    /// Checks each value and returns all of them.
     pub(super) fn values(&self, lines: &[ProbeLine<'_>], problems: &mut Vec<Diagnostic>) -> Values {
         let mut values = Values::new();
         for line in lines {
@@ -59,7 +59,7 @@ impl Check<'_, '_> {
         Ok(Some(as_stated(value)))
     }
 
-    /// Whether the program was made with this probe, where it says what it was made with.
+    /// Checks that the program was made with this probe, if the program lists its probes.
     fn check_made(&self, line: &ProbeLine<'_>) -> Result<(), Box<Diagnostic>> {
         if self.table.probes.is_empty() {
             return Ok(());
@@ -87,7 +87,7 @@ impl Check<'_, '_> {
         Ok(())
     }
 
-    /// The heights that the probe was drawn at; the older form leaves that to the formulas.
+    /// The heights at which the probe was drawn. In the older form of the file these only follow from the formulas.
     fn expected(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
         let made = self.table.probes.get(&line.probe).map(|made| made.height);
         if let Some(height) = line.height.or(made) {
@@ -100,7 +100,7 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Probes that formulas use and that have no line, each where it is used first; of a line of the program only one is told.
+    /// Probes that formulas use but the file does not list, each at its first use. Only one per line of the program is reported.
     fn unknown(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.values.file.file_name().unwrap_or_default();
         let known: BTreeSet<u32> = lines.iter().map(|line| line.probe).collect();
@@ -113,7 +113,7 @@ impl Check<'_, '_> {
         unknown.collect()
     }
 
-    /// Probes that were measured and that no formula uses: the formulas were removed or changed.
+    /// Probes that were measured but are not used by any formula, because formulas were removed or changed.
     pub(super) fn unused(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.program.file.file_name().unwrap_or_default();
         let is_stated = |line: &&ProbeLine<'_>| {
@@ -127,7 +127,7 @@ impl Check<'_, '_> {
         unused.collect()
     }
 
-    /// Probes that do not fit their neighbours. Only programs that say where in them the probes are can be asked.
+    /// Probes that do not fit their neighbours. This requires that the program lists the positions of its probes.
     pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
             (Entered::Value(value), Some(ProgramProbe { at: Some(at), height, .. })) => {
@@ -146,7 +146,7 @@ impl Check<'_, '_> {
     }
 }
 
-/// A measured height as the adjusted program states it: with six decimals, so that its formulas come to the same again.
+/// Rounds a measured height to six decimals, as in the adjusted program, so that evaluating its formulas gives the same result.
 fn as_stated(value: f64) -> f64 {
     let mut text = String::new();
     push_exact(&mut text, value);

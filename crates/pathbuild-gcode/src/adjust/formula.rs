@@ -1,33 +1,33 @@
-//! Formulas: numbers, `#51` and so on, + - * /, ( ) and [ ].
+//! Parses formulas: numbers, `#51` and so on, + - * /, ( ) and [ ].
 
 use std::ops::Range;
 
 use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::probes as messages;
 
-/// Brackets in each other. Formulas of programs have one.
+/// Maximum nesting depth of brackets. Formulas written by pathbuild have depth one.
 pub(super) const DEPTH_LIMIT: usize = 100;
 
-/// The probes that a formula uses.
+/// Provides the probes for a formula.
 pub(super) trait Probes {
-    /// The measured height of a probe. `at` is where in the formula it stands.
+    /// Returns the measured height of a probe. `at` is its position in the formula.
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64;
 
-    /// Told of each `[#51-5.000]`, which says how high the probe was drawn.
+    /// Called for each `[#51-5.000]`, which tells at which height the probe was drawn.
     fn drawn(&mut self, _probe: u32, _height: f64) {}
 }
 
-/// What is wrong with a formula, and where in it.
+/// An error in a formula, and its position.
 #[derive(Clone, Debug)]
 pub(super) struct Fault {
     pub(super) message: &'static Message,
     pub(super) at: Range<usize>,
 }
 
-/// Works out a formula while it is read. What comes out need not be finite.
+/// Evaluates a formula while parsing it. The result may be infinite or NaN.
 ///
 /// # Errors
-/// The first thing that is wrong.
+/// The first error.
 pub(super) fn value(text: &[u8], probes: &mut impl Probes) -> Result<f64, Fault> {
     let mut parser = Parser { text, at: 0, depth: 0, probes };
     let term = parser.sum()?;
@@ -44,19 +44,19 @@ struct Parser<'a, P> {
     probes: &'a mut P,
 }
 
-/// A part of a formula that was worked out.
+/// An evaluated part of a formula.
 #[derive(Clone, Copy)]
 struct Term {
     value: f64,
     form: Form,
 }
 
-/// How it is written.
+/// The syntactic form of a term.
 #[derive(Clone, Copy)]
 enum Form {
     Number,
     Probe(u32),
-    /// A probe less a number.
+    /// A probe minus a number.
     Difference(u32, f64),
     Other,
 }
@@ -153,7 +153,7 @@ impl<P: Probes> Parser<'_, P> {
         Ok(Term { value: self.probes.value(probe, start..self.at), form: Form::Probe(probe) })
     }
 
-    /// The next byte that is no blank.
+    /// The next byte that is not blank.
     fn peek(&mut self) -> Option<u8> {
         self.skip(|byte| matches!(byte, b' ' | b'\t'));
         self.text.get(self.at).copied()

@@ -1,7 +1,7 @@
-//! Values from what a sender logged: one `[PRB:x,y,z:1]` a probe, as Grbl and its kin report them.
+//! Takes measured values from the log of a sender: one `[PRB:x,y,z:1]` per probe, as reported by Grbl and similar controls.
 //!
-//! They report machine coordinates. Where a status report before has told the offset of the workpiece (`WCO:x,y,z`), it is taken off;
-//! else the machine's zero must be the workpiece's, which the check against the drawn heights will show.
+//! The values are in machine coordinates. If a preceding status report gives the workpiece offset (`WCO:x,y,z`), it is subtracted.
+//! Otherwise machine zero must be workpiece zero, which the comparison with the drawn heights will reveal.
 
 use std::sync::LazyLock;
 
@@ -13,14 +13,14 @@ use super::Source;
 use super::lines::{Line, lines};
 use super::values::{Entered, ProbeLine, parse};
 
-/// Values as far apart as this, in mm, are the same: a person enters three decimals.
+/// Values that differ by no more than this, in mm, are considered equal: users enter three decimals.
 const SAME: f64 = 0.0005;
 
 static REPORT: LazyLock<Regex> = LazyLock::new(|| {
     Regex::new(r"(?-u)\[PRB:(?<probe>[^\]\n]*)\]|WCO:(?<offset>[-+0-9.,]*)").expect("a constant pattern")
 });
 
-/// A result of a probe.
+/// A probing result.
 #[derive(Debug)]
 struct Measured<'a> {
     line: Line<'a>,
@@ -28,7 +28,7 @@ struct Measured<'a> {
     z: f64,
 }
 
-/// Gives the probes that have no value theirs of the log, in the order of their numbers, which is that of the probing run.
+/// Assigns the values of the log to the probes that have none, in the order of their numbers, which is that of the probing program.
 pub(super) fn fill<'a>(
     probes: &mut [ProbeLine<'a>],
     values: Source<'_>,
@@ -53,7 +53,7 @@ pub(super) fn fill<'a>(
     }
 }
 
-/// Without the log's values nothing can be said about those that are missing.
+/// Marks the missing values as faulty, because without the log nothing can be said about them.
 fn give_up(probes: &mut [ProbeLine<'_>]) {
     for probe in probes.iter_mut().filter(|probe| probe.value == Entered::Nothing) {
         probe.value = Entered::Wrong;
@@ -107,7 +107,7 @@ fn height(report: &Captures<'_>) -> Result<f64, &'static Message> {
     }
 }
 
-/// The third of some numbers with commas between; machines with more axes tell more.
+/// The third of several comma-separated numbers; machines with more axes report more.
 fn third(text: &[u8]) -> Option<f64> {
     let numbers: Option<Vec<f64>> = text.split(|byte| *byte == b',').map(parse).collect();
     numbers?.get(2).copied()

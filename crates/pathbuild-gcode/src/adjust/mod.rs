@@ -1,7 +1,7 @@
-//! Measured heights put into a program. (book: language/probes)
+//! Puts measured heights into a program. (book: language/probes)
 //!
-//! The program is read twice, line by line: first every formula is checked and what it uses is noted, then each is worked out. So a
-//! program of any size takes no memory but its own, and nothing comes out of one with an error in it.
+//! The program is read twice, line by line: first every formula is checked and its probes are recorded, then each formula is evaluated.
+//! Therefore the memory needed is little more than the program itself, and nothing is written if there is an error.
 
 mod check;
 mod formula;
@@ -23,25 +23,25 @@ use survey::Survey;
 use table::ProbeTable;
 pub(crate) use table::{ProgramProbe, probe_entry};
 
-/// A file that was read. Its text may be in any encoding that has ASCII in it; what is not ASCII stays as it is.
+/// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
-    /// Where it lies.
+    /// Path of the file.
     pub file: &'a Utf8Path,
-    /// All of it.
+    /// Content of the file.
     pub bytes: &'a [u8],
 }
 
-/// What a program is adjusted from.
+/// The inputs for adjusting a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
     /// `DRAWING_Clean.gcode`, with formulas.
     pub program: Source<'a>,
-    /// `DRAWING_Z.txt`, one line a probe.
+    /// `DRAWING_Z.txt`, with one line per probe.
     pub values: Source<'a>,
-    /// What a sender logged when the probing run was made: its values are used where `values` has none.
+    /// The log of a sender that ran the probing program. Its values are used for probes without a value in `values`.
     pub log: Option<Source<'a>>,
-    /// The largest difference between a measured and a drawn height, in mm.
+    /// Maximum difference between a measured and a drawn height, in mm.
     pub max_correction: f64,
 }
 
@@ -50,29 +50,29 @@ pub struct Inputs<'a> {
 pub struct Adjusted {
     /// `DRAWING_Milling.gcode`.
     pub program: Vec<u8>,
-    /// How many heights were corrected.
+    /// Number of corrected heights.
     pub heights: u64,
-    /// The lowest and the highest correction in mm; (0, 0) where there is none.
+    /// Least and greatest correction in mm; (0, 0) if there is none.
     pub corrections: (f64, f64),
     /// Probes that do not fit their neighbours.
     pub warnings: Vec<Diagnostic>,
-    /// Errors: probes that no formula uses. The program is not to be milled then, since its formulas were removed or changed.
+    /// Errors for probes that no formula uses. Such a program must not be milled, because its formulas were removed or changed.
     pub unused: Vec<Diagnostic>,
 }
 
-/// The first line, from 1, with a formula that has not been worked out: `Z1.000(=...)`, not `(==...)`.
+/// The first line, counted from 1, with a formula that has not been applied: `Z1.000(=...)` as opposed to `(==...)`.
 pub fn first_open_formula(program: &[u8]) -> Option<u32> {
     let is_open = |line: &[u8]| scan::spots(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
 
-/// A formula or a probe of a program, and the line that it stands in, from 1.
+/// A formula or probe of a program, with its line counted from 1.
 #[derive(Debug)]
 pub(crate) struct FormulaText {
     pub(crate) line: u32,
-    /// Without brackets and the sign that says that it was worked out.
+    /// Without brackets and without the mark of applied formulas.
     pub(crate) text: String,
-    /// Whether it has that sign.
+    /// Whether the formula is marked as applied.
     pub(crate) is_applied: bool,
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText>
     })
 }
 
-/// The probes that a program's header states, without measured heights.
+/// The probes listed in the header of a program, without measured heights.
 pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
     let program = &program[lines::mark(program).len()..];
     let lines =
@@ -99,7 +99,7 @@ pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
     entries.collect()
 }
 
-/// A line without its comments; formulas stay, since they are none.
+/// A line without its comments. Formulas are kept.
 pub(crate) fn without_comments(line: &str) -> String {
     let bytes = line.as_bytes();
     let mut formulas = scan::spots(bytes).map(|spot| spot.formula.start - 2..spot.formula.end + 1).peekable();
@@ -122,12 +122,12 @@ pub(crate) fn without_comments(line: &str) -> String {
     kept
 }
 
-/// Whether a program is what [`adjust`] makes of `clean` with the measured heights that the program's header states.
+/// Whether a program equals the result of [`adjust`] for `clean` with the measured heights listed in its header.
 pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
     adjusted_again(program, clean).is_some_and(|expected| is_same_program(program.bytes, &expected))
 }
 
-/// What [`adjust`] makes of `clean` with the measured heights that a program's header states; `None` where it does not state each.
+/// The result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` unless all of them are listed.
 pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
     let stated = ProbeTable::read(program).probes;
     let measured = |(probe, made): (&u32, &ProgramProbe)| Some((*probe, made.measured?));
@@ -139,12 +139,12 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     has_all.then(|| write::adjusted(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
 }
 
-/// Whether a program's header states a measured height: then it was adjusted.
+/// Whether the header of a program lists measured heights, that is, whether it was adjusted.
 pub fn states_heights(program: Source<'_>) -> bool {
     ProbeTable::read(program).probes.values().any(|probe| probe.measured.is_some())
 }
 
-/// Whether a file of values has another height for a probe than a program states that it was adjusted with.
+/// Whether a file of values contains a height that differs from the one the program was adjusted with.
 pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
     let stated = ProbeTable::read(program).probes;
     let lines = values::read(values, &mut Vec::new());
@@ -157,7 +157,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
 /// Puts measured heights into a program.
 ///
 /// # Errors
-/// Everything that is wrong with the files, each with its line and column: PB601 to PB604. There is no program then.
+/// All errors in the files, each with line and column: PB601 to PB604. Then no program is produced.
 pub fn adjust(inputs: &Inputs<'_>) -> Result<Adjusted, Vec<Diagnostic>> {
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);

@@ -1,19 +1,19 @@
-//! Where in a line of a program formulas are: `<number>(=<formula>)`.
+//! Finds formulas in a line of a program: `<number>(=<formula>)`.
 
 use std::ops::Range;
 
-/// A number with its formula. Ranges are bytes of the line.
+/// A number with its formula, as byte ranges of the line.
 #[derive(Clone, Debug)]
 pub(super) struct Spot {
-    /// Digits, with a sign and a decimal point or without. Several points make it no number.
+    /// Digits with an optional sign and decimal point. With several points it is not a valid number.
     pub(super) number: Range<usize>,
-    /// What stands between `(=` and the bracket that closes it.
+    /// The text between `(=` and the closing bracket.
     pub(super) formula: Range<usize>,
-    /// Whether there is such a bracket; else the formula goes to the line's end.
+    /// Whether there is a closing bracket; otherwise the formula extends to the end of the line.
     pub(super) is_closed: bool,
 }
 
-/// The formulas of a line, in order. What looks like one in a comment is none.
+/// The formulas of a line, in order. Formulas within comments are ignored.
 pub(super) fn spots(line: &[u8]) -> impl Iterator<Item = Spot> {
     let mut rest = 0;
     std::iter::from_fn(move || {
@@ -43,7 +43,7 @@ fn number_before(line: &[u8], end: usize) -> Range<usize> {
     start..end
 }
 
-/// The bracket that closes the one at `open`.
+/// Position of the bracket that closes the one at `open`.
 fn closing(line: &[u8], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
     line.iter().enumerate().skip(open).find_map(|(at, byte)| {

@@ -1,4 +1,4 @@
-//! What the formulas of a program use.
+//! Records which probes the formulas of a program use.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -11,24 +11,24 @@ use super::formula::{self, DEPTH_LIMIT, Fault, Probes};
 use super::lines::{Line, lines};
 use super::scan::{Spot, spots};
 
-/// The probes of a program's formulas.
+/// The probes used by the formulas of a program.
 #[derive(Debug, Default)]
 pub(super) struct Survey<'a> {
     pub(super) probes: BTreeMap<u32, Used<'a>>,
 }
 
-/// A probe that formulas use.
+/// A probe used by formulas.
 #[derive(Debug)]
 pub(super) struct Used<'a> {
-    /// Where first.
+    /// The line of its first use.
     pub(super) line: Line<'a>,
     pub(super) at: Range<usize>,
-    /// The least and the greatest height that formulas say it was drawn at.
+    /// Least and greatest height at which it was drawn, according to the formulas.
     pub(super) drawn: Option<(f64, f64)>,
 }
 
 impl<'a> Survey<'a> {
-    /// Looks at every formula. Of a line with faults only the first is told.
+    /// Checks all formulas. At most one error per line is reported.
     pub(super) fn of(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
         let mut survey = Self::default();
         for line in lines(program) {
@@ -44,13 +44,13 @@ impl<'a> Survey<'a> {
     }
 }
 
-/// A fault in a line as it is told.
+/// Converts an error in a line to a diagnostic.
 pub(super) fn located(line: Line<'_>, fault: &Fault) -> Diagnostic {
     let found = String::from_utf8_lossy(line.content().get(fault.at.clone()).unwrap_or_default());
     line.fault(fault.message, fault.at.clone()).quoting("found", &*found).with("limit", DEPTH_LIMIT)
 }
 
-/// A formula's fault as one of its line.
+/// Converts the position of an error from the formula to the line.
 pub(super) fn in_line(fault: &Fault, spot: &Spot) -> Fault {
     let start = spot.formula.start;
     Fault { at: fault.at.start + start..fault.at.end + start, ..*fault }
@@ -88,7 +88,7 @@ impl Probes for ProbeReader<'_, '_> {
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64 {
         let at = at.start + self.start..at.end + self.start;
         self.survey.probes.entry(probe).or_insert(Used { line: self.line, at, drawn: None });
-        // No number: nothing that is worked out with it is a fault yet.
+        // With NaN as height, results computed from it are not reported as errors yet.
         f64::NAN
     }
 

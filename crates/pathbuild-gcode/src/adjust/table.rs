@@ -1,5 +1,5 @@
-//! The probe table in a program's header: what the program was made with, and what was measured.
-//! (`(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000 Z2.050)`, in which `adjust` has put the Z.)
+//! The probe table in the header of a program, which lists its probes and the heights measured at them.
+//! (`(Probe #51: [5.000 -15.000] T=2.000 X12.000 Y3.000 Z2.050)`, where Z was added by `adjust`.)
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,25 +12,25 @@ use super::Source;
 use super::lines::{Line, lines};
 use crate::native::f3;
 
-/// A program's probes. Programs of the original tool have no such table.
+/// The probes of a program. Programs of the original tool have no such table.
 #[derive(Debug, Default)]
 pub(super) struct ProbeTable {
     pub(super) probes: BTreeMap<u32, ProgramProbe>,
 }
 
-/// A probe that the program was made with.
+/// A probe listed in a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ProgramProbe {
     pub(super) place: ProbePoint,
-    /// The height that it was drawn at, in mm.
+    /// Height at which it was drawn, in mm.
     pub(crate) height: f64,
-    /// Where it is in the program.
+    /// Position in the program.
     pub(super) at: Option<Xy>,
-    /// The height that was measured, in mm; only an adjusted program states it.
+    /// Measured height in mm; only in adjusted programs.
     pub(crate) measured: Option<f64>,
 }
 
-/// As the drawing gives it.
+/// Formats its position as in the drawing.
 impl fmt::Display for ProgramProbe {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [x, y] = self.place;
@@ -39,7 +39,7 @@ impl fmt::Display for ProgramProbe {
     }
 }
 
-/// A probe's place in its own drawing.
+/// Position of a probe in its own drawing.
 pub(super) type ProbePoint = [f64; 2];
 
 static ENTRY: LazyLock<Regex> = LazyLock::new(|| {
@@ -63,18 +63,18 @@ impl ProbeTable {
     }
 }
 
-/// Whether a line can stand in a program's header, which ends with its first word.
+/// Whether a line can be part of the header, which ends with the first word of the program.
 pub(super) fn is_header(line: &[u8]) -> bool {
     matches!(line.first(), None | Some(b'(' | b'%' | b';'))
 }
 
-/// The probe that a line of a header states.
+/// The probe listed in a line of the header.
 pub(super) fn entry_of_line(line: &[u8]) -> Option<(u32, ProgramProbe)> {
     let comment = line.trim_ascii_end().strip_prefix(b"(")?.strip_suffix(b")")?;
     probe_entry(str::from_utf8(comment).ok()?)
 }
 
-/// The probe that a comment states, with its number.
+/// The probe listed in a comment, with its number.
 pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
     if !comment.starts_with("Probe #") {
         return None;

@@ -1,4 +1,4 @@
-//! The file that a person writes the measured values into. (book: language/probes)
+//! Reads the file into which the user enters the measured values. (book: language/probes)
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,32 +13,32 @@ use super::Source;
 use super::lines::{Line, lines};
 use super::table::ProbePoint;
 
-/// A probe of the file.
+/// A probe in the file.
 #[derive(Debug)]
 pub(super) struct ProbeLine<'a> {
     pub(super) line: Line<'a>,
-    /// The number behind #.
+    /// The number after #.
     pub(super) probe: u32,
     pub(super) place: ProbePoint,
-    /// Where it is in the emitted drawing; programs of the original tool and older ones of pathbuild do not say it.
+    /// Position in the emitted drawing; missing in programs of the original tool and of old versions of pathbuild.
     pub(super) at: Option<Xy>,
-    /// th; the older form does not say it.
+    /// The expected height (th); missing in the older form.
     pub(super) height: Option<f64>,
     pub(super) value: Entered,
-    /// Where the value stands, or should stand: in this line, or in one of a log.
+    /// Position of the value, present or missing: in this line, or in a line of a log.
     pub(super) value_at: (Line<'a>, Range<usize>),
 }
 
-/// What stands behind the `=`.
+/// What follows the `=`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Entered {
     Nothing,
     Value(f64),
-    /// Something that is wrong, and of which that has been told.
+    /// An error that has already been reported.
     Wrong,
 }
 
-/// ASCII may stand among bytes of any code page.
+/// The ASCII text may be surrounded by bytes of any code page.
 static LINE: LazyLock<Regex> = LazyLock::new(|| {
     let number = r"\s*(-?[0-9]+(?:[.,][0-9]+)?)\s*";
     let at = format!(r"@\s*\[{number}\|{number}\]");
@@ -47,7 +47,7 @@ static LINE: LazyLock<Regex> = LazyLock::new(|| {
     Regex::new(&format!(r"(?-u)^\s*(?:{place}|{older})\s*#([0-9]+)\s*=(.*)$")).expect("a constant pattern")
 });
 
-/// Reads the lines of probes, in order; empty lines may stand between.
+/// Reads the lines of probes in order; empty lines are skipped.
 pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<ProbeLine<'a>> {
     let mut found: Vec<ProbeLine<'_>> = Vec::new();
     let mut known: BTreeMap<u32, u32> = BTreeMap::new();
@@ -71,7 +71,7 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
 }
 
 impl ProbeLine<'_> {
-    /// What is wrong with the value.
+    /// Creates a diagnostic for the value.
     pub(super) fn value_fault(&self, message: &'static Message) -> Diagnostic {
         let (line, at) = &self.value_at;
         line.fault(message, at.clone()).with("probe", u64::from(self.probe))
@@ -100,7 +100,7 @@ fn probe_line<'a>(line: Line<'a>, parts: &Captures<'_>) -> Option<ProbeLine<'a>>
     })
 }
 
-/// A number with a decimal point or comma.
+/// Parses a number with a decimal point or comma.
 pub(super) fn parse(text: &[u8]) -> Option<f64> {
     parse_number(str::from_utf8(text).ok()?)
 }

@@ -14,13 +14,14 @@ use super::table::{entry_of_line, is_header};
 use super::{Adjusted, Inputs};
 use crate::native::{f3, push_exact};
 
-/// What a height may exceed the largest correction by, though no probe does: weights of three decimals need not sum to 1.
+/// Factor and amount in mm by which a height may exceed the largest correction, although no probe does: weights with three decimals need
+/// not sum to 1.
 const SLACK: (f64, f64) = (1.002, 0.002);
 
-/// Works out every formula. Everything else stays to the byte.
+/// Evaluates all formulas. Everything else is preserved byte for byte.
 ///
 /// # Errors
-/// Formulas that come to nothing, or to too much.
+/// Formulas that cannot be evaluated, or whose result is too large.
 pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<Adjusted, Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
     let mut writer = Writer { inputs, values, adjusted: Adjusted::default(), problems: Vec::new() };
@@ -46,7 +47,7 @@ struct Writer<'w> {
 }
 
 impl Writer<'_> {
-    /// A line of the header: a probe's gets the measured height, by which `verify` evaluates the formulas again.
+    /// Copies a line of the header. The line of a probe gets the measured height, so that `verify` can evaluate the formulas again.
     fn header_line(&mut self, line: Line<'_>) {
         let content = line.content();
         let entry = entry_of_line(content);
@@ -99,7 +100,7 @@ impl Writer<'_> {
         Ok(height)
     }
 
-    /// Far outside the probes a plane can go farther than any of them.
+    /// Checks a correction: far outside the probes, a plane can exceed the values of all of them.
     fn check(&mut self, line: Line<'_>, spot: &Spot, correction: f64) -> Result<(), Box<Diagnostic>> {
         let limit = self.inputs.max_correction;
         if correction.abs() > SLACK.0 * limit + SLACK.1 {
@@ -117,17 +118,17 @@ impl Writer<'_> {
     }
 }
 
-/// A text up to its last blank.
+/// The text up to its last blank.
 fn without_last_word(text: &[u8]) -> &[u8] {
     text.iter().rposition(|byte| *byte == b' ').map_or(text, |end| &text[..end])
 }
 
-/// Whether the number is a Z word's.
+/// Whether the number belongs to a Z word.
 fn is_height(line: &[u8], spot: &Spot) -> bool {
     line[..spot.number.start].trim_ascii_end().last().is_some_and(|letter| letter.eq_ignore_ascii_case(&b'Z'))
 }
 
-/// Every probe that the formulas use has a value: that was checked.
+/// The measured heights. Every probe used by a formula has one, which was checked before.
 struct Measured<'v>(&'v Values);
 
 impl Probes for Measured<'_> {

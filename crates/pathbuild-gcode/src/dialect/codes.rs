@@ -1,43 +1,43 @@
-//! Which words a dialect takes. (book: program/reading)
+//! The words accepted by each dialect. (book: program/reading)
 
-/// The words of a dialect. G and M codes are ten times their number: `G38.2` is 382.
+/// The words of a dialect. G and M codes are multiplied by ten: `G38.2` is 382.
 #[derive(Debug)]
 pub struct Words {
-    /// Letters, in capitals.
+    /// Letters, in upper case.
     pub letters: Letters,
-    /// G codes that it takes, in rising order.
+    /// Accepted G codes, in ascending order.
     pub g: &'static [u16],
-    /// G codes among them that mean something else than in RS274, and are not followed.
+    /// Accepted G codes whose meaning differs from RS274; they are not followed.
     pub g_own: &'static [u16],
-    /// G codes that it knows and passes over.
+    /// G codes that are ignored.
     pub g_ignored: &'static [u16],
-    /// M codes that it takes, in rising order.
+    /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
-    /// M codes that it knows and passes over.
+    /// M codes that are ignored.
     pub m_ignored: &'static [u16],
-    /// M100 to M199 run programs of the machine's owner.
+    /// Whether M100 to M199 run programs of the user.
     pub own_m_codes: bool,
-    /// What it does not know is passed over with a warning, where others stop.
+    /// Whether unknown words are ignored with a warning, whereas other controls stop.
     pub lenient: bool,
 }
 
-/// What a dialect does with a word.
+/// How a dialect handles a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acceptance {
-    /// Takes it.
+    /// It is accepted.
     Taken,
-    /// Knows it and does nothing.
+    /// It is known, but has no effect.
     Ignored,
-    /// Does not know it.
+    /// It is unknown.
     Unknown,
 }
 
-/// Letters of words: a bit for each ASCII character.
+/// A set of letters, with one bit for each ASCII character.
 #[derive(Clone, Copy, Debug)]
 pub struct Letters(u128);
 
 impl Letters {
-    /// These, in capitals.
+    /// Creates a set of these letters, which must be in upper case.
     pub const fn new(letters: &[u8]) -> Self {
         let (mut bits, mut index) = (0, 0);
         while index < letters.len() {
@@ -47,19 +47,19 @@ impl Letters {
         Self(bits)
     }
 
-    /// Whether it is one of them.
+    /// Whether the set contains a letter.
     pub fn contains(self, letter: u8) -> bool {
         letter.is_ascii() && self.0 >> letter & 1 == 1
     }
 }
 
 impl Words {
-    /// What the dialect does with a G code.
+    /// How the dialect handles a G code.
     pub fn g(&self, code: u16) -> Acceptance {
         look_up(code, self.g, self.g_ignored)
     }
 
-    /// What the dialect does with an M code.
+    /// How the dialect handles an M code.
     pub fn m(&self, code: u16) -> Acceptance {
         if self.own_m_codes && (1000..2000).contains(&code) {
             return Acceptance::Taken;
@@ -138,7 +138,7 @@ pub(super) static XPERTMILL: Words = Words {
     lenient: true,
 };
 
-/// What GRBL or RS274/NGC takes: the native program is written for senders of both.
+/// The words common to GRBL and RS274/NGC, because the native program is written for senders of both.
 pub(super) static NATIVE: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
     g: &[
@@ -211,7 +211,7 @@ pub(super) static MARLIN: Words = Words {
         0, 10, 20, 30, 40, 50, 60, 170, 180, 190, 200, 210, 270, 280, 382, 383, 384, 385, 530, 540, 550, 560,
         570, 580, 590, 591, 592, 593, 600, 610, 800, 900, 910, 920,
     ],
-    // G60 stores the position, and G61 goes back to it.
+    // G60 stores the position, and G61 returns to it.
     g_own: &[600, 610],
     g_ignored: &[],
     m: &[
@@ -223,7 +223,7 @@ pub(super) static MARLIN: Words = Words {
     lenient: false,
 };
 
-/// No coordinate systems, no cycles. M10 and M11 switch an output.
+/// No coordinate systems and no cycles. M10 and M11 switch an output.
 pub(super) static ESTLCAM: Words = Words {
     letters: Letters::new(b"FGIJKMNRSTXYZ"),
     g: &[0, 10, 20, 30, 170, 200, 210, 900, 910],
@@ -241,7 +241,7 @@ pub(super) static DIN: Words = Words {
         0, 10, 20, 30, 40, 90, 170, 180, 190, 400, 410, 420, 430, 440, 530, 540, 550, 560, 570, 580, 590,
         700, 710, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910, 920, 930, 940, 950, 960, 970,
     ],
-    // G53 takes the offsets away for good, and G92 may mean a limit of the speed.
+    // G53 removes the offsets permanently, and G92 may limit the speed.
     g_own: &[530, 920],
     g_ignored: &[],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300],

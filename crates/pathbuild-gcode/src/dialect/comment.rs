@@ -1,4 +1,4 @@
-//! Texts of others in comments: names, remarks, dates. Whatever comes from a drawing, a file's name or an option passes here.
+//! Comments with text from outside: names, remarks, dates. All text from drawings, file names and options goes through this module.
 //! (book: program/gcode; book: program/reading)
 
 use std::borrow::Cow;
@@ -9,7 +9,7 @@ use super::{Dialect, Percent, Style};
 use crate::native::{Charset, transliterated};
 
 impl Dialect {
-    /// A comment as the dialect spells it. Its text begins with a word of ours.
+    /// Formats a comment in the dialect. The text must begin with a word of our own.
     pub fn comment(self, text: &str, charset: Charset) -> String {
         let spelling = &self.rules().spelling;
         let text = within_comment(text, Some(self), charset);
@@ -21,12 +21,12 @@ impl Dialect {
     }
 }
 
-/// A text that neither ends a comment of the dialect nor makes the control act. Without a dialect it is harmless in all.
+/// Changes a text so that it neither ends a comment of the dialect nor makes the control act. Without a dialect it is safe in all of them.
 pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) -> String {
     let spelling = dialect.map(|dialect| &dialect.rules().spelling);
     let acts_at_once = spelling.is_none_or(|spelling| spelling.real_time_bytes);
     let knows_percent = spelling.is_some_and(|spelling| spelling.percent != Percent::Refused);
-    // Senders cut lines at semicolons, within round brackets, too. The native program is as its page says.
+    // Senders cut lines at semicolons, even within round brackets. The native program remains as documented.
     let keeps_semicolons = dialect == Some(Dialect::Native);
     let harmless = |c: char| match c {
         '(' => '[',
@@ -55,13 +55,13 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
     all
 }
 
-/// As nearly all characters of nearly all comments are.
+/// Whether a byte is harmless in all dialects, as are almost all characters in practice.
 fn is_harmless_everywhere(byte: u8) -> bool {
     matches!(byte, b' '..=b'~')
         && !matches!(byte, b'#' | b'(' | b')' | b'\\' | b';' | b'%' | b'!' | b'?' | b'~')
 }
 
-/// A text with transliterated umlauts and the like, in capitals among capitals.
+/// Transliterates umlauts and the like, with capitals if the surrounding letters are capitals.
 pub fn ascii(text: &str) -> String {
     let mut ascii = String::with_capacity(text.len());
     let mut characters = text.chars().peekable();
@@ -86,7 +86,7 @@ pub fn is_active_comment(text: &str) -> bool {
     beginning_of(text, OBEYED).or_else(|| beginning_of(text, SHOWN)).is_some()
 }
 
-/// The word with which a comment begins, blanks and capitals aside.
+/// The word with which a comment begins, ignoring blanks and case.
 pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'static str> {
     let begins = |word: &str| {
         let mut letters = text.chars().filter(|c| !c.is_whitespace());
@@ -95,7 +95,7 @@ pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'stati
     words.iter().copied().find(|word| begins(word))
 }
 
-/// What LinuxCNC obeys: it writes files, runs programs or stops. With the comma where it acts with one only.
+/// Words obeyed by LinuxCNC: it writes files, runs programs or stops. A comma is included if the word only has an effect with it.
 pub(super) const OBEYED: &[&str] = &[
     "LOG,",
     "LOGOPEN,",
@@ -109,5 +109,5 @@ pub(super) const OBEYED: &[&str] = &[
     "ABORT,",
 ];
 
-/// What changes what somebody sees, at one control or another: messages, and which moves a preview shows.
+/// Words that change what the user sees on some control: messages, and which moves a preview shows.
 const SHOWN: &[&str] = &["MSG", "DEBUG", "PRINT", "AXIS", "PREVIEW,", "STAT", "TOUCH", "PAUSE"];

@@ -1,6 +1,6 @@
-//! What the controls differ in: spelling, words, arcs, order. (book: program/reading)
+//! The differences between controls: spelling, words, arcs, order. (book: program/reading)
 //!
-//! A dialect is data, one [`Rules`] each; reader and interpreter ask the rules and never which dialect it is.
+//! A dialect is data, described by its [`Rules`]. Reader and interpreter only look at the rules, never at the dialect itself.
 
 mod codes;
 mod comment;
@@ -16,7 +16,7 @@ pub use comment::{ascii, is_active_comment, within_comment};
 pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rules, StartMotion};
 pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 
-/// The kinds of G-code that are told apart.
+/// The supported kinds of G-code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 pub enum Dialect {
     /// RS274/NGC version 3 of the NIST, the common ancestor.
@@ -27,24 +27,24 @@ pub enum Dialect {
     Grbl,
     /// The import filter of XpertMILL (STEP-FOUR).
     Xpertmill,
-    /// Mach3 and Mach4, mill.
+    /// Mach3 and Mach4, for milling.
     Mach3,
-    /// Fanuc and controls like it, mill.
+    /// Fanuc and similar controls, for milling.
     Fanuc,
     /// Haas mills.
     Haas,
-    /// Marlin 2 on a mill.
+    /// Marlin 2 on a milling machine.
     Marlin,
     /// The CNC controller of Estlcam.
     Estlcam,
-    /// DIN 66025, as the CAD6 manual writes it.
+    /// DIN 66025, as in the CAD6 manual.
     Din,
-    /// What pathbuild and its predecessor write (book: program/gcode), with correction formulas as data (book: language/probes).
+    /// The output of pathbuild and its predecessor (book: program/gcode), with correction formulas as data (book: language/probes).
     Native,
 }
 
 impl Dialect {
-    /// Every dialect, in the order in which they are listed to a person.
+    /// All dialects, in listing order.
     pub const ALL: &[Self] = &[
         Self::Native,
         Self::Rs274,
@@ -59,7 +59,7 @@ impl Dialect {
         Self::Din,
     ];
 
-    /// The name on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rs274 => "rs274",
@@ -76,7 +76,7 @@ impl Dialect {
         }
     }
 
-    /// What it accepts and how it is read.
+    /// The rules of the dialect.
     pub fn rules(self) -> &'static Rules {
         match self {
             Self::Rs274 => &rules::RS274,
@@ -100,7 +100,7 @@ impl fmt::Display for Dialect {
     }
 }
 
-/// Reads a [`name`](Dialect::name).
+/// Parses a [`name`](Dialect::name).
 impl FromStr for Dialect {
     type Err = ();
 

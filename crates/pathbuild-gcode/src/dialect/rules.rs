@@ -1,120 +1,120 @@
-//! The rules of each dialect, side by side.
+//! The rules of each dialect.
 
 use super::Dialect;
 use super::codes::{self, Words};
 use super::comment::OBEYED;
 use super::spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 
-/// Everything in which a dialect differs from the others.
+/// All properties in which dialects differ.
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct Rules {
-    /// Whose rules these are.
+    /// The dialect.
     pub dialect: Dialect,
-    /// How it is spelt.
+    /// Spelling of words and comments.
     pub spelling: Spelling,
-    /// Which words it takes.
+    /// The accepted words.
     pub words: &'static Words,
-    /// How it reads arcs.
+    /// How arcs are read.
     pub arcs: ArcRules,
-    /// What G93, G94 and G95 do to the feed that was set before.
+    /// The effect of G93, G94 and G95 on the previous feed.
     pub feed_mode: FeedMode,
-    /// What a line of coordinates means before any motion word.
+    /// The meaning of coordinates before the first motion word.
     pub start_motion: StartMotion,
     /// The words that switch to inches and to millimetres (G codes times ten).
     pub unit_words: [u16; 2],
-    /// Moves go to layers by M6, and S belongs to the layer.
+    /// Whether M6 selects layers, to which moves and S belong.
     pub layers: bool,
-    /// A motion word holds only for its own line; repeating it by coordinates alone is read with a warning.
+    /// Whether a motion word applies only to its own line; repeating it by coordinates alone causes a warning.
     pub motion_is_stated: bool,
-    /// How G4 says its time.
+    /// How G4 specifies its time.
     pub dwell: DwellRules,
-    /// The control obeys one G, M or T word a line, the first, and every line begins with one. Other words are values of that one.
+    /// Whether the control obeys only the first G, M or T word of a line, with which the line must begin. Other words are its values.
     pub one_command: bool,
-    /// Of G and of M words, one each in a line.
+    /// Whether a line may have only one G and one M word.
     pub one_word_each: bool,
-    /// M5 and M9 take effect behind the move of their line.
+    /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
-    /// Rapid moves are as fast as F says, like any other.
+    /// Whether rapid moves have the feed F like all other moves.
     pub rapids_at_feed: bool,
-    /// `O1234` at the beginning is the program's number.
+    /// Whether `O1234` at the beginning is the program number.
     pub program_numbers: bool,
-    /// A number without a decimal point counts least increments on some machines: `X10` is 0.010 mm.
+    /// Whether a number without a decimal point counts least increments on some machines, so that `X10` is 0.010 mm.
     pub least_increments: bool,
-    /// The letter that repeats a drilling cycle.
+    /// The letter for the repetitions of a drilling cycle.
     pub repeats: u8,
-    /// Drilling cycles lift to where they began (G98) unless the program says otherwise.
+    /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,
 }
 
-/// How a dialect's G4 says its time.
+/// How G4 specifies its time.
 #[derive(Debug)]
 pub struct DwellRules {
-    /// What P counts.
+    /// Unit of P.
     pub p: DwellUnit,
-    /// Letters that count seconds instead of P.
+    /// Letters other than P that specify seconds.
     pub seconds: &'static [u8],
 }
 
-/// What P of G4 counts.
+/// Unit of P in G4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DwellUnit {
     /// Seconds.
     Seconds,
     /// Milliseconds.
     Milliseconds,
-    /// Seconds with a decimal point, milliseconds without.
+    /// Seconds with a decimal point, milliseconds without it.
     ByPoint,
-    /// Seconds, or milliseconds where the machine is set so.
+    /// Seconds or milliseconds, depending on a setting of the machine.
     BySetting,
 }
 
 /// How a dialect reads arcs. (book: program/reading)
 #[derive(Debug)]
 pub struct ArcRules {
-    /// How much the radius at the end may differ from that at the start.
+    /// Permitted difference of the radii at both ends.
     pub radius: RadiusTolerance,
-    /// An axis word of the arc's plane has to be there even when its value does not change.
+    /// Whether an axis word in the plane of the arc is required even if its value does not change.
     pub axis_word: bool,
-    /// By how many mm half the chord of an arc in R form may exceed the radius.
+    /// Amount in mm by which half the chord of an arc in R form may exceed the radius.
     pub short_radius: f64,
-    /// P counts turns.
+    /// Whether P is the number of turns.
     pub turns: bool,
-    /// A third coordinate (a helix) is the dialect's own.
+    /// Whether a third coordinate (a helix) is supported.
     pub helix: bool,
 }
 
-/// How much the radius at the end of an arc may differ from that at its start, in mm.
+/// Permitted difference of the radii at both ends of an arc, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RadiusTolerance {
-    /// In millimetres programs `mm`; in inch programs `inch` (in mm, too).
+    /// `mm` in programs in millimetres, `inch` (also in mm) in programs in inches.
     Fixed {
-        /// Tolerance where the program is in millimetres.
+        /// Tolerance for programs in millimetres.
         mm: f64,
-        /// Tolerance where it is in inches, in mm.
+        /// Tolerance in mm for programs in inches.
         inch: f64,
     },
-    /// Never more than `most`, nor more than both `least` and this share of the radius.
+    /// At most `most`, and no more than the greater of `least` and the given share of the radius.
     Relative {
-        /// The most, in mm.
+        /// Upper limit in mm.
         most: f64,
-        /// Less than this, in mm, is never too much.
+        /// Differences below this, in mm, are always permitted.
         least: f64,
-        /// The share of the radius.
+        /// Share of the radius.
         share: f64,
     },
 }
 
-/// What a feed mode word (G93, G94, G95) does to F.
+/// The effect of a feed mode word (G93, G94, G95) on F.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMode {
-    /// F stays as it is.
+    /// F is kept.
     KeepsFeed,
-    /// F is 0 until the next F, even when the mode does not change.
+    /// F is 0 until the next F, even if the mode does not change.
     ClearsFeed,
 }
 
-/// What a line of coordinates means before any motion word.
+/// The meaning of coordinates before the first motion word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartMotion {
     /// A rapid move.
@@ -123,7 +123,7 @@ pub enum StartMotion {
     None,
 }
 
-/// How much radii may differ on the NIST's interpreter, from which Mach3 comes.
+/// Permitted difference of radii on the NIST interpreter, from which Mach3 is derived.
 const NIST_RADIUS: RadiusTolerance = RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 };
 const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
 
@@ -281,7 +281,7 @@ pub(super) static MACH3: Rules = Rules {
     ..BASE
 };
 
-/// What Fanuc and Haas have in common.
+/// Common rules of Fanuc and Haas.
 const ISO: Rules = Rules {
     arcs: ArcRules { radius: RadiusTolerance::Fixed { mm: 0.02, inch: 0.02 }, axis_word: false, ..BASE.arcs },
     start_motion: StartMotion::None,

@@ -1,14 +1,14 @@
-//! How a dialect is spelt: what the reader needs to cut lines into words.
+//! The spelling rules of a dialect, which the reader needs to split lines into words.
 
 /// The lexical rules of a dialect.
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct Spelling {
-    /// Letters of words may be small.
+    /// Whether words may have lower-case letters.
     pub small_letters: bool,
     /// `( )`.
     pub round_comments: Style,
-    /// `(` within a round comment is an error where this is false, an ordinary character where it is true.
+    /// Whether `(` within a round comment is an ordinary character; otherwise it is an error.
     pub nested_comments: bool,
     /// `;` to the end of the line.
     pub semicolon_comments: Style,
@@ -16,103 +16,103 @@ pub struct Spelling {
     pub slash_comments: Style,
     /// `!` to the end of the line.
     pub bang_comments: Style,
-    /// What blanks mean.
+    /// Meaning of blanks.
     pub blanks: Blanks,
-    /// What `%` means.
+    /// Meaning of `%`.
     pub percent: Percent,
-    /// What `/` in front of a line means.
+    /// Meaning of `/` at the beginning of a line.
     pub slash: Slash,
-    /// How long a line may be.
+    /// Maximum length of a line.
     pub line_length: Option<LineLength>,
-    /// The largest block number N; `None` where there are no block numbers.
+    /// Largest block number N; `None` if there are no block numbers.
     pub block_numbers: Option<u32>,
     /// Whether block numbers may have decimals.
     pub fractional_block_numbers: bool,
-    /// `[ ]` and `#`, where they are known.
+    /// The syntax of `[ ]` and `#`, if they are supported.
     pub grammar: Option<Grammar>,
-    /// A number may have a decimal comma (with a warning).
+    /// Whether numbers may have a decimal comma, which causes a warning.
     pub decimal_comma: bool,
-    /// `(=...)` behind a number is its correction formula. (book: language/probes)
+    /// Whether `(=...)` after a number is its correction formula. (book: language/probes)
     pub formulas: bool,
-    /// A number without a letter behind M6 is the tool's.
+    /// Whether a number without a letter after M6 is the tool number.
     pub bare_tool_number: bool,
-    /// Bytes that act at once wherever they stand, comments included: `!`, `?`, `~` and everything above 127.
+    /// Whether `!`, `?`, `~` and all bytes above 127 act immediately, even in comments.
     pub real_time_bytes: bool,
-    /// What a comment begins with that the control obeys: it writes files, runs programs or stops.
+    /// Beginnings of comments that the control obeys: it writes files, runs programs or stops.
     pub active_comments: &'static [&'static str],
-    /// M codes behind which, and behind their S and P, the rest of the line is a message for the person at the machine.
+    /// M codes after which the rest of the line, except for S and P, is a message for the operator.
     pub message_codes: &'static [u16],
 }
 
-/// Whether a spelling is the dialect's own.
+/// Whether a notation belongs to the dialect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// It is.
+    /// It does.
     Usual,
-    /// Read, with a warning: the dialect is not known to take it.
+    /// It is read with a warning, because the dialect is not known to support it.
     Doubtful,
-    /// Not known at all.
+    /// It is not supported.
     Unknown,
 }
 
-/// What blanks mean.
+/// Meaning of blanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blanks {
-    /// Nothing, even inside a number: `X1 2` is X12.
+    /// They are ignored, even inside a number: `X1 2` is X12.
     Ignored,
-    /// They separate: `M06 05` is M6 and 5.
+    /// They separate words: `M06 05` is M6 and 5.
     Separate,
 }
 
-/// What a line beginning with `%` means.
+/// Meaning of a line that begins with `%`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Percent {
     /// The first begins the program, the second ends it.
     Frame,
     /// It begins the program.
     Start,
-    /// The first begins the program, also behind a block number, and the rest of its line is the program's name.
+    /// The first begins the program, even after a block number, and the rest of its line is the name of the program.
     Title,
-    /// The control refuses it.
+    /// The control rejects it.
     Refused,
 }
 
-/// What `/` in front of a line means.
+/// Meaning of `/` at the beginning of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slash {
-    /// A switch at the machine decides whether the line is run.
+    /// A switch on the machine decides whether the line is executed.
     Optional,
-    /// It is thrown away and the line is run.
+    /// It is discarded and the line is executed.
     Dropped,
-    /// Nothing: it is no word's beginning.
+    /// It is not supported.
     Unknown,
 }
 
-/// The longest line that a control takes, in bytes.
+/// Maximum length of a line, in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineLength {
-    /// As it stands in the file, without its end.
+    /// Of the line as it is in the file, without the line break.
     Whole(usize),
     /// Without blanks and comments.
     Bare(usize),
 }
 
-/// What may stand in place of a number.
+/// What may replace a number.
 #[derive(Debug)]
 pub struct Grammar {
-    /// Which operators there are and how tightly they bind.
+    /// The operators and their precedence.
     pub operators: Operators,
     /// `#<name>`.
     pub names: bool,
-    /// A sign in front of `[`, `#` or a function.
+    /// Whether a sign may precede `[`, `#` or a function.
     pub signs: bool,
     /// Parameters are numbered from 1 to this.
     pub parameters: u32,
-    /// O words (subroutines, branches).
+    /// Whether there are O words (subroutines, branches).
     pub o_words: bool,
 }
 
-/// How operators bind. Everything is left-associative.
+/// The precedence of operators. All are left-associative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operators {
     /// `**`, then `* / MOD`, then `+ - AND OR XOR`.

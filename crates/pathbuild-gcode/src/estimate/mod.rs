@@ -1,7 +1,8 @@
-//! How long a program takes on a machine that has to gather speed. (book: program/reading)
+//! Estimates the duration of a program on a machine with limited acceleration. (book: program/reading)
 //!
-//! A planner as GRBL has it: along each move the tool speeds up, keeps its feed and slows down; how fast it may take a corner follows from
-//! the junction deviation. It looks ahead as far as it is of use, where a control sees a few moves only.
+//! The planner is similar to that of GRBL: along each move the tool accelerates, moves at its feed and decelerates; the speed in corners
+//! follows
+//! from the junction deviation. It looks ahead as far as useful, whereas a control only sees a few moves.
 
 mod profile;
 mod way;
@@ -9,21 +10,21 @@ mod way;
 use pathbuild_motion::{Action, Step};
 use way::Way;
 
-/// What a machine can do.
+/// The limits of a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinematics {
-    /// The fastest that X, Y and Z go, in mm/min; for rapid moves and for feeds.
+    /// Maximum speeds of X, Y and Z in mm/min, for rapid moves and for feeds.
     pub rates: [f64; 3],
-    /// The most that X, Y and Z gain in speed, in mm/s².
+    /// Maximum accelerations of X, Y and Z, in mm/s².
     pub accelerations: [f64; 3],
-    /// How far in mm a corner could be cut for the speed at which it is taken; 0: the tool stops in each.
+    /// Distance in mm by which a corner could be cut at the speed at which it is taken. With 0, the tool stops in every corner.
     pub junction_deviation: f64,
 }
 
-/// The time of a program in seconds: its moves and its dwells, without what waits for a person.
+/// The duration of a program in seconds, consisting of moves and dwells, without stops for the operator.
 ///
-/// Axes of which it is not known where they are count as standing. A move without a feed counts as a rapid one: its feed is missing, which
-/// the interpreter reports.
+/// Axes with unknown positions count as not moving. A move without a feed counts as a rapid; the interpreter reports the missing
+/// feed.
 pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
     let mut seconds = 0.0;
     let mut ways: Vec<Way> = Vec::new();

@@ -1,26 +1,26 @@
-//! A move as a planner sees it.
+//! A move as seen by the planner.
 
 use pathbuild_motion::{Move, Pace, Path};
 
 use super::Kinematics;
 
-/// A way that is gone without a stop, in mm and seconds.
+/// A move without interruption, in mm and seconds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     pub(super) length: f64,
-    /// The speed that is wanted, in mm/s.
+    /// Target speed in mm/s.
     pub(super) speed: f64,
-    /// The most speed that is gained, in mm/s².
+    /// Maximum acceleration in mm/s².
     pub(super) acceleration: f64,
-    /// The direction at its beginning and at its end, of length 1.
+    /// Directions at the start and at the end, as unit vectors.
     pub(super) begin: [f64; 3],
     pub(super) end: [f64; 3],
-    /// The tool stands still behind it: nobody knows where a probe stops.
+    /// Whether the tool stops at the end, because it is unknown where a probe stops.
     pub(super) stops: bool,
 }
 
 impl Way {
-    /// The way of a move; `None` if it leads nowhere.
+    /// Converts a move; `None` if it does not move.
     pub(super) fn of(it: &Move, kinematics: &Kinematics) -> Option<Self> {
         let length = it.length();
         if !(length > 0.0 && length.is_finite()) {
@@ -46,7 +46,7 @@ impl Way {
     }
 }
 
-/// The speed in mm/s at which the axes of an arc's plane hold the tool on it.
+/// Speed in mm/s at which the axes of an arc's plane can still keep the tool on it.
 fn turning_speed(it: &Move, kinematics: &Kinematics) -> f64 {
     let Path::Arc(arc) = it.path else { return f64::INFINITY };
     let weakest =

@@ -1,4 +1,4 @@
-//! Arcs, from I J K or R. (book: program/reading)
+//! Arcs given by I J K or R. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
@@ -10,13 +10,13 @@ use super::state::INCH;
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, Span};
 
-/// An arc by R of nearly 180 degrees is doubtful if the last digit of R moves its centre by more than this, in mm.
+/// An arc of almost 180 degrees given by R is doubtful if the last digit of R moves its centre by more than this, in mm.
 const CENTRE_SHIFT: f64 = 0.05;
 
-/// Ends that are nearer than this, in mm, and not equal are doubtful where the arc goes nearly all round: the last digit decides.
+/// If the ends are different but closer than this, in mm, an almost full circle is doubtful, because the last digit decides.
 const NEAR_ENDS: f64 = 0.002;
 
-/// The most turns of one arc, so that a few bytes are no way to mill for days. The message of a P beyond names it.
+/// Maximum number of turns of an arc, so that a few bytes cannot describe days of milling. The message for a greater P contains it.
 const MOST_TURNS: u32 = 100_000;
 
 impl Interpreter<'_> {
@@ -53,7 +53,7 @@ impl Interpreter<'_> {
         self.emit_move(block, it);
     }
 
-    /// An arc that cannot be: the tool is taken to be at its end.
+    /// Omits an impossible arc. The tool is assumed to be at its end.
     fn leave_out(&mut self, to: Position) {
         self.state.position = to;
         self.use_all_words();
@@ -65,7 +65,7 @@ impl Interpreter<'_> {
                 != self.state.position.at[plane.third()]
     }
 
-    /// Whole turns beside the arc, from P.
+    /// Number of full turns in addition to the arc, from P.
     fn turns(&mut self, block: &Block<'_>) -> u32 {
         if !self.rules.arcs.turns {
             return 0;
@@ -159,7 +159,7 @@ impl Interpreter<'_> {
         if shift > CENTRE_SHIFT && half <= radius {
             self.report(block, &say::NEAR_HALF_CIRCLE, slot.span, |d| d.with("shift", shift));
         }
-        // The centre of a short clockwise arc lies to the right of its chord.
+        // The centre of a short clockwise arc is to the right of its chord.
         let side = if clockwise == is_long { -height / length } else { height / length };
         Some([
             f64::midpoint(start[0], end[0]) + side * chord[1],
@@ -194,7 +194,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// How far the centre of an arc lies from the middle of its chord.
+/// Distance from the centre of an arc to its chord.
 fn height_over_chord(radius: f64, half_chord: f64) -> f64 {
     libm::sqrt((radius * radius - half_chord * half_chord).max(0.0))
 }

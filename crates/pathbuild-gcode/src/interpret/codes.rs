@@ -1,8 +1,8 @@
-//! G codes by what they do.
+//! G codes by their effect.
 
 use pathbuild_motion::{Group, Plane, WordEffect, WorkSystem};
 
-/// What a G code does.
+/// The effect of a G code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Command {
     Motion(Motion),
@@ -12,14 +12,14 @@ pub(super) enum Command {
     Inches(bool),
     Home(usize),
     StoreHome(usize),
-    /// G40, G43, G49, G61, G64 and the like: nothing that changes where the program says the tool's tip goes.
+    /// G40, G43, G49, G61, G64 and others that do not change the programmed position of the tool tip.
     NoEffect(Group),
     LocalOffset,
     MachineCoordinates,
     System(WorkSystem),
     Incremental(bool),
     IncrementalCentres(bool),
-    /// G92: here is so.
+    /// G92, which sets the coordinates of the current position.
     SetOrigin,
     Origin(Origin),
     FeedMode(FeedUnit),
@@ -27,7 +27,7 @@ pub(super) enum Command {
     NotFollowed(Group),
 }
 
-/// What coordinates without a G word do.
+/// The effect of coordinates without a G word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Motion {
     None,
@@ -41,47 +41,47 @@ pub(super) enum Motion {
         must_answer: bool,
     },
     Cycle(Cycle),
-    /// A motion that is not followed; it has been reported.
+    /// A motion that is not followed and has been reported.
     Unfollowed,
 }
 
-/// The drilling cycles that are followed.
+/// The supported drilling cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cycle {
-    /// G73: in steps, lifting a little to break the chip.
+    /// G73: in pecks, with a small retraction to break the chip.
     ChipBreaking,
     /// G81.
     Plain,
-    /// G82: waits at the bottom.
+    /// G82: dwells at the bottom.
     Dwelling,
-    /// G83: in steps, lifting out each time.
+    /// G83: in pecks, with full retraction after each.
     Pecking,
-    /// G85: lifts at the feed.
+    /// G85: retracts at feed.
     Boring,
-    /// G89: waits at the bottom and lifts at the feed.
+    /// G89: dwells at the bottom and retracts at feed.
     BoringDwelling,
 }
 
-/// What F counts.
+/// Unit of F.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum FeedUnit {
-    /// G94: mm or inches a minute.
+    /// G94: mm or inches per minute.
     #[default]
     PerMinute,
-    /// G93: moves a minute.
+    /// G93: moves per minute.
     InverseTime,
-    /// G95: mm or inches a turn of the spindle.
+    /// G95: mm or inches per spindle revolution.
     PerTurn,
 }
 
-/// G92.1 and its kin.
+/// G92.1 and similar words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
-    /// G92.1: forgets it.
+    /// G92.1: clears the offset.
     Clear,
-    /// G92.2: leaves it aside.
+    /// G92.2: suspends the offset.
     Suspend,
-    /// G92.3: takes it up again.
+    /// G92.3: restores the offset.
     Resume,
 }
 
@@ -119,7 +119,7 @@ impl Command {
         }
     }
 
-    /// Whether it takes the line's coordinates for itself.
+    /// Whether it consumes the coordinates of the line.
     pub(super) fn takes_coordinates(self) -> bool {
         match self {
             Self::SetOffsets | Self::Home(_) | Self::LocalOffset | Self::SetOrigin => true,
@@ -128,7 +128,7 @@ impl Command {
         }
     }
 
-    /// What a G code (times ten) does; unit words are the dialect's and looked up before.
+    /// The effect of a G code (times ten). Unit words depend on the dialect and are looked up before.
     pub(super) fn of(code: u16) -> Self {
         use Group::{CutterCompensation, LatheMode, PathControl, SpindleMode, ToolLength, Transform};
         let system =
@@ -154,7 +154,7 @@ impl Command {
             540 | 550 | 560 | 570 | 580 | 590 => system(u32::from(code - 540) / 10 + 1),
             591..=593 => system(u32::from(code - 591) + 7),
             90 | 610 | 611 | 640 => Self::NoEffect(PathControl),
-            // Polar coordinates, scaling, mirroring and rotation are switched off, which they are.
+            // These switch polar coordinates, scaling, mirroring and rotation off, which is always the case.
             150 | 500 | 690 => Self::NoEffect(Transform),
             160 | 510 | 680 => Self::NotFollowed(Transform),
             70 => Self::NotFollowed(LatheMode),
@@ -186,7 +186,7 @@ fn motion(code: u16) -> Option<Motion> {
         20 => Motion::Arc { clockwise: true },
         30 => Motion::Arc { clockwise: false },
         382 => Motion::Probe { toward: true, must_answer: true },
-        // G31, "skip", as G38.3: without an answer the program goes on.
+        // G31 ("skip") is like G38.3: if the probe makes no contact, the program continues.
         310 | 383 => Motion::Probe { toward: true, must_answer: false },
         384 => Motion::Probe { toward: false, must_answer: true },
         385 => Motion::Probe { toward: false, must_answer: false },
@@ -201,12 +201,12 @@ fn motion(code: u16) -> Option<Motion> {
     })
 }
 
-/// Whether a G code is a drilling cycle in every dialect that has cycles.
+/// Whether a G code is a drilling cycle in all dialects with cycles.
 pub(super) fn is_cycle(code: u16) -> bool {
     matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890)
 }
 
-/// What a G or M code is called: `G1`, `G38.2`.
+/// Name of a G or M code: `G1`, `G38.2`.
 pub(crate) fn name(letter: char, code: u16) -> String {
     match code % 10 {
         0 => format!("{letter}{}", code / 10),

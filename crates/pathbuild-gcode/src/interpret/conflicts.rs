@@ -1,4 +1,4 @@
-//! What excludes each other in one block, and what nothing uses.
+//! Checks for words that exclude each other in a block, and for unused words.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Severity};
@@ -8,7 +8,7 @@ use super::execute::Interpreter;
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL};
 use crate::read::{At, Block, Span};
 
-/// M codes of which one line takes one.
+/// Groups of M codes of which a line may contain only one.
 const M_GROUPS: [&[u16]; 4] = [STOPS, TOOL, SPINDLE, COOLANT];
 
 impl Interpreter<'_> {

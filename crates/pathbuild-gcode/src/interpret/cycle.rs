@@ -1,6 +1,6 @@
-//! Drilling cycles, as the moves that they stand for, along the axis across the plane. (RS274/NGC, 3.5.16)
+//! Expands drilling cycles to moves along the axis across the plane. (RS274/NGC, 3.5.16)
 //!
-//! "Height" and the names of Z are those of the plane XY, which is nearly always meant.
+//! Names such as "height" and Z assume the plane XY, which is almost always the active one.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Move, Pace, Path, Position};
@@ -12,28 +12,29 @@ use super::limits;
 use super::state::CycleState;
 use crate::read::{Block, Span};
 
-/// So far above the last depth a pecking cycle comes back down at rapid speed, and so far a chip-breaking one lifts: 0.010 inches.
+/// Distance above the last depth at which a pecking cycle stops its rapid descent, and by which a chip-breaking cycle retracts: 0.010
+/// inches.
 const CLEARANCE: f64 = 0.254;
 
-/// The most moves that one line may stand for, so that `Q0.000001 L99999` is no way to fill the memory.
+/// Maximum number of moves per line, so that `Q0.000001 L99999` cannot exhaust the memory.
 const MOST_MOVES: f64 = 100_000.0;
 
-/// The numbers of one cycle, in mm and seconds.
+/// The values of a cycle, in mm and seconds.
 #[derive(Clone, Copy, Debug)]
 struct Hole {
     cycle: Cycle,
-    /// Where the rapid moves end above the material.
+    /// End of the rapid descent above the material.
     r: f64,
     bottom: f64,
-    /// Where it lifts to in the end.
+    /// Final retraction height.
     clear: f64,
-    /// Depth of a step.
+    /// Depth of a peck.
     step: f64,
     dwell: f64,
 }
 
 impl Interpreter<'_> {
-    /// Forgets the numbers of the cycle before; where the tool was is remembered for a whole series of cycles.
+    /// Clears the values of the previous cycle. The initial height is kept for a whole series of cycles.
     pub(super) fn begin_cycle(&mut self, series_goes_on: bool) {
         let initial = if series_goes_on { self.state.cycle.initial } else { self.state.position.at };
         self.state.cycle = CycleState { initial, ..CycleState::default() };
@@ -87,8 +88,9 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Keeps R, Z, P and Q for this line and the next ones of the same cycle. R and Z are kept as heights, so that in relative mode the
-    /// next line drills as deep as this one.
+    /// Stores R, Z, P and Q for this line and the following ones of the same cycle. R and Z are stored as heights, so that in relative mode
+    /// the
+    /// next line drills to the same depth.
     fn remember(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let shift = self.state.offsets.shift(self.state.plane.third());
         let old = self.old_height();
@@ -140,7 +142,7 @@ impl Interpreter<'_> {
         Some(Hole { cycle, r, bottom, clear: r, step, dwell })
     }
 
-    /// The height that is the tool's before a hole: where the series began (G98), or where it is (G99).
+    /// The retraction height: that at the start of the series (G98), or R (G99).
     fn old_height(&self) -> f64 {
         let axis = self.state.plane.third();
         if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }
@@ -194,7 +196,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// About how many moves a hole takes.
+/// Approximate number of moves for a hole.
 fn moves_of(hole: &Hole) -> f64 {
     5.0 + 3.0 * (hole.r - hole.bottom) / hole.step
 }

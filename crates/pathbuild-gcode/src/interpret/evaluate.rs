@@ -1,4 +1,4 @@
-//! Parameters, and the values of expressions. (book: program/reading)
+//! Parameters, and evaluation of expressions. (book: program/reading)
 
 use std::collections::BTreeMap;
 
@@ -6,20 +6,20 @@ use pathbuild_diagnostic::Text;
 
 use crate::read::{Binary, Block, Code, Function, Op, Span};
 
-/// LinuxCNC takes numbers this near to each other as equal.
+/// LinuxCNC considers numbers equal if they differ by less than this.
 const EQUAL: f64 = 1e-6;
 
-/// Why an expression has no value.
+/// Why an expression cannot be evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault(pub(super) &'static Text);
 
-/// The parameters of a program. Those that were never set are 0 by number, and nothing by name.
+/// The parameters of a program. Numbered parameters that were never set are 0; named ones do not exist.
 #[derive(Debug, Default)]
 pub(super) struct Parameters {
     numbered: BTreeMap<u32, f64>,
     named: BTreeMap<Box<str>, f64>,
     stack: Vec<f64>,
-    /// Parameters read that only the machine knows.
+    /// Parameters that were read although only the machine knows their values.
     pub(super) machine_values: Vec<u32>,
 }
 
@@ -32,7 +32,7 @@ impl Parameters {
         self.named.insert(name, value);
     }
 
-    /// The value of an expression of a block; parameters go from 1 to `most`.
+    /// Evaluates an expression of a block. Parameters are numbered from 1 to `most`.
     pub(super) fn evaluate(&mut self, block: &Block<'_>, code: Code, most: u32) -> Result<f64, Fault> {
         let mut stack = std::mem::take(&mut self.stack);
         stack.clear();
@@ -82,13 +82,13 @@ impl Parameters {
     }
 }
 
-/// Names do not depend on case or blanks.
+/// Normalizes a name; case and blanks are irrelevant.
 pub(super) fn name_of(block: &Block<'_>, name: Span) -> Box<str> {
     let name = block.text_of(name);
     name.chars().filter(|letter| !letter.is_whitespace()).flat_map(char::to_lowercase).collect()
 }
 
-/// A number as that of a parameter.
+/// Converts a number to a parameter number.
 pub(super) fn parameter_number(index: f64, most: u32) -> Result<u32, Fault> {
     let whole = libm::round(index);
     if libm::fabs(index - whole) > 0.0001 || whole < 1.0 || whole > f64::from(most) {
@@ -98,7 +98,7 @@ pub(super) fn parameter_number(index: f64, most: u32) -> Result<u32, Fault> {
     Ok(whole as u32)
 }
 
-/// The reader has compiled the code: there is an operand for every operator.
+/// The reader has compiled the code, so every operator has its operands.
 fn pop(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(0.0)
 }

@@ -1,5 +1,4 @@
-//! Block by block, in the order of execution that the standard gives the words of a block, whatever their order in the text.
-//! (book: program/reading)
+//! Executes blocks. The words of a block are executed in the order prescribed by the standard, regardless of their order in the text.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
@@ -14,7 +13,7 @@ use super::state::State;
 use crate::dialect::{Acceptance, Percent, Rules, beginning_of};
 use crate::read::{At, Block, Problems, Span};
 
-/// A program's state, and what its blocks do.
+/// The state of a program, and the effects of its blocks.
 pub(super) struct Interpreter<'i> {
     pub(super) rules: &'static Rules,
     pub(super) options: &'i Options,
@@ -23,7 +22,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) problems: Problems,
     pub(super) parameters: Parameters,
     pub(super) stated: StatedProbes,
-    /// What the last block does.
+    /// The steps of the last block.
     pub(super) out: Vec<Step>,
     pub(super) ended: bool,
 }
@@ -48,7 +47,7 @@ impl<'i> Interpreter<'i> {
         self.ended
     }
 
-    /// What was wrong, when the file ends in this line.
+    /// Returns the problems found, if the file ends in this line.
     pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
         let has_end = [20, 300].iter().any(|code| self.rules.words.m(*code) == Acceptance::Taken);
         if !self.ended && !is_framed && has_end {
@@ -88,7 +87,7 @@ impl<'i> Interpreter<'i> {
         self.report_unused(block);
     }
 
-    /// Some controls obey what a comment begins with.
+    /// Reports a comment whose beginning the control obeys.
     fn check_active(&mut self, block: &Block<'_>, text: Span) {
         if let Some(word) = beginning_of(&block.text_of(text), self.rules.spelling.active_comments) {
             self.report(block, &say::ACTIVE_COMMENT, text, |d| d.quoting("word", word.trim_end_matches(',')));
@@ -123,7 +122,7 @@ impl<'i> Interpreter<'i> {
         self.problems.add(message, At::block(block, span), |d| values(d).quoting("dialect", dialect));
     }
 
-    /// Reports what the dialect does not know: a warning where it passes over such things.
+    /// Reports what the dialect does not know; as a warning if it ignores such things.
     pub(super) fn report_unknown(
         &mut self,
         block: &Block<'_>,
@@ -161,7 +160,7 @@ impl<'i> Interpreter<'i> {
         self.stop(block);
     }
 
-    /// The height or coordinate that a slot stands for, in mm.
+    /// Converts a height or coordinate to mm.
     pub(super) fn millimetres(&self, slot: Slot) -> f64 {
         let value = match self.options.heights {
             Heights::Nominal => slot.value - slot.correction,
@@ -171,7 +170,7 @@ impl<'i> Interpreter<'i> {
     }
 }
 
-/// A number of tools, layers, repeats.
+/// Converts the number of a tool, a layer or repetitions.
 pub(super) fn whole(value: f64) -> Option<u32> {
     let nearest = libm::round(value);
     let fits = libm::fabs(value - nearest) < 0.0001 && (0.0..f64::from(u32::MAX)).contains(&nearest);

@@ -1,4 +1,4 @@
-//! F, S, units: what numbers count.
+//! F, S and units of numbers.
 
 use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -65,7 +65,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The layer that the block's words belong to: M6 takes effect before them.
+    /// The layer that the words of the block belong to; M6 takes effect before them.
     fn layer_of_block(&self) -> u32 {
         let chosen = self.words.m_code(TOOL).and_then(|_| self.words.values.peek(b'T'));
         chosen.and_then(|slot| whole(slot.value)).unwrap_or(self.state.layer)
@@ -83,7 +83,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Tells how fast rapid moves are from here on, where that is what F says.
+    /// Records the speed of rapid moves from here on, if it depends on F.
     pub(super) fn rapid_feed(&mut self, block: &Block<'_>) {
         let feed = self.state.feed;
         if self.rules.rapids_at_feed && self.state.rapid_feed != Some(feed) {
@@ -92,7 +92,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The feed of a cutting move, in mm/min; 0, with a report, if there is none.
+    /// The feed of a cutting move in mm/min, or 0 with a report if there is none.
     pub(super) fn feed(&mut self, block: &Block<'_>, it: &Move) -> f64 {
         let per_minute = match self.state.feed_unit {
             FeedUnit::PerMinute => self.state.feed,
@@ -100,7 +100,7 @@ impl Interpreter<'_> {
             FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * it.length(),
             FeedUnit::InverseTime => 0.0,
         };
-        // The layers' own feeds hold, and they are in no file.
+        // The feeds of the layers apply, which are not in the file.
         let is_layers = self.rules.layers && self.options.ignore_feed;
         if per_minute == 0.0 && !it.is_nothing() && !is_layers {
             self.report_missing_feed(block);
@@ -108,7 +108,7 @@ impl Interpreter<'_> {
         per_minute
     }
 
-    /// Once until the next F: it is one mistake, however many moves follow.
+    /// Reports a missing feed once until the next F, because it is a single mistake, however many moves follow.
     fn report_missing_feed(&mut self, block: &Block<'_>) {
         if std::mem::replace(&mut self.state.stated.feed_missing, true) {
             return;
@@ -131,7 +131,7 @@ fn unit_of(inches: bool) -> f64 {
     if inches { INCH } else { 1.0 }
 }
 
-/// Whether a comment of the block names inches (true) or millimetres (false).
+/// Whether a comment of the block mentions inches (true) or millimetres (false).
 fn unit_said(block: &Block<'_>) -> Option<bool> {
     block.comments.iter().find_map(|comment| {
         let text = block.text_of(comment.text).to_lowercase();

@@ -1,4 +1,4 @@
-//! Correction formulas of native programs, held against the number that the machine goes to. (book: language/probes)
+//! Compares correction formulas of native programs with the numbers that are executed. (book: language/probes)
 
 use std::collections::BTreeMap;
 
@@ -9,33 +9,33 @@ use crate::adjust::{ProgramProbe, probe_entry};
 use crate::provenance::Provenance;
 use crate::read::{Binary, Block, Formula, Function, Op, Span};
 
-/// A formula and its number may differ by this much, in mm: the number has three decimals.
+/// Permitted difference in mm between a formula and its number, which has three decimals.
 const ROUNDING: f64 = 0.001 * (1.0 + 1e-6);
 
-/// What a native program states about its probes before its first word.
+/// What a native program lists about its probes before its first word.
 #[derive(Debug, Default)]
 pub(super) struct StatedProbes {
     probes: BTreeMap<u32, ProgramProbe>,
-    /// pathbuild wrote the program, so that every probe is stated in its header.
+    /// Whether pathbuild wrote the program, so that every probe is listed in its header.
     is_ours: bool,
     has_begun: bool,
-    /// S0, the one height that is never corrected.
+    /// S0, the only height that is never corrected.
     start_height: Option<f64>,
     stack: Vec<f64>,
 }
 
-/// The height of a probe that a formula is evaluated with.
+/// Which height of a probe to use for evaluating a formula.
 #[derive(Clone, Copy, PartialEq)]
 enum ProbeHeight {
     Drawn,
     Measured,
 }
 
-/// Why a formula has no value.
+/// Why a formula cannot be evaluated.
 enum NoValue {
-    /// The program states nothing about this probe.
+    /// The program does not list this probe.
     UnknownProbe(u32),
-    /// The program does not state the measured height of this probe.
+    /// The program does not list the measured height of this probe.
     Unmeasured(u32),
     Infinite,
 }
@@ -51,7 +51,7 @@ impl StatedProbes {
 
     fn run(&self, code: &[Op], height: ProbeHeight, stack: &mut Vec<f64>) -> Result<f64, NoValue> {
         for (index, op) in code.iter().enumerate() {
-            // The reader has compiled the formula: every operator has its operands.
+            // The reader has compiled the formula, so every operator has its operands.
             let mut pop = || stack.pop().unwrap_or(f64::NAN);
             let value = match *op {
                 Op::Number(number) => number,
@@ -83,7 +83,7 @@ impl StatedProbes {
         Ok(stack.pop().unwrap_or(f64::NAN))
     }
 
-    /// The height of a probe. In programs that do not state their probes, `[#51-2.000]` says how high each was drawn.
+    /// The height of a probe. In programs that do not list their probes, `[#51-2.000]` gives the height at which it was drawn.
     fn probe(&self, number: u32, height: ProbeHeight, behind: &[Op]) -> Result<f64, NoValue> {
         match (self.probes.get(&number), height) {
             (Some(probe), ProbeHeight::Drawn) => Ok(probe.height),
@@ -102,7 +102,7 @@ impl StatedProbes {
 }
 
 impl Interpreter<'_> {
-    /// Takes the probes and the provenance that a native program states before its first word.
+    /// Stores the probes and the provenance listed before the first word of a native program.
     pub(super) fn take_stated(&mut self, block: &Block<'_>, text: Span) {
         if !self.rules.spelling.formulas || self.stated.has_begun {
             return;
@@ -118,13 +118,13 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Notes that a block has words: what is stated in comments from here on does not count.
+    /// Records that a block has words; comments from here on do not count as listing probes.
     pub(super) fn begin_words(&mut self, block: &Block<'_>) {
         self.stated.has_begun |= !block.words.is_empty();
     }
 
-    /// How much of a number is correction, by its formula. The number itself is what the machine executes, so a formula that comes to
-    /// something else is reported.
+    /// The part of a number that is correction according to its formula. The machine executes the number, so a formula with a different
+    /// result is reported.
     pub(super) fn correction(&mut self, block: &Block<'_>, formula: &Formula, number: f64) -> f64 {
         if self.stated.is_ours && self.stated.probes.is_empty() {
             self.report(block, &say::FORMULA_WITHOUT_PROBES, formula.span, |d| d);
@@ -148,7 +148,7 @@ impl Interpreter<'_> {
                 value - drawn
             }
             Err(NoValue::UnknownProbe(_)) if !self.stated.is_ours => {
-                // Another program wrote it, which states no measured heights: `verify` says so.
+                // Another tool wrote it, which does not list measured heights; `verify` reports that.
                 number - drawn
             }
             Err(fault) => self.no_value(block, formula, &fault),
@@ -173,7 +173,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// In a program with probes every height but S0 has a formula.
+    /// Reports a height without a formula. In a program with probes only S0 has none.
     pub(super) fn height_without_formula(&mut self, block: &Block<'_>, span: Span, number: f64) {
         if self.stated.probes.is_empty() {
             return;

@@ -1,4 +1,4 @@
-//! The words of one block, sorted by what they are.
+//! The words of a block, sorted by kind.
 
 use pathbuild_motion::Group;
 
@@ -6,7 +6,7 @@ use super::codes::Command;
 use super::evaluate::Fault;
 use crate::read::Span;
 
-/// The words of a block: commands in the order of the text, values by letter.
+/// The words of a block: commands in their order in the text, values by letter.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     pub(super) commands: Vec<(Command, u16, Span)>,
@@ -15,7 +15,7 @@ pub(super) struct Gathered {
     pub(super) settings: Vec<(Setting, f64)>,
 }
 
-/// A parameter that the block sets, once everything in it has been read.
+/// A parameter set by the block. It takes effect after everything in the block has been read.
 #[derive(Debug)]
 pub(super) enum Setting {
     Numbered(u32),
@@ -30,18 +30,18 @@ impl Gathered {
         self.settings.clear();
     }
 
-    /// The block's command of a group.
+    /// The command of the block that belongs to a group.
     pub(super) fn of_group(&self, group: Group) -> Option<(Command, u16, Span)> {
         self.commands.iter().find(|(command, ..)| command.group() == group).copied()
     }
 
-    /// The block's M code among these.
+    /// The M code of the block that is one of these.
     pub(super) fn m_code(&self, codes: &[u16]) -> Option<(u16, Span)> {
         self.m_codes.iter().find(|(code, _)| codes.contains(code)).copied()
     }
 }
 
-/// The values of a block's letters, and which of them something has used.
+/// The values of the letters in a block, and which of them have been used.
 #[derive(Debug, Default)]
 pub(super) struct Values {
     given: u32,
@@ -49,14 +49,14 @@ pub(super) struct Values {
     slots: [Slot; 26],
 }
 
-/// A letter's value.
+/// The value of a letter.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Slot {
     pub(super) value: f64,
-    /// Digits behind the point; of expressions as many as a double has.
+    /// Number of digits after the decimal point; for expressions as many as a double has.
     pub(super) decimals: u8,
     pub(super) span: Span,
-    /// How much of the value is the correction of the word's formula.
+    /// The part of the value that is correction by the formula of the word.
     pub(super) correction: f64,
 }
 
@@ -74,7 +74,7 @@ impl Values {
         self.used = 0;
     }
 
-    /// Sets a letter; false if it was there already.
+    /// Sets a letter. Returns false if it was set already.
     pub(super) fn set(&mut self, letter: u8, slot: Slot) -> bool {
         let is_new = self.given & bit(letter) == 0;
         self.given |= bit(letter);
@@ -86,40 +86,40 @@ impl Values {
         self.given & bit(letter) != 0
     }
 
-    /// Whether there is an X, Y or Z.
+    /// Whether X, Y or Z is set.
     pub(super) fn has_coordinates(&self) -> bool {
         self.given & Self::COORDINATES != 0
     }
 
-    /// The value, which counts as used from now on.
+    /// Returns the value and marks it as used.
     pub(super) fn take(&mut self, letter: u8) -> Option<f64> {
         self.take_slot(letter).map(|slot| slot.value)
     }
 
-    /// The same with everything known of it.
+    /// Like [`take`](Self::take), but returns everything known about the value.
     pub(super) fn take_slot(&mut self, letter: u8) -> Option<Slot> {
         self.used |= bit(letter) & self.given;
         self.peek(letter)
     }
 
-    /// The value, without using it.
+    /// Returns the value without marking it as used.
     pub(super) fn peek(&self, letter: u8) -> Option<Slot> {
         self.has(letter).then(|| self.slots[usize::from(letter - b'A')])
     }
 
-    /// Takes X, Y and Z out of the block.
+    /// Removes X, Y and Z from the block.
     pub(super) fn discard_coordinates(&mut self) {
         self.given &= !Self::COORDINATES;
     }
 
-    /// Takes a letter out of the block.
+    /// Removes a letter from the block.
     pub(super) fn remove(&mut self, letter: u8) -> Option<Slot> {
         let slot = self.peek(letter);
         self.given &= !bit(letter);
         slot
     }
 
-    /// X, Y and Z, used from now on.
+    /// Returns X, Y and Z and marks them as used.
     pub(super) fn take_coordinates(&mut self) -> [Option<Slot>; 3] {
         Self::AXES.map(|axis| self.take_slot(axis))
     }
@@ -128,7 +128,7 @@ impl Values {
         self.given & !self.used == 0
     }
 
-    /// Letters that nothing has used.
+    /// Letters that have not been used.
     pub(super) fn unused(&self) -> impl Iterator<Item = (u8, Span)> + '_ {
         let left = self.given & !self.used;
         (b'A'..=b'Z')
@@ -137,5 +137,5 @@ impl Values {
     }
 }
 
-/// A value's fault, with the part of the line that it is in.
+/// An error in a value, with its position in the line.
 pub(super) type ValueFault = (Fault, Span);

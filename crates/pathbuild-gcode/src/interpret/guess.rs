@@ -1,4 +1,4 @@
-//! Which dialect a file is in, and why that is thought. (book: program/reading, "Dialects")
+//! Guesses the dialect of a file, and gives the reason. (book: program/reading, "Dialects")
 
 use memchr::memmem;
 use pathbuild_diagnostic::{Code, Text};
@@ -7,10 +7,10 @@ use super::{Options, interpret_each};
 use crate::dialect::Dialect;
 use crate::provenance::Provenance;
 
-/// So much of a file is looked at, in bytes.
+/// Number of bytes inspected at the beginning of a file.
 const LOOKED_AT: usize = 65_536;
 
-/// A dialect, and what speaks for it.
+/// A dialect, and the evidence for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Guess {
@@ -18,29 +18,29 @@ pub struct Guess {
     pub evidence: Evidence,
 }
 
-/// What speaks for a dialect.
+/// Evidence for a dialect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Evidence {
     /// A phrase such as "it has correction formulas".
     pub reason: &'static Text,
-    /// The line that shows it, from 1.
+    /// The line that contains it, counted from 1.
     pub line: Option<u32>,
 }
 
-/// Guesses the dialect of a file from signs that only one dialect has, else from which one knows its words.
+/// Guesses the dialect of a file from features that only one dialect has, otherwise from the dialect that accepts most of its words.
 pub fn guess(text: &[u8]) -> Guess {
     let head = &text[..text.len().min(LOOKED_AT)];
     by_header(head).or_else(|| by_sign(head)).unwrap_or_else(|| by_words(head))
 }
 
-/// What pathbuild wrote names its dialect.
+/// Files written by pathbuild name their dialect.
 fn by_header(head: &[u8]) -> Option<Guess> {
     let (provenance, _) = Provenance::of_head(head)?;
     let reason = &Text { en: "its header names it", de: "sein Kopf nennt es" };
     Some(Guess { dialect: provenance.dialect?, evidence: Evidence { reason, line: None } })
 }
 
-/// A sign of a dialect: whether a line has it.
+/// A feature of a dialect, with a function that detects it in a line.
 type Sign = (Dialect, fn(&[u8]) -> bool, &'static Text);
 
 const SIGNS: &[Sign] = &[
@@ -114,7 +114,7 @@ fn by_sign(head: &[u8]) -> Option<Guess> {
     })
 }
 
-/// The first of the dialects that knows most of the words.
+/// The first dialect that accepts most of the words.
 fn by_words(head: &[u8]) -> Guess {
     let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
     let strangers = candidates.map(|dialect| unknown_words(head, dialect));
@@ -144,7 +144,7 @@ fn without_round_comments(line: &[u8]) -> &[u8] {
     &line[..memchr::memchr(b'(', line).unwrap_or(line.len())]
 }
 
-/// `%NAME`, also behind a block number.
+/// `%NAME`, even after a block number.
 fn is_title(line: &[u8]) -> bool {
     let digits = |line: &[u8]| line.iter().take_while(|byte| byte.is_ascii_digit()).count();
     let line = match line {
@@ -159,7 +159,7 @@ fn is_number(text: &[u8]) -> bool {
     !text.is_empty() && text.iter().all(u8::is_ascii_digit)
 }
 
-/// Subroutines and branches; a bare `O1234` is another control's program number.
+/// Subroutines and branches. A bare `O1234` is the program number of another control.
 fn ends_in_keyword(line: &[u8]) -> bool {
     const KEYWORDS: [&[u8]; 10] =
         [b"sub", b"endsub", b"call", b"if", b"else", b"endif", b"while", b"do", b"repeat", b"return"];

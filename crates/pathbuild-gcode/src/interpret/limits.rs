@@ -1,4 +1,4 @@
-//! Limits of values, as PB725 names them. (book: reference/diagnostics)
+//! Limits of values, as used in the messages of PB725. (book: reference/diagnostics)
 
 use pathbuild_diagnostic::Text;
 

@@ -1,8 +1,8 @@
-//! What a program in G-code makes the machine do. (book: program/reading)
+//! Interprets G-code programs. (book: program/reading)
 //!
-//! The result is a list of canonical [`Step`]s: everything in millimetres, absolute, with the position before and after, whatever the
-//! program's units, distance mode, coordinate system or cycles were. Every problem is a diagnostic with its line; a line that cannot
-//! be understood is left out, and what a later stage would get wrong because of it is left to the reader of the diagnostic.
+//! The result is a list of canonical [`Step`]s in absolute millimetres, each with the positions before and after it, regardless of the
+//! units, distance mode, coordinate systems and cycles used by the program. Every problem is a diagnostic with its line. Lines that
+//! cannot be understood are omitted; later steps may be wrong in consequence.
 
 mod arc;
 mod codes;
@@ -38,12 +38,12 @@ pub use program::{each_move_of, moves_of};
 use crate::dialect::Dialect;
 use crate::read::BlockReader;
 
-/// A program that has been interpreted.
+/// The result of interpreting a program.
 #[derive(Clone, Debug, Default)]
 pub struct Interpretation {
-    /// What the machine does, in order.
+    /// The actions of the machine, in order.
     pub steps: Vec<Step>,
-    /// What is wrong with the file, by line.
+    /// The problems in the file, ordered by line.
     pub problems: Vec<Diagnostic>,
 }
 
@@ -54,14 +54,14 @@ impl Interpretation {
     }
 }
 
-/// Interprets a file and keeps everything it does.
+/// Interprets a file and keeps all steps.
 pub fn interpret(text: &[u8], dialect: Dialect, options: &Options) -> Interpretation {
     let mut steps = Vec::new();
     let problems = interpret_each(text, dialect, options, &mut |step| steps.push(step));
     Interpretation { steps, problems }
 }
 
-/// Interprets a file of any size and hands on each step.
+/// Interprets a file of any size and passes on each step.
 pub fn interpret_each(
     text: &[u8],
     dialect: Dialect,
@@ -75,7 +75,7 @@ pub fn interpret_each(
     interpret_until(text, dialect, options, &mut all)
 }
 
-/// The same, until whoever takes the steps has enough. Of the lines after that nothing is said.
+/// Like [`interpret_each`], but stops when the receiver of the steps returns `Break`. Nothing is reported about the lines after that.
 pub fn interpret_until(
     text: &[u8],
     dialect: Dialect,
@@ -87,9 +87,9 @@ pub fn interpret_until(
     if is_other { vec![no_g_code(text)] } else { problems }
 }
 
-/// A program that is gone through as often as somebody asks for its steps, so that nobody has to keep them.
+/// A program whose steps can be iterated repeatedly, so that they need not be stored.
 pub trait Program {
-    /// Hands on every step, in order.
+    /// Passes on all steps, in order.
     fn each(&self, take: &mut dyn FnMut(&Step));
 }
 
@@ -105,14 +105,14 @@ impl Program for Vec<Step> {
     }
 }
 
-/// A program as its text: it is interpreted again each time. What is wrong with it is for [`interpret_each`] to say.
+/// A program given as text, which is interpreted each time. Its problems are only reported by [`interpret_each`].
 #[derive(Clone, Debug)]
 pub struct Text<'t> {
-    /// The file's bytes.
+    /// Content of the file.
     pub text: &'t [u8],
-    /// The dialect that it is in.
+    /// Its dialect.
     pub dialect: Dialect,
-    /// How it is interpreted.
+    /// Options for the interpretation.
     pub options: Options,
 }
 
@@ -122,7 +122,7 @@ impl Program for Text<'_> {
     }
 }
 
-/// Interprets a file that comes in parts of whole lines. Gives back what is wrong with it, and whether any line has a word.
+/// Interprets a file given in parts of whole lines. Returns its problems, and whether any line contains a word.
 pub(crate) fn interpret_parts(
     parts: impl IntoIterator<Item = impl AsRef<[u8]>>,
     dialect: Dialect,
@@ -155,7 +155,7 @@ fn interpret_parts_until(
         while let Some(block) = reader.next_block() {
             has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
             interpreter.block(&block);
-            // What is not taken any more is not interpreted either.
+            // After the last step that is wanted, the rest is not interpreted.
             if interpreter.out.drain(..).try_for_each(&mut *each).is_break() || interpreter.has_ended() {
                 reader.end_program();
             }
@@ -168,7 +168,7 @@ fn interpret_parts_until(
     (problems.into_diagnostics(), has_words)
 }
 
-/// What is said of a file in which no line has a word: nobody wants to read that of each line.
+/// Creates the single report for a file without any words, instead of one per line.
 fn no_g_code(text: &[u8]) -> Diagnostic {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let first = lines.into_iter().find(|line| !line.is_empty()).unwrap_or_default();
@@ -176,5 +176,5 @@ fn no_g_code(text: &[u8]) -> Diagnostic {
     Diagnostic::new(&NOT_G_CODE).quoting("found", format!("`{shown}`")).at_line(1, None)
 }
 
-/// As much of a line as shows what the file is, in bytes.
+/// Number of bytes of a line shown to illustrate the content of the file.
 const SHOWN: usize = 40;

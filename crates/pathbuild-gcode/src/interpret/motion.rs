@@ -1,4 +1,4 @@
-//! Moves: straight lines, probing, named places, and the commands that take coordinates without moving.
+//! Moves: straight lines, probing, named positions, and commands that use coordinates without moving.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Axes, Group, Move, Named, Pace, Path, Position};
@@ -9,7 +9,7 @@ use super::gather::{Slot, Values};
 use crate::read::{Block, Span};
 
 impl Interpreter<'_> {
-    /// The motion of the block, if it has one; whether it moves.
+    /// Executes the motion of the block, if it has one. Returns whether it moves.
     pub(super) fn motion(&mut self, block: &Block<'_>) -> bool {
         let stated = self.words.of_group(Group::Motion);
         let has_coordinates = self.words.values.has_coordinates();
@@ -72,7 +72,7 @@ impl Interpreter<'_> {
         span.unwrap_or(Span::new(0, block.text.len()))
     }
 
-    /// What should have been said before a move.
+    /// Reports what should have been specified before a move.
     fn check_stated(&mut self, block: &Block<'_>, motion_is_stated: bool, motion: Motion) {
         let span = self.coordinates_span(block);
         if !std::mem::replace(&mut self.state.stated.units, true) {
@@ -99,7 +99,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Where coordinates lead from the present position.
+    /// The target of coordinates, from the current position.
     pub(super) fn target(&mut self, coordinates: [Option<Slot>; 3]) -> Position {
         let mut to = self.state.position;
         for (axis, slot) in coordinates.into_iter().enumerate() {
@@ -115,7 +115,7 @@ impl Interpreter<'_> {
         to
     }
 
-    /// Notes that the program has stated where an axis is.
+    /// Records that the program has specified the position of an axis.
     pub(super) fn state_axis(&mut self, axis: usize) {
         self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));
     }
@@ -164,7 +164,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The end of a motion that is not followed: where the tool is then, if the words say it.
+    /// Determines the position after a motion that is not followed, as far as the words tell.
     fn jump(&mut self) {
         let coordinates = self.words.values.take_coordinates();
         self.state.position = self.target(coordinates);

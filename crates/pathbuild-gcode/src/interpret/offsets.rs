@@ -1,33 +1,34 @@
-//! Coordinate systems, G92, G52, G28, G30: from the program's numbers to places. (book: program/reading)
+//! Coordinate systems, G92, G52, G28, G30: converts numbers of the program to positions. (book: program/reading)
 //!
-//! Places are given in the coordinates that the program has at its first move. Where its zero lies on the machine is in no file, so
-//! the machine's own coordinates are known only where they are configured.
+//! Positions are given in the coordinate system that is active at the first move. The file does not tell where its origin is on the
+//! machine, so
+//! machine coordinates are only known if they are configured.
 
 use pathbuild_motion::{Axes, Position, WorkSystem};
 
 use super::options::MachineOffsets;
 
-/// The offsets that hold, and those that are stored, in mm.
+/// The active and the stored offsets, in mm.
 #[derive(Debug)]
 pub(super) struct Offsets {
     systems: [System; 9],
     active: WorkSystem,
-    /// G92: added to the active system's.
+    /// G92, which is added to the active system.
     origin: [f64; 3],
     suspended: [f64; 3],
     /// G52.
     local: [f64; 3],
-    /// The sum of all that when the program first moved; `None` until then.
+    /// The sum of all offsets at the first move; `None` until then.
     base: Option<[f64; 3]>,
     home: [Option<[f64; 3]>; 2],
-    /// The configuration says where everything lies.
+    /// Whether the configuration contains the offsets.
     is_configured: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct System {
     zero: [f64; 3],
-    /// Where it lies is known, from the configuration or from G10.
+    /// Whether the origin is known, from the configuration or from G10.
     is_known: bool,
 }
 
@@ -53,39 +54,39 @@ impl Offsets {
         self.active
     }
 
-    /// From now on, places are counted from where zero is now.
+    /// Fixes the current origin as that of all positions.
     pub(super) fn fix_base(&mut self) {
         if self.base.is_none() {
             self.base = Some(self.sum());
         }
     }
 
-    /// What is added to the program's number of an axis to give its place.
+    /// The amount added to the program's number of an axis to get its position.
     pub(super) fn shift(&self, axis: usize) -> f64 {
         self.sum()[axis] - self.base(axis)
     }
 
-    /// Makes a system the active one; false if where it lies is unknown while the program has moved in another.
+    /// Activates a system. Returns false if its origin is unknown and the program has moved in another system.
     pub(super) fn select(&mut self, system: WorkSystem) -> bool {
         let is_other = self.active != system;
         self.active = system;
         !is_other || self.base.is_none() || self.systems[system.index()].is_known
     }
 
-    /// G10 L2: the system's zero in machine coordinates.
+    /// G10 L2: sets the origin of a system in machine coordinates.
     pub(super) fn place(&mut self, system: Option<WorkSystem>, axis: usize, at: f64) {
         let system = &mut self.systems[system.unwrap_or(self.active).index()];
         system.zero[axis] = at;
         system.is_known = true;
     }
 
-    /// G10 L20: the tool is at this coordinate of the system.
+    /// G10 L20: sets the coordinate of the tool in a system.
     pub(super) fn place_here(&mut self, system: Option<WorkSystem>, axis: usize, coordinate: f64, here: f64) {
         let zero = here + self.base(axis) - self.origin[axis] - self.local[axis] - coordinate;
         self.place(system, axis, zero);
     }
 
-    /// G92: the tool, at this place, is at this coordinate.
+    /// G92: sets the coordinate of the tool at this position.
     pub(super) fn set_origin(&mut self, axis: usize, coordinate: f64, here: f64) {
         self.origin[axis] = here + self.base(axis)
             - self.systems[self.active.index()].zero[axis]
@@ -93,7 +94,7 @@ impl Offsets {
             - coordinate;
     }
 
-    /// G92.1, and G92.2 if it may be resumed.
+    /// G92.1, and G92.2 if it can be resumed.
     pub(super) fn clear_origin(&mut self, resumable: bool) {
         self.suspended = if resumable { self.origin } else { [0.0; 3] };
         self.origin = [0.0; 3];
@@ -109,18 +110,18 @@ impl Offsets {
         self.local[axis] = offset;
     }
 
-    /// A machine coordinate as a place, where the machine's zero is known.
+    /// Converts a machine coordinate to a position, if the machine's origin is known.
     pub(super) fn of_machine(&self, axis: usize, coordinate: f64) -> Option<f64> {
         self.is_configured.then(|| coordinate - self.base(axis))
     }
 
-    /// G28.1, G30.1: remembers a place that is wholly known.
+    /// G28.1, G30.1: stores a position, if it is completely known.
     pub(super) fn store_home(&mut self, which: usize, here: &Position) {
         self.home[which] =
             (here.known == Axes::ALL).then(|| std::array::from_fn(|axis| here.at[axis] + self.base(axis)));
     }
 
-    /// Where G28 or G30 goes, as far as it is known.
+    /// The target of G28 or G30, as far as it is known.
     pub(super) fn home(&self, which: usize, axis: usize) -> Option<f64> {
         self.home[which].map(|at| at[axis] - self.base(axis))
     }

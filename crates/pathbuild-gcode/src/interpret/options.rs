@@ -1,48 +1,49 @@
-//! What has to be known beside the file to interpret it.
+//! Information needed to interpret a file that is not in the file itself.
 
-/// How a file is interpreted. The default is what the file alone says.
+/// Options for interpreting a file. The default relies on the file alone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Which height a number with a correction formula stands for.
+    /// The height that a number with a correction formula represents.
     pub heights: Heights,
-    /// The machine's offsets, where they are known.
+    /// The offsets of the machine, if they are known.
     pub offsets: Option<MachineOffsets>,
-    /// XpertMILL: what G70 and G71 mean.
+    /// XpertMILL: meaning of G70 and G71.
     pub unit_codes: UnitCodes,
-    /// XpertMILL: I and J are the centre itself, not its distance from the arc's beginning.
+    /// XpertMILL: whether I and J are the centre itself instead of its distance from the start of the arc.
     pub absolute_arc_centres: bool,
-    /// XpertMILL: F is passed over, so that the layers' feeds hold.
+    /// XpertMILL: whether F is ignored, so that the feeds of the layers apply.
     pub ignore_feed: bool,
-    /// Mach3: the machine counts P of G4 in milliseconds.
+    /// Mach3: whether the machine counts P of G4 in milliseconds.
     pub milliseconds: bool,
 }
 
-/// Which height `Z1.023(==1.000+0.5*[#51-2.000])` stands for.
+/// The height that `Z1.023(==1.000+0.5*[#51-2.000])` represents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {
-    /// The number in front of the formula: where the tool goes.
+    /// The number before the formula, which is where the tool goes.
     #[default]
     AsWritten,
-    /// That number less the correction, which is the formula's value with the measured heights less its value with the drawn ones: where
-    /// the tool would go if the material were as thick as drawn.
+    /// That number minus the correction, which is the difference between the formula's values with the measured and with the drawn heights.
+    /// This
+    /// is where the tool would go if the material were as thick as drawn.
     Nominal,
 }
 
-/// What G70 and G71 mean. (book: program/reading)
+/// Meaning of G70 and G71. (book: program/reading)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitCodes {
-    /// As DIN has it, and the filter's own examples: G70 inches, G71 millimetres.
+    /// As in DIN and in the filter's own examples: G70 inches, G71 millimetres.
     #[default]
     Din,
-    /// As the filter's table has it: the other way round.
+    /// As in the table of the filter: the other way round.
     Table,
 }
 
-/// Where the coordinate systems and named places lie, in machine coordinates, in mm.
+/// The origins of coordinate systems and the named positions, in machine coordinates and mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineOffsets {
-    /// The zeros of G54, G55 ... G59, G59.1, G59.2, G59.3.
+    /// The origins of G54, G55 ... G59, G59.1, G59.2, G59.3.
     pub systems: [[f64; 3]; 9],
-    /// Where G28 and G30 go.
+    /// The targets of G28 and G30.
     pub home: [[f64; 3]; 2],
 }

@@ -1,4 +1,4 @@
-//! Commands that take a block's coordinates and are no motion (G10, G28, G30, G52, G92), and coordinate systems.
+//! Commands other than motions that use the coordinates of a block (G10, G28, G30, G52, G92), and coordinate systems.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Change, Group, Move, Named, Pace, Path, WorkSystem};
@@ -10,7 +10,7 @@ use super::limits;
 use crate::read::{Block, Span};
 
 impl Interpreter<'_> {
-    /// Executes the command of the block that takes coordinates and is no motion; whether there is one.
+    /// Executes the command of the block that uses coordinates without being a motion. Returns whether there is one.
     pub(super) fn coordinates_taken(&mut self, block: &Block<'_>) -> bool {
         let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
         if !matches!(command, Command::Home(_)) {
@@ -33,14 +33,14 @@ impl Interpreter<'_> {
             }
             _ => return false,
         }
-        // A motion word beside it still sets the mode; its coordinates are spent.
+        // A motion word in the same block still sets the mode, but the coordinates have been used.
         if let Some((command @ Command::Motion(_), code, span)) = self.words.of_group(Group::Motion) {
             self.change_motion(block, command, code, span);
         }
         true
     }
 
-    /// Whether G52 or G92 hold behind a command.
+    /// Whether G52 or G92 is active after a command.
     fn are_shifted(&self, command: Command) -> Option<bool> {
         match command {
             Command::LocalOffset => {
@@ -141,7 +141,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Where the tool is gets this coordinate. If that was not known, it is what the program counts from, and known now.
+    /// Sets the coordinate of the current position. If it was unknown, it becomes known, because the program counts from it.
     fn set_origin(&mut self, axis: usize, coordinate: f64) {
         self.state_axis(axis);
         let position = &mut self.state.position;

@@ -1,4 +1,4 @@
-//! The moves of a program that was never text.
+//! The moves of a program that does not exist as text.
 
 use std::f64::consts::PI;
 
@@ -8,15 +8,16 @@ use pathbuild_toolpath::{Program, Xy};
 
 use crate::native::{is_doubtful, is_point};
 
-/// The moves of a program as an interpreter of its native text would see them, from (0, 0, S0) to the last lift to S0; each with the
-/// number of its step, from 1, in place of a line.
+/// The moves of a program as an interpreter of its native text would see them, from (0, 0, S0) to the last lift to S0. Instead of a line,
+/// each
+/// has the number of its step, counted from 1.
 pub fn moves_of(program: &Program) -> Vec<(u32, Move)> {
     let mut moves = Vec::with_capacity(program.steps.len() + 1);
     moves.extend(each_move_of(program));
     moves
 }
 
-/// The same one by one.
+/// Like [`moves_of`], but as an iterator.
 pub fn each_move_of(program: &Program) -> impl Iterator<Item = (u32, Move)> {
     let height = program.start_height();
     let mut tool = Tool { position: Position::known(0.0, 0.0, height) };
@@ -34,7 +35,7 @@ struct Tool {
 }
 
 impl Tool {
-    /// Makes a move that the statistics count with this length, in mm.
+    /// Adds a move that is counted with this length in the statistics, in mm.
     fn go(&mut self, to: &toolpath::Move, length: f64) -> Move {
         match *to {
             toolpath::Move::Sweep { to } => self.straight(self.at(Some(to), self.position.z()), Pace::Rapid),
@@ -46,8 +47,9 @@ impl Tool {
                 let centre = [self.position.x() + centre.x, self.position.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = self.at(Some(to), z.z);
-                // Ends that coincide, or nearly so, may mean next to nothing or a full circle: the length tells. Only an end that says
-                // otherwise than the length does is put right: one just short of a full circle is where it is.
+                // Ends that coincide or almost coincide may stand for an arc of almost no length or for a full circle, which the length
+                // tells. Only ends that
+                // contradict the length are corrected; an arc that is not quite a full circle remains.
                 let (radius, sweep) = (arc.radius(&self.position), arc.sweep(&self.position, &to));
                 let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);

@@ -1,4 +1,4 @@
-//! What a control remembers from block to block.
+//! The modal state of a control.
 
 use pathbuild_motion::{Axes, Coolant, Plane, Position, Spindle, Turning};
 
@@ -7,39 +7,39 @@ use super::offsets::Offsets;
 use super::options::MachineOffsets;
 use crate::dialect::{Rules, StartMotion};
 
-/// Millimetres in an inch.
+/// Length of an inch in mm.
 pub(super) const INCH: f64 = 25.4;
 
-/// Modal state.
+/// The modal state.
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) position: Position,
-    /// The axes whose position the program has stated since the last tool change; all of them before the first.
+    /// The axes whose position has been specified since the last tool change; all of them before the first one.
     pub(super) stated_axes: Axes,
-    /// The line and code (times ten) that went to a place of the machine, which is not known here.
+    /// Line and code (times ten) of a move to a machine position, which is unknown.
     pub(super) lost: Option<(u32, u16)>,
     pub(super) motion: Motion,
-    /// The code of the motion (times ten), for messages.
+    /// Code of the motion (times ten), for messages.
     pub(super) motion_code: u16,
     pub(super) plane: Plane,
     pub(super) incremental: bool,
     pub(super) incremental_centres: bool,
-    /// Millimetres in the program's unit.
+    /// Length of the program's unit in mm.
     pub(super) unit: f64,
     pub(super) feed_unit: FeedUnit,
-    /// F as [`feed_unit`](Self::feed_unit) counts it, lengths in mm.
+    /// F in the unit given by [`feed_unit`](Self::feed_unit), with lengths in mm.
     pub(super) feed: f64,
-    /// The line and code (times ten) of the feed mode word that cleared F.
+    /// Line and code (times ten) of the feed mode word that cleared F.
     pub(super) feed_cleared: Option<(u32, u16)>,
     pub(super) spindle: Spindle,
     pub(super) coolant: Coolant,
     /// T.
     pub(super) tool: Option<u32>,
-    /// XpertMILL's layer.
+    /// The layer (XpertMILL).
     pub(super) layer: u32,
-    /// The speeds of its layers, by number.
+    /// The speeds of the layers, by number.
     pub(super) layer_speeds: Vec<(u32, f64)>,
-    /// The feed of the last rapid move in mm/min, where F sets it.
+    /// Feed of the last rapid move in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
     pub(super) retract_to_r: bool,
     pub(super) cycle: CycleState,
@@ -47,10 +47,10 @@ pub(super) struct State {
     pub(super) stated: Stated,
 }
 
-/// What drilling cycles remember until another motion.
+/// The values of drilling cycles, which are kept until another motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CycleState {
-    /// Where the tool was before the first cycle of the series.
+    /// Position before the first cycle of the series.
     pub(super) initial: [f64; 3],
     /// R and Z as heights, P and Q.
     pub(super) r: Option<f64>,
@@ -59,7 +59,7 @@ pub(super) struct CycleState {
     pub(super) q: Option<f64>,
 }
 
-/// What the program has said, or has been told that it has not.
+/// What the program has specified, and which omissions have been reported.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub(super) struct Stated {

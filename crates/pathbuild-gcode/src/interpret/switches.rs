@@ -1,4 +1,4 @@
-//! Tools, spindle, coolant, dwells, modes, stops: everything of a block that is no move.
+//! All words of a block that do not move: tools, spindle, coolant, dwells, modes, stops.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, ToolLength, Turning};
@@ -10,12 +10,12 @@ use super::limits;
 use crate::dialect::DwellUnit;
 use crate::read::Block;
 
-/// M codes of the spindle, and of stops and ends.
+/// M codes of the spindle, of stops and of ends.
 pub(super) const SPINDLE: &[u16] = &[30, 40, 50, 190];
 pub(super) const STOPS: &[u16] = &[0, 10, 20, 300, 600];
 pub(super) const TOOL: &[u16] = &[60, 610];
 pub(super) const COOLANT: &[u16] = &[70, 80, 90];
-/// M codes that change which line is run next, or what G words mean.
+/// M codes that change which line is executed next, or the meaning of G words.
 const M_NOT_FOLLOWED: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
 
 impl Interpreter<'_> {
@@ -51,7 +51,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The speed belongs to the layer: what was set for another one does not hold here.
+    /// Changes the layer. The speed belongs to the layer, so that of another layer does not apply.
     fn enter_layer(&mut self, block: &Block<'_>, layer: u32) {
         self.state.layer = layer;
         let speeds = &self.state.layer_speeds;
@@ -122,7 +122,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The time that P says, of a dwell or a cycle.
+    /// The time given by P in a dwell or a cycle.
     pub(super) fn seconds(&self, block: &Block<'_>, p: Slot) -> f64 {
         match self.rules.dwell.p {
             DwellUnit::BySetting if self.options.milliseconds => p.value / 1000.0,
@@ -132,7 +132,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// O: the program's number, once, before anything else.
+    /// Handles O, the program number, which may occur once at the beginning.
     pub(super) fn program_number(&mut self, block: &Block<'_>) {
         let Some(slot) = self.words.values.take_slot(b'O') else { return };
         if whole(slot.value).is_none_or(|number| number == 0) {
@@ -175,11 +175,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// G43 with H and axis words: the tool's length, which the position of its tip does not depend on.
+    /// G43 with H and axis words, for the tool length, on which the position of the tip does not depend.
     fn tool_length(&mut self, block: &Block<'_>, code: u16) {
         let entry = self.words.values.take(b'H');
         self.words.values.take(b'D');
-        // Some controls count the length along the axes of the line.
+        // Some controls apply the length along the axes in the line.
         let is_across =
             [b'X', b'Y'].iter().any(|axis| self.words.values.has(*axis)) && !self.words.values.has(b'Z');
         let length = match (code, entry.map(whole)) {
@@ -206,7 +206,7 @@ impl Interpreter<'_> {
         self.step(block, Action::Change(Change::Corners(corners)));
     }
 
-    /// Of a command that is not followed, no word is reported as unused.
+    /// Marks all words as used, for a command that is not followed.
     pub(super) fn use_all_words(&mut self) {
         for letter in b'D'..=b'W' {
             self.words.values.take(letter);
@@ -221,7 +221,7 @@ impl Interpreter<'_> {
             }
             Some((code, _)) => {
                 if self.rules.one_command {
-                    // How long the control waits at most.
+                    // The maximum time the control waits.
                     self.words.values.take(b'S');
                     self.words.values.take(b'P');
                 }
@@ -238,7 +238,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Whether what an M code does is followed: stops, tools, spindle, coolant.
+/// Whether the effect of an M code is followed: stops, tools, spindle, coolant.
 pub(super) fn is_followed_m(m_code: u16) -> bool {
     !is_other(m_code) && m_code != 190
 }

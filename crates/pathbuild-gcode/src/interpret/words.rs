@@ -1,4 +1,4 @@
-//! Reading the words of a block: what each is, and whether the dialect knows it. (book: program/reading)
+//! Reads the words of a block: the kind of each, and whether the dialect accepts it. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
@@ -14,7 +14,7 @@ use crate::dialect::Acceptance;
 use crate::read::{Block, Span, Target, Value, Word};
 
 impl Interpreter<'_> {
-    /// Sorts the words of a block, and gives their values.
+    /// Sorts the words of a block and evaluates them.
     pub(super) fn gather(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
         if self.rules.one_command {
             self.check_command(block);
@@ -74,7 +74,7 @@ impl Interpreter<'_> {
         self.rules.spelling.grammar.as_ref().map_or(0, |grammar| grammar.parameters)
     }
 
-    /// The control obeys the first word, which has to be a command, and takes the others for its values.
+    /// Checks that the first word is a command, because the control only obeys that one and takes the others as its values.
     fn check_command(&mut self, block: &Block<'_>) {
         let is_command = |word: &Word| matches!(word.letter, b'G' | b'M' | b'T');
         if let Some(first) = block.words.first().filter(|word| !is_command(word)) {
@@ -90,7 +90,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The control obeys one G word and one M word a line.
+    /// Checks that there is only one G word and one M word, because the control only obeys one per line.
     fn check_one_each(&mut self, block: &Block<'_>) {
         for letter in [b'G', b'M'] {
             let mut words = block.words.iter().filter(|word| word.letter == letter);
@@ -104,7 +104,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// `X10` is 10 mm to one machine and 0.010 mm to another of the same make.
+    /// Checks for missing decimal points: `X10` is 10 mm on one machine and 0.010 mm on another of the same manufacturer.
     fn check_point(&mut self, block: &Block<'_>, letter: u8, slot: Slot) {
         let is_length = matches!(letter, b'X' | b'Y' | b'Z' | b'I' | b'J' | b'R' | b'Q')
             || letter == b'K' && self.rules.repeats != b'K';
@@ -203,7 +203,7 @@ impl Interpreter<'_> {
         self.report(block, &say::IGNORED, span, |d| d.quoting("word", codes::name(letter, code)));
     }
 
-    /// Hands on every G and M word of the block that is no motion.
+    /// Passes on all G and M words of the block that are not motions.
     pub(super) fn state_words(&mut self, block: &Block<'_>) {
         let moves_beside = self.words.values.has_coordinates();
         for index in 0..self.words.commands.len() {
@@ -233,7 +233,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// A G or M number times ten, if it has no more than one decimal.
+/// A G or M number times ten, if it has at most one decimal.
 fn code_of(value: f64) -> Option<u16> {
     let tenths = value * 10.0;
     let nearest = libm::round(tenths);

@@ -1,8 +1,8 @@
-//! Where an arc is said to end, so that three decimals do not make another arc of it.
+//! Chooses the printed end of an arc so that rounding to three decimals does not change the arc.
 //!
-//! A controller has only the printed numbers. An arc that ends, as printed, where it begins is a full circle to it; one that ends just
-//! behind its beginning goes nearly all the way round. So an arc that is nearly nothing may become a circle through the work, and a
-//! circle may become nothing.
+//! A controller only has the printed numbers. If the printed end of an arc equals its start, it is a full circle; if the end is just past
+//! the start, the arc is almost a full turn. So a minimal arc could become a circle through the workpiece, and a circle could become
+//! nothing.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,23 +11,23 @@ use pathbuild_toolpath::Xy;
 
 use super::number::printed;
 
-/// One unit of the last printed digit, in mm.
+/// Unit of the last printed digit, in mm.
 pub(super) const LAST_DIGIT: f64 = 0.001;
 
-/// Whether the radius of an arc is printed as nothing, which no controller takes for an arc: it is written as a line.
+/// Whether the radius of an arc is printed as zero. Controllers do not accept that, so the arc is written as a line.
 pub(crate) fn is_point(centre: Xy) -> bool {
     rounded(centre) == Xy::origin()
 }
 
-/// Whether an arc of this length in mm is so short, or so near to a whole turn, that three decimals may make another of it.
+/// Whether an arc of this length in mm is so short, or so close to a full turn, that three decimals may change it.
 pub(crate) fn is_doubtful(centre: Xy, length: f64) -> bool {
     length < DOUBTFUL || length > TAU * centre.coords.norm() - DOUBTFUL
 }
 
-/// Several times what rounding moves an end along the arc, in mm.
+/// Several times the distance in mm by which rounding moves an end along the arc.
 const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
 
-/// An arc from wherever the tool was said to be.
+/// An arc from the printed position of the tool.
 pub(super) struct Printed {
     pub(super) from: Xy,
     /// Relative to `from`.
@@ -36,13 +36,13 @@ pub(super) struct Printed {
 }
 
 impl Printed {
-    /// As a controller reads it.
+    /// Rounds the values as they are printed.
     pub(super) fn new(from: Xy, centre: Xy, clockwise: bool) -> Self {
         Self { from: rounded(from), centre: rounded(centre), clockwise }
     }
 
-    /// The end to print for an arc of this length in mm: `to`, or the printable point next to it with which the arc goes round as far as
-    /// it should.
+    /// The end to print for an arc of this length in mm: `to`, or the printable point next to it with which the arc sweeps the required
+    /// angle.
     pub(super) fn end(&self, to: Xy, length: f64) -> Xy {
         let angle = length / self.centre.coords.norm();
         let fits = |end: &Xy| (self.angle(*end) - angle).abs() <= PI;
@@ -59,7 +59,7 @@ impl Printed {
         candidates.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(to)
     }
 
-    /// How far a controller goes round to an end, in radians; 2 pi where it ends as it begins.
+    /// The angle in radians that a controller sweeps to an end; 2 pi if it equals the start.
     fn angle(&self, end: Xy) -> f64 {
         let (spoke, other) = (-self.centre.coords, end - (self.from + self.centre.coords));
         turn(spoke.into(), other.into(), self.clockwise)

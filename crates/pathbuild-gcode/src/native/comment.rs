@@ -1,14 +1,14 @@
-//! Comments, and the characters that may stand in them.
+//! Comments, and the characters allowed in them.
 
 use crate::dialect::{Dialect, within_comment};
 
-/// The characters that are written. (book: reference/configuration, `charset`)
+/// The characters that may be written. (book: reference/configuration, `charset`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Charset {
-    /// Umlauts and the like are transliterated, the rest becomes `?`: some controllers take bytes above 127 for commands.
+    /// Umlauts and the like are transliterated, anything else becomes `?`, because some controllers take bytes above 127 for commands.
     #[default]
     Ascii,
-    /// As it is.
+    /// All characters are written as they are.
     Utf8,
 }
 
@@ -16,12 +16,12 @@ pub enum Charset {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Remarks {
     pub(super) charset: Charset,
-    /// Whether "(" stays within a comment, as `PathDxf2GCode` leaves it.
+    /// Whether "(" is kept within a comment, as `PathDxf2GCode` does.
     pub(super) compatible: bool,
 }
 
 impl Remarks {
-    /// A comment of the native dialect.
+    /// Formats a comment of the native dialect.
     pub(super) fn comment(self, text: &str) -> String {
         if !self.compatible {
             return Dialect::Native.comment(text, self.charset);
@@ -32,7 +32,7 @@ impl Remarks {
     }
 }
 
-/// What a character is written as where only ASCII may be.
+/// The ASCII replacement of a character.
 pub fn transliterated(character: char) -> &'static str {
     match character {
         'ä' | 'æ' => "ae",

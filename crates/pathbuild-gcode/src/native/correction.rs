@@ -1,25 +1,25 @@
-//! The formula by which measured probes correct a height. (book: language/probes)
+//! The formula that corrects a height by measured probes. (book: language/probes)
 
 use pathbuild_toolpath::{Correction, Height, Move, ProbePoint, Program, Step, Surface};
 
 use super::number::{push_exact, push_f3};
 
-/// Numbers of the parameters: the first probe is #51.
+/// Number of the parameter for the first probe.
 pub const FIRST_PARAMETER: usize = 51;
 
 /// Writes formulas for the heights of a program with probes.
 pub(super) struct Formulas<'a> {
     probes: &'a [ProbePoint],
     surface: Surface,
-    /// Whether numbers have three decimals, as the original tool writes them; that bends a plane.
+    /// Whether weights have three decimals, as in the original tool; that distorts planes.
     is_rounded: bool,
 }
 
-/// A weight that is written as nothing.
+/// Weights below this are written as zero.
 const NOTHING: f64 = 0.000_000_5;
 
 impl<'a> Formulas<'a> {
-    /// `None` for a program without probes.
+    /// Returns `None` for a program without probes.
     pub(super) fn new(program: &'a Program, correction: Correction) -> Option<Self> {
         let places: Vec<_> = program.probes.iter().map(|probe| probe.at).collect();
         (!program.probes.is_empty()).then(|| Self {
@@ -55,7 +55,7 @@ impl<'a> Formulas<'a> {
         text["(=".len()..text.len() - 1].to_owned()
     }
 
-    /// The probes that correct none of the heights of some steps, by their index.
+    /// Indices of the probes that do not correct any height of the given steps.
     pub(super) fn unused(&self, steps: &[Step]) -> Vec<usize> {
         let mut is_used = vec![false; self.probes.len()];
         for height in steps.iter().filter_map(height_of) {
@@ -71,7 +71,7 @@ impl<'a> Formulas<'a> {
     }
 }
 
-/// The height that a step goes to, where it says one.
+/// The target height of a step, if it has one.
 pub(super) fn height_of(step: &Step) -> Option<Height> {
     match step {
         Step::Move { to, .. } => match *to {
@@ -82,7 +82,7 @@ pub(super) fn height_of(step: &Step) -> Option<Height> {
     }
 }
 
-/// The probes of a program that correct no height, by their index: four others are nearer to everything.
+/// Indices of the probes of a program that do not correct any height, because four others are nearer everywhere.
 pub fn unused_probes(program: &Program, correction: Correction) -> Vec<usize> {
     let formulas = Formulas::new(program, correction);
     formulas.map_or_else(Vec::new, |formulas| formulas.unused(&correction.steps(program)))

@@ -1,4 +1,4 @@
-//! A native text held against what `emit` writes for its drawing. (book: program/reading, `verify --against`)
+//! Compares a native text with what `emit` would write for its drawing. (book: program/reading, `verify --against`)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
@@ -9,9 +9,10 @@ use super::number::f3;
 use crate::adjust::{FormulaText, formula_texts, probe_entries, without_comments};
 use crate::provenance::Provenance;
 
-/// How the formulas and probes of a native text differ from the drawing's: the first probe and the first formula that do.
+/// The differences between the formulas and probes of a native text and those of the drawing: the first probe and the first formula that
+/// differ.
 ///
-/// A formula that was worked out differs by its number only, so that adjusted programs are compared too.
+/// Applied formulas differ only in their number, so adjusted programs can be compared too.
 pub fn formula_differences(text: &[u8], program: &Program, correction: Correction) -> Vec<Diagnostic> {
     let mut found = formula_texts(text);
     let Some(formulas) = Formulas::new(program, correction) else {
@@ -40,7 +41,7 @@ fn not_drawn(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic
     line.map_or_else(|| problem.clone(), |line| problem.clone().at_line(line, None))
 }
 
-/// The first probe that a text states otherwise than the drawing.
+/// The first probe that differs between a text and the drawing.
 fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
     let mut stated = probe_entries(text).into_iter();
     let mut drawn = (FIRST_PARAMETER..).zip(probes).map(|(number, probe)| {
@@ -63,8 +64,9 @@ fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
     }
 }
 
-/// Whether a text has formulas that were worked out with heights that it does not state, as programs of PathDxf2GCode do: then nothing says
-/// whether the numbers before them are right.
+/// Reports a text whose formulas were applied with heights that it does not list, as in programs of PathDxf2GCode. Then nothing tells
+/// whether the
+/// numbers before them are right.
 pub fn unstated_heights(text: &[u8]) -> Option<Diagnostic> {
     let is_stated = !probe_entries(text).is_empty() || Provenance::of_head(text).is_some();
     let mut formulas = formula_texts(text).filter(|formula| !is_stated && formula.is_applied);
@@ -75,25 +77,25 @@ pub fn unstated_heights(text: &[u8]) -> Option<Diagnostic> {
     formulas.next().map(|formula| warning(formula.line))
 }
 
-/// A line of a text that is not what was expected there.
+/// A line of a text that differs from the expected one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OtherLine {
-    /// From 1.
+    /// Line number, counted from 1.
     pub line: u32,
-    /// What was expected; empty behind the expected text's end.
+    /// The expected line; empty after the end of the expected text.
     pub expected: String,
 }
 
 /// Which parts of a program are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parts {
-    /// What the machine and `adjust` obey: words and formulas.
+    /// The parts obeyed by the machine and `adjust`: words and formulas.
     Code,
-    /// Lines that are comments and nothing else; the version that wrote them does not count.
+    /// Lines that consist only of comments, regardless of the version that wrote them.
     Comments,
 }
 
-/// The first line of a text that differs from an expected one, blanks and line ends aside.
+/// The first line of a text that differs from the expected one, ignoring blanks and line breaks.
 pub fn first_other_line(found: &[u8], expected: &[u8], parts: Parts) -> Option<OtherLine> {
     let (mut found, mut wanted) = (lines(found, parts), lines(expected, parts));
     let mut last = 0;
@@ -112,7 +114,7 @@ pub fn first_other_line(found: &[u8], expected: &[u8], parts: Parts) -> Option<O
     }
 }
 
-/// The lines that count, with their numbers.
+/// The lines to be compared, with their numbers.
 fn lines(text: &[u8], parts: Parts) -> impl Iterator<Item = (u32, String)> {
     let text = String::from_utf8_lossy(text).into_owned();
     let plain = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -129,7 +131,7 @@ fn lines(text: &[u8], parts: Parts) -> impl Iterator<Item = (u32, String)> {
     all.into_iter().filter(|(_, line)| !line.is_empty())
 }
 
-/// A line without the version, where it is a provenance.
+/// The line without the version, if it is a provenance.
 fn without_version(line: &str) -> String {
     let rest = line.strip_prefix("(pathbuild ").and_then(|rest| rest.split_once(' '));
     rest.map_or(line.to_owned(), |(_, rest)| format!("(pathbuild {rest}"))

@@ -1,4 +1,4 @@
-//! Our own dialect: writing a program, its probing run and the file of probe values. (book: program/gcode, book: language/probes)
+//! Our own dialect: writes a program, its probing program and the file of probe values. (book: program/gcode, book: language/probes)
 
 mod arc_end;
 mod comment;

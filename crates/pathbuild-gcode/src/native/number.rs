@@ -1,16 +1,17 @@
-//! Numbers with three decimals, and with up to six.
+//! Formats numbers with three decimals, or with up to six.
 
 use std::fmt::Write;
 
-/// "F3" of the specification: three decimals, ties to even on the exact binary value; what rounds to zero has no sign.
+/// The format "F3" of the specification: three decimals, rounding the exact binary value with ties to even. Zero has no sign.
 pub fn f3(number: f64) -> String {
     let mut text = String::with_capacity(10);
     push_f3(&mut text, number);
     text
 }
 
-/// Not by `{:.3}`: for numbers that lie as near to a thousandth as those of drawings it takes a long division, and that was a quarter of the
-/// time of compiling a project.
+/// Appends a number. `{:.3}` takes a long division for numbers as close to a thousandth as those of drawings, which was a quarter of the
+/// time
+/// for compiling a project.
 pub(super) fn push_f3(text: &mut String, number: f64) {
     let Some(thousandths) = thousandths(number) else {
         _ = write!(text, "{number:.3}");
@@ -30,13 +31,13 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
     text.push_str(&THOUSANDTHS[fraction..fraction + 4]);
 }
 
-/// The number that is printed for a number.
+/// The number represented by the printed text.
 pub(super) fn printed(number: f64) -> f64 {
     let rounded = |thousandths: u64| (thousandths as f64 / 1000.0).copysign(number) + 0.0;
     thousandths(number).map_or(number, rounded)
 }
 
-/// `.000.001.002` and so on to `.999`: what is behind a point, and what may be before it, need not be made of digits.
+/// `.000.001.002` and so on to `.999`, so that neither the digits after the point nor those before it have to be computed.
 static THOUSANDTHS: &str = match str::from_utf8(&all_thousandths()) {
     Ok(text) => text,
     Err(_) => "",
@@ -55,13 +56,13 @@ const fn all_thousandths() -> [u8; 4000] {
     text
 }
 
-/// Where a number below a thousand begins there, with its point.
+/// Offset of a number below a thousand in that text, with its point.
 #[expect(clippy::cast_possible_truncation, reason = "below 4000")]
 fn place(number: u64) -> usize {
     4 * number as usize
 }
 
-/// How many thousandths a number is away from zero, ties to even; `None` from 2^53 on, and where it is no number.
+/// The absolute value in thousandths, with ties to even; `None` for 2^53 and above, and if it is not finite.
 fn thousandths(number: f64) -> Option<u64> {
     const FRACTION_BITS: u64 = 52;
     let bits = number.abs().to_bits();
@@ -69,7 +70,7 @@ fn thousandths(number: f64) -> Option<u64> {
     // The number is mantissa / 2^shift.
     let mantissa = if exponent == 0 { fraction } else { fraction | 1 << FRACTION_BITS };
     let shift = (1023 + FRACTION_BITS).checked_sub(exponent.max(1)).filter(|shift| *shift > 0)?;
-    // Below 2^63.
+    // The product is less than 2^63.
     let product = mantissa * 1000;
     if shift > 63 {
         return Some(0);
@@ -79,7 +80,7 @@ fn thousandths(number: f64) -> Option<u64> {
     Some(whole + u64::from(is_up))
 }
 
-/// Six decimals, of which zeros behind the third are left out.
+/// Appends a number with six decimals, without trailing zeros after the third.
 pub(crate) fn push_exact(text: &mut String, number: f64) {
     let start = text.len();
     _ = write!(text, "{number:.6}");

@@ -1,4 +1,4 @@
-//! The probing run, and the file that a person writes the measured values into. (book: language/probes)
+//! The probing program, and the file into which the user enters the measured values. (book: language/probes)
 
 use std::fmt::Write;
 
@@ -8,10 +8,10 @@ use super::correction::FIRST_PARAMETER;
 use super::number::f3;
 use super::program::{Header, WriteOptions, setup};
 
-/// Seconds that the machine waits after a probe, so that the value can be read.
+/// A pause in seconds after each probe, so that the user can read the value.
 const DWELL: &str = "G04 P4";
 
-/// Writes the probing run.
+/// Writes the probing program.
 pub fn probing_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
     let clearance = f3(program.sweep_height);
     let remarks = options.remarks(program);
@@ -36,7 +36,7 @@ pub fn probing_program(program: &Program, header: &Header, options: &WriteOption
     text
 }
 
-/// Writes the file of values, one line a probe, with nothing behind the `=` yet.
+/// Writes the file of values, with one line per probe and nothing after the `=` yet.
 pub fn values_file(program: &Program, options: &WriteOptions) -> String {
     let remarks = options.remarks(program);
     let mut text = String::new();
@@ -47,14 +47,14 @@ pub fn values_file(program: &Program, options: &WriteOptions) -> String {
     text
 }
 
-/// A probe as files name it: where it is drawn, its label, and the height that is expected.
+/// The name of a probe in files: its position in the drawing, its label and the expected height.
 pub fn probe_name(probe: &ProbePoint) -> String {
     let label = probe.label.as_ref().map(|label| format!("/L:{label}")).unwrap_or_default();
     let (x, y) = (f3(probe.drawn_at.x), f3(probe.drawn_at.y));
     format!("[{x} {y}]{label}/T={}", f3(probe.height))
 }
 
-/// The name, and where the probe is in the emitted drawing: a path that is embedded twice has each of its probes twice.
+/// The name, and the position in the emitted drawing, because a path that is embedded twice has each of its probes twice.
 fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     let name = probe_name(probe);
     if program.compatible {
@@ -63,7 +63,7 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
 }
 
-/// G38.2 is an alarm where the tool meets nothing; after G38.3, which the original tool writes, the machine goes on.
+/// G38.2 is an alarm if the tool makes no contact. With G38.3, which the original tool writes, the machine continues.
 fn code(program: &Program) -> &'static str {
     if program.compatible { "G38.3" } else { "G38.2" }
 }

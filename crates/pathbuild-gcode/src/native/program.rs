@@ -1,4 +1,4 @@
-//! The program itself. (book: program/gcode)
+//! Writes the program itself. (book: program/gcode)
 
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
@@ -13,23 +13,23 @@ use super::statistics as ending;
 use crate::dialect::within_comment;
 use crate::statistics::statistics;
 
-/// How programs are written.
+/// Options for writing programs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WriteOptions {
     /// Language of comments.
     pub lang: Lang,
-    /// Characters of comments.
+    /// Characters allowed in comments.
     pub charset: Charset,
-    /// --rapid in mm/min, for times.
+    /// Rapid feed (--rapid) in mm/min, for calculating times.
     pub rapid: f64,
-    /// How heights are corrected where there are probes.
+    /// How heights are corrected if there are probes.
     pub correction: Correction,
 }
 
-/// What the first comments say.
+/// The content of the first comments.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Header {
-    /// One line: which program made it, out of what.
+    /// One line that tells which program made it, and from what.
     pub provenance: String,
 }
 
@@ -47,13 +47,13 @@ impl WriteOptions {
     }
 }
 
-/// The comment that says which path of which drawing a file was made from. A word of ours stands first, as in every comment: LinuxCNC
-/// acts on comments that begin with certain words.
+/// The comment that tells from which path of which drawing a file was made. Like every comment, it begins with a word of our own, because
+/// LinuxCNC acts on comments that begin with certain words.
 pub fn title(drawing: &str, path: &str) -> String {
     format!("{PATH}{path}{OF_DRAWING}{drawing}")
 }
 
-/// The comments that say what a program lacks though it is drawn on the layers of its paths (PB111). `PathDxf2GCode` has none.
+/// The comments that list what is drawn on the layers of the paths but missing from the program (PB111). `PathDxf2GCode` has none.
 pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
     let left_out = program.left_out.iter().filter(|_| !program.compatible);
     let line = |left_out: &LeftOut| {
@@ -67,28 +67,28 @@ pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
     left_out.map(line).collect()
 }
 
-/// The drawing of a [`title`].
+/// The drawing in a [`title`].
 pub fn drawing_of_title(title: &str) -> Option<&str> {
     title.split_once(OF_DRAWING).map(|(_, drawing)| drawing)
 }
 
-/// The path of a [`title`].
+/// The path in a [`title`].
 pub fn path_of_title(title: &str) -> Option<&str> {
     title.split_once(OF_DRAWING)?.0.strip_prefix(PATH)
 }
 
-/// A title, or the drawing's name in it, in the characters that are left of it in every dialect: titles that are equal so are the same,
-/// however a post has written them.
+/// A title, or the drawing's name in it, reduced to the characters that all dialects preserve, so that titles can be compared regardless of
+/// the post that wrote them.
 pub fn plain_title(text: &str) -> String {
     within_comment(text, None, Charset::Ascii).to_lowercase()
 }
 
-/// Whether a title that stands in a program is that of a path of a drawing.
+/// Whether a title found in a program is that of the given path and drawing.
 pub fn is_title(found: &str, drawing: &str, path: &str) -> bool {
     plain_title(found) == plain_title(&title(drawing, path))
 }
 
-/// Whether a title that stands in a program names this drawing.
+/// Whether a title found in a program names the given drawing.
 pub fn is_title_of(found: &str, drawing: &str) -> bool {
     drawing_of_title(found).is_some_and(|of| plain_title(of) == plain_title(drawing))
 }
@@ -96,7 +96,7 @@ pub fn is_title_of(found: &str, drawing: &str) -> bool {
 const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";
 
-/// The lines that set the machine up. LinuxCNC refuses F before G94.
+/// The lines that set the machine up. LinuxCNC rejects F before G94.
 pub(super) fn setup(program: &Program) -> &'static str {
     if program.compatible {
         "F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n"
@@ -105,32 +105,33 @@ pub(super) fn setup(program: &Program) -> &'static str {
     }
 }
 
-/// Whether a text has a title near its beginning, as every program of ours has.
+/// Whether a text has a title near its beginning, as our programs have.
 pub fn has_title(text: &[u8]) -> bool {
     let first = text.split(|byte| *byte == b'\n').take(TITLE_LINES).map(<[u8]>::trim_ascii);
     let comments = first.filter_map(|line| line.strip_prefix(b"(")?.strip_suffix(b")"));
     comments.filter_map(|comment| str::from_utf8(comment).ok()).any(|title| path_of_title(title).is_some())
 }
 
-/// The title is among so many lines.
+/// The title is within this number of lines.
 const TITLE_LINES: usize = 4;
 
-/// Whether a text of ours is that of a compatible program, which states F before everything else.
+/// Whether a text of ours is a compatible program, in which F comes first.
 pub fn is_compatible(text: &[u8]) -> bool {
     let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())
 }
 
-/// Writes a program. Lines end with LF. The statistics are those of the program as it is: a move that is cut for its correction counts
+/// Writes a program with LF as line ends. Statistics are those of the program before splitting: a move that is split for its correction
+/// counts
 /// as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
     program_within(program, header, options, usize::MAX).unwrap_or_default()
 }
 
-/// The same.
+/// Like [`program`], with a limit on the size.
 ///
 /// # Errors
-/// PB005: where the text comes to more than so many bytes.
+/// PB005 if the text exceeds `most` bytes.
 pub fn program_within(
     program: &Program,
     header: &Header,
@@ -163,7 +164,7 @@ pub fn program_within(
     if writer.text.len() <= most { Ok(writer.text) } else { Err(too_large(most)) }
 }
 
-/// PB005: a program comes to more than so many bytes.
+/// PB005: a program exceeds the given number of bytes.
 pub fn too_large(most: usize) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&files::OUTPUT_TOO_LARGE).with("limit", most).quoting("key", "output-size"))
 }
@@ -173,7 +174,7 @@ struct Writer<'a> {
     options: &'a WriteOptions,
     formulas: Option<Formulas<'a>>,
     text: String,
-    /// Where the tool is.
+    /// Position of the tool.
     at: Xy,
 }
 
@@ -247,7 +248,7 @@ impl Writer<'_> {
         self.text.push('\n');
     }
 
-    /// Where an arc is said to end.
+    /// The end that is printed for an arc.
     fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
         if is_doubtful(centre, length) {
             Printed::new(self.at, centre, clockwise).end(to, length)
@@ -256,7 +257,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The centre to print, relative to where the tool is. Compatible programs print the nearest one.
+    /// The centre to print, relative to the position of the tool. Compatible programs print the nearest one.
     fn arc_centre(&self, to: Xy, centre: Xy) -> Xy {
         if self.program.compatible {
             return centre;

@@ -1,4 +1,4 @@
-//! Reading a native text back, and comparing its moves with the program it was made from. (book: program/reading)
+//! Reads a native text back and compares its moves with those of the program it was made from. (book: program/reading)
 
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -11,13 +11,13 @@ use crate::dialect::Dialect;
 use crate::interpret::{Heights, Options, each_move_of, interpret_each, interpret_parts, moves_of};
 use crate::verify::{Checks, Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
-/// Digits behind the point.
+/// Number of decimals.
 const DECIMALS: i32 = 3;
 
-/// Whether a program's text makes the machine do what the program says; heights are those before correction.
+/// Checks that the text of a program makes the machine do what the program says. Heights are compared before correction.
 ///
 /// # Errors
-/// PB006: where it does not. It is a bug.
+/// PB006 if they differ, which is a bug.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     if is_read_back([text], program) {
         return Ok(());
@@ -35,7 +35,7 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     }
 }
 
-/// The rules of `verify` that need no map of the material.
+/// Checks the rules of `verify` that do not depend on the material.
 fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
     let mut rules = Rules::new(&Checks::default());
     interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut |step| rules.step(&step));
@@ -43,8 +43,8 @@ fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
     broken.map_or(Ok(()), |broken| Err(told(&broken)))
 }
 
-/// Whether a program's text, in parts of whole lines, says move by move what the program does. Where not, [`read_back`] may still find that it
-/// comes to the same.
+/// Whether the text of a program, given in parts of whole lines, contains exactly the moves of the program. If not, [`read_back`] may still
+/// find them equivalent.
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
     let mut abreast = Abreast::new(each_move_of(program), Tolerance::of_decimals(DECIMALS));
     let mut rules = Rules::new(&Checks::default());
@@ -59,10 +59,10 @@ pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: 
     is_fine(&problems) && is_fine(&rules.finish()) && abreast.end_together()
 }
 
-/// Whether the text of a probing run probes where the program's probes are, in their order.
+/// Checks that the text of a probing program probes at the positions of the program's probes, in their order.
 ///
 /// # Errors
-/// PB006: where it does not. It is a bug.
+/// PB006 if they differ, which is a bug.
 pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Diagnostic>> {
     let slack = Tolerance::of_decimals(DECIMALS).place;
     let mut found = moves(text)?;
@@ -74,8 +74,9 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
     if is_same { Ok(()) } else { Err(internal("the probing run probes elsewhere")) }
 }
 
-/// Goes along the moves that are found and those that are expected, one by one: nearly every program is as it should be, and to keep
-/// both lists to walk along them takes as long as to read the program.
+/// Compares the moves found with those expected, one by one. Nearly all programs are as expected, and building both lists for comparison
+/// takes as
+/// long as reading the program.
 struct Abreast<E> {
     expected: E,
     tolerance: Tolerance,
@@ -89,7 +90,7 @@ impl<E: Iterator<Item = (u32, motion::Move)>> Abreast<E> {
     }
 
     fn step(&mut self, found: &motion::Move) {
-        // The position becomes known bit by bit, on the way to where the program begins.
+        // The position becomes known axis by axis, on the way to the start of the program.
         if !self.is_same || found.from.known != Axes::ALL && !self.has_begun {
             return;
         }
@@ -104,7 +105,7 @@ impl<E: Iterator<Item = (u32, motion::Move)>> Abreast<E> {
         self.has_begun = true;
     }
 
-    /// Whether each had its counterpart. Where not, they may still be the same, cut into other pieces.
+    /// Whether all moves were equal. If not, they may still be equivalent but divided into different parts.
     fn end_together(mut self) -> bool {
         self.is_same && self.expected.next().is_none()
     }
@@ -131,10 +132,10 @@ fn nominal() -> Options {
     Options { heights: Heights::Nominal, ..Options::default() }
 }
 
-/// Most lines have at least so many bytes.
+/// Most lines have at least this number of bytes.
 const SHORT_LINE: usize = 20;
 
-/// Whether the writer may have said of some arc that it ends beside where it does.
+/// Whether the writer may have moved the printed end of an arc.
 fn has_doubtful_arcs(program: &Program) -> bool {
     let is_one = |step: &Step| match step {
         Step::Move { to: Move::Arc { centre, .. }, count } => is_doubtful(*centre, count.length),
@@ -147,7 +148,7 @@ fn differs(found: &Difference) -> Box<Diagnostic> {
     told(&found.diagnostic())
 }
 
-/// A problem of the text as one of pathbuild.
+/// Reports a problem in the text as an error of pathbuild.
 fn told(problem: &Diagnostic) -> Box<Diagnostic> {
     let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
     let said = problem.text(pathbuild_diagnostic::Lang::En);

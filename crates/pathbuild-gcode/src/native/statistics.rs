@@ -1,4 +1,4 @@
-//! The statistics at a program's end, which tools read. (book: program/gcode)
+//! The statistics at the end of a program, which are read by tools. (book: program/gcode)
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::{Statistics, Total};
@@ -22,7 +22,7 @@ pub(super) fn lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Ve
 
 fn total_line(label: &str, total: &Total) -> String {
     let minutes = total.minutes();
-    // Without a rapid feed, or a feed of 0, nothing is known of the time.
+    // If the rapid feed is unknown or some feed is 0, the time is unknown.
     let time = if minutes.is_finite() { format!("   ca.{minutes:3.0} min") } else { String::new() };
     format!("{label:<12} {:5.0} mm{time}", total.length)
 }
@@ -34,14 +34,14 @@ fn labels(lang: Lang) -> [&'static str; 5] {
     }
 }
 
-/// The label and the length in mm of a comment that states one.
+/// Label and length in mm of a comment with a length.
 pub(crate) fn stated_length(comment: &str) -> Option<(&str, f64)> {
     let (label, rest) = comment.split_once(':')?;
     let (length, _) = rest.split_once(" mm ")?;
     Some((label, length.trim().parse().ok()?))
 }
 
-/// Which length a label means, in either language: 0 milling, 1 drilling, 2 sweeps, 3 their sum.
+/// The length denoted by a label, in either language: 0 milling, 1 drilling, 2 sweeps, 3 their sum.
 pub(crate) fn kind_of_label(label: &str) -> Option<usize> {
     let is_meant = |known: &str| {
         let known = known.trim_end_matches(':');

@@ -1,12 +1,14 @@
-//! The header line by which a program can be traced. (book: program/gcode)
+//! The header line that identifies the origin of a program. (book: program/gcode)
 //!
-//! `pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5`: the version, a hash of the moves and formulas, a hash of the options, the
-//! dialect, the cutter O and the material's height T in mm. O and T are left out where a program has several.
+//! `pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5` consists of the version, a hash of the moves and formulas, a hash of the
+//! options, the
+//! dialect, the cutter O and the height T of the material in mm. O and T are omitted if a program has several of them.
 //!
-//! A program with the same two hashes and an unchanged body is current, whichever version wrote it, and however often its drawing was
-//! saved meanwhile.
+//! A program with equal hashes and an unmodified body is up to date, regardless of the version that wrote it, and even if its drawing has
+//! been
+//! saved since.
 //!
-//! Native programs and posts both write the line with [`Display`](fmt::Display), and every reader uses [`Provenance::of_head`].
+//! Native programs and posts both write the line with [`Display`](fmt::Display), and all readers use [`Provenance::of_head`].
 
 mod moves;
 
@@ -21,38 +23,38 @@ use serde::{Deserialize, Serialize};
 
 use crate::dialect::Dialect;
 
-/// What the line says.
+/// The content of the line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// The version of pathbuild.
+    /// Version of pathbuild.
     pub version: Box<str>,
-    /// The hash of the program's moves and formulas, in hexadecimal digits.
+    /// Hash of the program's moves and formulas, in hexadecimal digits.
     pub moves: Box<str>,
-    /// The hash of the options, in hexadecimal digits.
+    /// Hash of the options, in hexadecimal digits.
     pub options: Box<str>,
-    /// The dialect of the program; `None` where the post names none.
+    /// Dialect of the program; `None` if the post names none.
     pub dialect: Option<Dialect>,
-    /// O in mm, if all is milled with one cutter.
+    /// O in mm, if a single cutter mills everything.
     pub cutter: Option<f64>,
-    /// T in mm, if the material has one upper face.
+    /// T in mm, if the upper face of the material is at a single height.
     pub thickness: Option<f64>,
 }
 
 /// This version of pathbuild.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The word that begins the line.
+/// The first word of the line.
 const NAME: &str = "pathbuild";
 
-/// The line is looked for among so many lines.
+/// Number of lines at the beginning of a file in which the line is searched for.
 const HEAD_LINES: usize = 40;
 
-/// The line is within so many bytes from the beginning of a file.
+/// Number of bytes at the beginning of a file that contain the line.
 pub const HEAD: usize = 4096;
 
 impl Provenance {
-    /// That of the programs of paths, in the order in which they are milled. `options`: everything that the text depends on beside them,
-    /// as bytes.
+    /// The provenance of programs, in the order in which they are milled. `options` are the bytes of everything else that the text
+    /// depends on.
     pub fn of_programs<P: Borrow<Program>>(programs: &[P], options: &[u8], dialect: Option<Dialect>) -> Self {
         let programs = || programs.iter().map(Borrow::borrow);
         Self {
@@ -65,13 +67,14 @@ impl Provenance {
         }
     }
 
-    /// Whether programs of both mill the same in the same way, whichever versions wrote them.
+    /// Whether programs with these provenances mill the same in the same way, regardless of the versions that wrote them.
     pub fn is_same(&self, other: &Self) -> bool {
         (&self.moves, &self.options) == (&other.moves, &other.options)
     }
 
-    /// The provenance of a program by its first bytes, and the text of the comment line behind it, which is the title. `None` where
-    /// pathbuild did not write the program.
+    /// Parses the provenance in the first bytes of a program, and the text of the next comment line, which is the title. `None` if
+    /// pathbuild did
+    /// not write the program.
     pub fn of_head(head: &[u8]) -> Option<(Self, Box<str>)> {
         let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
         let mut lines = text.lines().take(HEAD_LINES).map(remark);
@@ -80,13 +83,13 @@ impl Provenance {
     }
 }
 
-/// The value that all have.
+/// The value, if all items are equal.
 fn common<T: PartialEq>(mut values: impl Iterator<Item = T>) -> Option<T> {
     let first = values.next()?;
     values.all(|value| value == first).then_some(first)
 }
 
-/// Whether two files are the same program: byte for byte, but for the version of pathbuild.
+/// Whether two files contain the same program, that is, are equal except for the version of pathbuild.
 pub fn is_same_program(a: &[u8], b: &[u8]) -> bool {
     let is_same = |a: &[u8], b: &[u8]| match (version_in(a), version_in(b)) {
         (Some(x), Some(y)) => a[..x.start] == b[..y.start] && a[x.end..] == b[y.end..],
@@ -95,7 +98,7 @@ pub fn is_same_program(a: &[u8], b: &[u8]) -> bool {
     a == b || is_same(a, b)
 }
 
-/// Where the version stands in a program.
+/// Position of the version in a program.
 fn version_in(program: &[u8]) -> Option<Range<usize>> {
     let head = &program[..program.len().min(HEAD)];
     let mut begin = 0;
@@ -111,7 +114,7 @@ fn version_in(program: &[u8]) -> Option<Range<usize>> {
     None
 }
 
-/// A line without block number and comment signs.
+/// A line without block number and comment marks.
 fn remark(line: &str) -> &str {
     let line = line.trim();
     let digits =
@@ -131,7 +134,7 @@ impl fmt::Display for Provenance {
     }
 }
 
-/// Reads what is shown, in capitals too: some posts write nothing else.
+/// Parses the displayed form, also in upper case, because some posts write only that.
 impl FromStr for Provenance {
     type Err = ();
 
@@ -160,7 +163,7 @@ impl FromStr for Provenance {
 }
 
 impl Provenance {
-    /// Takes one of the words behind the hashes.
+    /// Parses one of the words after the hashes.
     fn take(&mut self, word: &str) -> Result<(), ()> {
         let number = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or(());
         if let Ok(dialect) = word.parse() {

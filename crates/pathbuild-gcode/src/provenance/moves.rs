@@ -1,9 +1,9 @@
-//! A hash of moves and formulas, as they are printed: what differs behind the third decimal is the same.
+//! A hash of moves and formulas as they are printed, so that differences beyond the third decimal have no effect.
 
 use blake3::{Hash, Hasher};
 use pathbuild_toolpath::{Comment, Height, Move, ProbePoint, Program, Step, Xy};
 
-/// The hash of the programs of one file. Comments do not count, but for those that the drawing has for the machine.
+/// The hash of the programs in a file. Comments are ignored, except those of the drawing for the operator.
 pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
     let mut hasher = Hasher::new();
     for program in programs {
@@ -21,7 +21,7 @@ pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
 struct Bytes(Vec<u8>);
 
 impl Bytes {
-    /// In thousandths.
+    /// Adds a number in thousandths.
     #[expect(clippy::cast_possible_truncation, reason = "saturates far beyond any machine")]
     fn number(&mut self, number: f64) {
         let thousandths = (number * 1000.0).round_ties_even() as i64;
@@ -33,7 +33,7 @@ impl Bytes {
         self.number(point.y);
     }
 
-    /// With the point that the formula is for.
+    /// Adds a height with the point that its formula is for.
     fn height(&mut self, height: Height) {
         self.number(height.z);
         self.point(height.at);
@@ -86,7 +86,7 @@ impl Bytes {
         }
     }
 
-    /// Without its feed: that is the probing run's alone.
+    /// Adds a probe without its feed, which only affects the probing program.
     fn probe(&mut self, probe: &ProbePoint) {
         self.0.push(b'P');
         self.point(probe.at);

@@ -1,4 +1,4 @@
-//! What a line of G-code consists of.
+//! The parts of a line of G-code.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -15,28 +15,28 @@ pub struct Span {
 }
 
 impl Span {
-    /// From byte `start` up to byte `end`; lines are short enough for 32 bits.
+    /// Lines are short enough for 32 bits.
     pub(crate) fn new(start: usize, end: usize) -> Self {
         let index = |byte| u32::try_from(byte).unwrap_or(u32::MAX);
         Self { start: index(start), end: index(end) }
     }
 
-    /// As a range of indices.
+    /// Converts it to a range of indices.
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
 }
 
-/// A number as it was written: its text is the word's span, its value the nearest double.
+/// A number as it was written: its text is given by the span of the word, its value is the nearest double.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
-    /// The value, in the program's unit.
+    /// Value in the unit of the program.
     pub value: f64,
-    /// Digits behind the point.
+    /// Number of decimals.
     pub decimals: u8,
 }
 
-/// What stands behind a letter or `=`.
+/// The value after a letter or `=`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the types say it")]
 pub enum Value {
@@ -47,11 +47,11 @@ pub enum Value {
 /// A letter and its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Word {
-    /// In capitals.
+    /// In upper case.
     pub letter: u8,
-    /// What it is set to.
+    /// The value.
     pub value: Value,
-    /// Letter and value in the line.
+    /// Range of letter and value in the line.
     pub span: Span,
 }
 
@@ -64,25 +64,25 @@ pub struct Setting {
     pub span: Span,
 }
 
-/// Which parameter is set.
+/// The parameter that is set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// The number is what the code comes to.
+    /// Its number is the result of the code.
     Numbered(Code),
-    /// The name's place in the line, without `<` and `>`.
+    /// Range of its name in the line, without `<` and `>`.
     Named(Span),
 }
 
-/// A remark.
+/// A comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Comment {
     pub style: CommentStyle,
-    /// The text without its signs.
+    /// Range of the text without the comment marks.
     pub text: Span,
 }
 
-/// How a comment is marked.
+/// The notation of a comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommentStyle {
     /// `( )`
@@ -93,66 +93,66 @@ pub enum CommentStyle {
     Slashes,
     /// `!`
     Bang,
-    /// What stands behind `%`.
+    /// The text after `%`.
     Percent,
-    /// What stands behind M0 or M117 on controls that show it.
+    /// The text after M0 or M117 on controls that display it.
     Message,
 }
 
-/// The correction formula behind a number: `Z1.000(=1.000+0.5*[#51-5.000])`. (book: language/probes)
+/// The correction formula after a number: `Z1.000(=1.000+0.5*[#51-5.000])`. (book: language/probes)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
     /// Index of the word it belongs to.
     pub word: u32,
-    /// `(==`: the number is already the formula's value.
+    /// Whether it begins with `(==`, so that the number is already its result.
     pub applied: bool,
-    /// What it computes.
+    /// The compiled formula.
     pub code: Code,
-    /// From `(` to `)`.
+    /// Range from `(` to `)`.
     pub span: Span,
 }
 
-/// A line that could be read. Blank lines are none.
+/// A line that could be read and is not blank.
 #[derive(Clone, Copy, Debug)]
 pub struct Block<'a> {
-    /// From 1.
+    /// Line number, counted from 1.
     pub line: u32,
-    /// The line without its end.
+    /// The line without its line break.
     pub text: &'a [u8],
-    /// The block number N.
+    /// Block number (N).
     pub number: Option<Number>,
-    /// It begins with `/`: a switch at the machine can leave it out.
+    /// Whether it begins with `/`, so that a switch on the machine can skip it.
     pub optional: bool,
-    /// In the order of the text.
+    /// Words in the order of the text.
     pub words: &'a [Word],
-    /// In the order of the text. They take effect when every value of the line has been read.
+    /// Settings in the order of the text. They take effect after all values of the line have been read.
     pub settings: &'a [Setting],
-    /// In the order of the text.
+    /// Comments in the order of the text.
     pub comments: &'a [Comment],
-    /// In the order of the text.
+    /// Formulas in the order of the text.
     pub formulas: &'a [Formula],
-    /// An O word and everything behind it.
+    /// An O word and everything after it.
     pub o_word: Option<Span>,
     pub(super) code: &'a [Op],
 }
 
 impl<'a> Block<'a> {
-    /// The operations of an expression in this block, operands first.
+    /// The operations of an expression in this block, with operands first.
     pub fn code(&self, code: Code) -> &'a [Op] {
         &self.code[code.range()]
     }
 
-    /// A piece of the line.
+    /// A part of the line.
     pub fn slice(&self, span: Span) -> &'a [u8] {
         self.text.get(span.range()).unwrap_or_default()
     }
 
-    /// A piece of the line as text: UTF-8, or Windows-1252 where it is not.
+    /// A part of the line as text, decoded as UTF-8 or else as Windows-1252.
     pub fn text_of(&self, span: Span) -> Cow<'a, str> {
         decode(self.slice(span))
     }
 
-    /// The formula of a word, by the word's index.
+    /// The formula of the word with this index.
     pub fn formula(&self, word: usize) -> Option<&'a Formula> {
         self.formulas.iter().find(|formula| formula.word as usize == word)
     }

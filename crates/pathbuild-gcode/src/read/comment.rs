@@ -1,4 +1,4 @@
-//! Comments of a line, and the correction formulas that look like comments.
+//! Reads the comments of a line, and correction formulas, which look like comments.
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -65,7 +65,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    /// Whether the words so far are those of a command whose line ends with a message.
+    /// Whether the words so far include a command whose line ends with a message.
     pub(super) fn has_message(&self) -> bool {
         let codes = self.spelling().message_codes;
         let [first, rest @ ..] = self.out.words.as_slice() else { return false };
@@ -76,7 +76,7 @@ impl Line<'_> {
             && rest.iter().all(|word| matches!(word.letter, b'S' | b'P'))
     }
 
-    /// Takes the rest of the line, up to a semicolon, as a message, unless it is S or P with a number.
+    /// Reads the rest of the line up to a semicolon as a message, unless it is S or P with a number.
     pub(super) fn message(&mut self) {
         self.skip_blanks();
         let rest = &self.bytes[self.at..];
@@ -105,7 +105,7 @@ impl Line<'_> {
     }
 }
 
-/// How a dialect marks comments.
+/// The comment notation of a dialect.
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
     if spelling.slash_comments == Style::Usual { "//" } else { "(" }
 }

@@ -1,4 +1,4 @@
-//! Expressions, compiled as they are read: operands first, then the operator, so that their value needs a stack and no recursion.
+//! Compiles expressions while reading them: operands come before the operator, so that a stack suffices for evaluation.
 //! (book: program/reading)
 
 use std::ops::Range;
@@ -10,10 +10,10 @@ use super::line::{Broken, Line};
 use super::number;
 use crate::dialect::Operators;
 
-/// So deep brackets, functions and `#` may be nested. (LinuxCNC, too, stops well before 50.)
+/// Maximum nesting depth of brackets, functions and `#`. (LinuxCNC's own limit is well below 50.)
 const DEEPEST: u8 = 40;
 
-/// A stretch of a block's operations.
+/// A range of operations in a block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Code {
     pub(super) first: u32,
@@ -26,26 +26,26 @@ impl Code {
     }
 }
 
-/// One operation on a stack of numbers.
+/// An operation on a stack of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Op {
-    /// Puts a number onto the stack.
+    /// Pushes a number.
     Number(f64),
-    /// Replaces a number by the value of the parameter of that number.
+    /// Replaces a number by the value of the parameter with that number.
     Parameter,
-    /// Puts the value of a named parameter onto the stack; its name is this part of the line.
+    /// Pushes the value of a named parameter, whose name is this part of the line.
     Named(Span),
-    /// Puts 1 onto the stack if there is a parameter of this name, else 0.
+    /// Pushes 1 if there is a parameter with this name, otherwise 0.
     Exists(Span),
-    /// Replaces the uppermost number.
+    /// Replaces the topmost number.
     Function(Function),
-    /// Replaces the two uppermost numbers y, x by the angle of (x, y) in degrees.
+    /// Replaces the two topmost numbers y, x by the angle of (x, y) in degrees.
     Atan,
-    /// Replaces the two uppermost numbers.
+    /// Replaces the two topmost numbers.
     Binary(Binary),
 }
 
-/// Functions of one number; angles are degrees.
+/// Functions of one number; angles are in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Function {
@@ -55,9 +55,9 @@ pub enum Function {
     Asin,
     Cos,
     Exp,
-    /// Down to a whole number.
+    /// Rounds down to an integer.
     Fix,
-    /// Up to a whole number.
+    /// Rounds up to an integer.
     Fup,
     Ln,
     Round,
@@ -66,7 +66,7 @@ pub enum Function {
     Tan,
 }
 
-/// Operators between two numbers; comparisons and logic give 1 or 0.
+/// Operators on two numbers. Comparisons and logical operators return 1 or 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Binary {
@@ -115,12 +115,12 @@ const WORDS: [(&[u8], Binary); 10] = [
     (b"GE", Binary::GreaterOrEqual),
 ];
 
-/// Which operators and brackets an expression may have.
+/// The operators and brackets allowed in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Syntax {
-    /// That of a dialect.
+    /// Expressions of a dialect.
     Dialect { operators: Operators, names: bool, signs: bool },
-    /// That of correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (book: language/probes)
+    /// Correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (book: language/probes)
     Formula,
 }
 
@@ -133,7 +133,7 @@ impl Syntax {
         matches!(self, Self::Formula | Self::Dialect { signs: true, .. })
     }
 
-    /// How tightly an operator binds; `None` if there is no such operator here.
+    /// Precedence of an operator; `None` if it does not exist in this syntax.
     fn level(self, operator: Binary) -> Option<u8> {
         use Binary::{And, Divide, Minus, Modulo, Or, Plus, Power, Times, Xor};
         let is_nist = matches!(self, Self::Dialect { operators: Operators::Nist, .. });
@@ -160,14 +160,14 @@ impl Syntax {
 }
 
 impl Line<'_> {
-    /// Reads a value (a number, a parameter, a function, brackets) and gives its code.
+    /// Compiles a value: a number, a parameter, a function or a bracketed expression.
     pub(super) fn compiled_value(&mut self, syntax: Syntax) -> Result<Code, Broken> {
         let first = self.out.code.len();
         self.value(syntax, 0)?;
         Ok(self.code_since(first))
     }
 
-    /// Reads operators and operands up to a closing bracket, which is left.
+    /// Compiles operators and operands up to a closing bracket, which is not consumed.
     pub(super) fn compiled_expression(&mut self, syntax: Syntax) -> Result<Code, Broken> {
         let first = self.out.code.len();
         self.expression(syntax, 0, 0)?;
@@ -254,7 +254,7 @@ impl Line<'_> {
         self.closing_bracket(closing)
     }
 
-    /// Passes over the bracket that ends an expression.
+    /// Consumes the bracket that ends an expression.
     pub(super) fn closing_bracket(&mut self, closing: u8) -> Result<(), Broken> {
         self.skip_blanks();
         if self.peek() == Some(closing) {

@@ -1,14 +1,15 @@
-//! Correction formulas as pathbuild and its predecessor write them, read without looking twice. (book: language/probes)
+//! A fast path for correction formulas as written by pathbuild and its predecessor. (book: language/probes)
 
 use super::block::{Formula, Span};
 use super::expression::{Binary, Code, Op};
 use super::line::Parts;
 use super::number;
 
-/// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word; gives the byte behind it. Anything else is for the
-/// reader of expressions, and leaves the parts as they were.
+/// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Leaves anything else,
+/// without
+/// changing the parts, to the reader of expressions.
 ///
-/// In a program with probes nearly every byte is part of such a formula.
+/// In a program with probes, nearly all bytes belong to such formulas.
 #[inline]
 pub(super) fn plain_formula(bytes: &[u8], start: usize, parts: &mut Parts) -> Option<usize> {
     let word = parts.words.len().checked_sub(1)?;
@@ -28,7 +29,7 @@ pub(super) fn plain_formula(bytes: &[u8], start: usize, parts: &mut Parts) -> Op
     Some(end)
 }
 
-/// A height and what each probe adds, up to and with the bracket that closes the formula.
+/// Reads a height and the terms of the probes, up to and including the closing bracket.
 fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     let (height, mut at) = number::plain(bytes, start)?;
     code.push(Op::Number(height.value));
@@ -41,7 +42,7 @@ fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     }
 }
 
-/// `0.441*[#51-2.000]`.
+/// Reads `0.441*[#51-2.000]`.
 fn term(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
     let (weight, at) = number::plain(bytes, start)?;
     let at = passed(bytes, at, b"*[#")?;

@@ -1,4 +1,4 @@
-//! One line, cut into words, settings and comments.
+//! Splits a line into words, settings and comments.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
@@ -10,11 +10,11 @@ use super::problems::{At, Problems};
 use super::text::decode;
 use crate::dialect::{Rules, Slash, Spelling};
 
-/// The line cannot be read; why has been reported.
+/// The line cannot be read, for a reason that has been reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Broken;
 
-/// The parts of the line that is being read, kept from line to line for their memory.
+/// The parts of the current line. They are reused for the next line to avoid allocations.
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     pub(super) number: Option<Number>,
@@ -44,7 +44,7 @@ impl Parts {
     }
 }
 
-/// Reads words as long as there is nothing special about them; gives the byte where that ends.
+/// Reads words as long as they have the simplest form. Returns the offset at which that ends.
 #[inline]
 pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> usize {
     let mut at = start;
@@ -63,19 +63,19 @@ pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> 
     at
 }
 
-/// A line and how far it has been read.
+/// A line, and how far it has been read.
 pub(super) struct Line<'l> {
     pub(super) bytes: &'l [u8],
     pub(super) at: usize,
     pub(super) out: &'l mut Parts,
     pub(super) rules: &'static Rules,
     pub(super) problems: &'l mut Problems,
-    /// From 1.
+    /// Line number, counted from 1.
     pub(super) number: u32,
 }
 
 impl Line<'_> {
-    /// Reads from where it stands to the end.
+    /// Reads the rest of the line.
     pub(super) fn read(&mut self) -> Result<(), Broken> {
         self.block_delete();
         loop {
@@ -108,7 +108,7 @@ impl Line<'_> {
         }
     }
 
-    /// The character that is next.
+    /// The range of the next character.
     pub(super) fn here(&self) -> Span {
         let length = self.bytes[self.at..]
             .iter()
@@ -144,7 +144,7 @@ impl Line<'_> {
         &self.rules.spelling
     }
 
-    /// Reports a small letter where the control reads capitals only, and reads its word all the same.
+    /// Reports a lower-case letter if the control only reads upper case, but reads its word nevertheless.
     fn small_letter(&mut self, letter: u8) -> Result<(), Broken> {
         let letter = letter.to_ascii_uppercase();
         self.report(&say::SMALL_LETTER, self.here(), |d| d.with("letter", char::from(letter)));

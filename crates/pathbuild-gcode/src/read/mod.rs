@@ -1,7 +1,7 @@
-//! G-code text to blocks of words, line by line. (book: program/reading)
+//! Splits G-code text into blocks of words, line by line. (book: program/reading)
 //!
-//! Purely lexical: which letters and codes there are, and what they do, is the interpreter's business. A line that cannot be read is
-//! reported and left out; reading goes on with the next one.
+//! Reading is purely lexical; the interpreter decides which letters and codes exist and what they do. A line that cannot be read is
+//! reported and skipped.
 
 mod block;
 mod comment;

@@ -1,42 +1,42 @@
-//! Numbers as G-code writes them: sign, digits, one point; no exponent.
+//! Numbers in G-code notation: sign, digits and one decimal point, but no exponent.
 
 use super::block::Number;
 use super::text::decode;
 use crate::dialect::{Blanks, Spelling};
 
-/// Powers of ten that a double holds exactly.
+/// Powers of ten that a double represents exactly.
 const POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Up to so many digits an integer is a double without loss, so that one division gives the nearest double.
+/// With at most this number of digits, an integer is exact as a double, so that one division gives the nearest double.
 const EXACT_DIGITS: usize = 15;
 
 /// A number found in a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scanned {
     pub(super) number: Number,
-    /// The byte behind it.
+    /// Offset after the number.
     pub(super) end: usize,
-    /// What is odd about how it is written.
+    /// An unusual feature of its notation.
     pub(super) oddity: Option<Oddity>,
 }
 
-/// Spellings that are read with a warning.
+/// Notations that are read with a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Oddity {
     BlankInside,
     DecimalComma,
 }
 
-/// No number: the byte behind what looks like one.
+/// Not a valid number; `end` is the offset after it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Malformed {
     pub(super) end: usize,
 }
 
-/// Whether a number begins with this byte.
+/// Whether a number can begin with this byte.
 pub(super) fn begins(byte: u8) -> bool {
     byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')
 }
@@ -56,9 +56,9 @@ pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<Sca
     }
 }
 
-/// Reads a number that is written in the plainest way; anything else is for [`scan`].
+/// Reads a number in the simplest notation; anything else is left to [`scan`].
 ///
-/// Nearly every number of every program is such a one, and reading them is most of what the reader does.
+/// Nearly all numbers in programs are of this form, and reading them is most of the work of the reader.
 #[inline]
 pub(super) fn plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let mut at = start;
@@ -89,13 +89,13 @@ pub(super) fn plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
     if !is_plain || digits == 0 || digits > EXACT_DIGITS {
         return None;
     }
-    // The sign goes to the integer, where it costs no branch: signs are what a processor guesses worst.
+    // Applying the sign to the integer avoids a branch, which would be mispredicted often.
     let signed = if negative { -mantissa } else { mantissa };
     let value = signed as f64 / POWERS[decimals];
     Some((Number { value, decimals: u8::try_from(decimals).unwrap_or(u8::MAX) }, at))
 }
 
-/// The longest run of plain number at some place.
+/// The longest run of a plain number at an offset.
 struct Digits {
     negative: bool,
     mantissa: u64,
@@ -152,7 +152,7 @@ impl Digits {
     }
 }
 
-/// Reads a number with blanks inside or a decimal comma, by writing it the usual way first.
+/// Reads a number with blanks inside or a decimal comma by converting it to the usual notation.
 fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<Scanned, Malformed> {
     let end = match oddity {
         Oddity::BlankInside => last_digit(line, start),
@@ -171,7 +171,7 @@ fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<Scanned, Malfo
     Ok(Scanned { number, end, oddity: Some(oddity) })
 }
 
-/// Behind the last digit or point of a number with blanks in it.
+/// Offset after the last digit or point of a number that contains blanks.
 fn last_digit(line: &[u8], start: usize) -> usize {
     let mut end = run_end(line, start, begins);
     while goes_on(line, end) {

@@ -1,4 +1,4 @@
-//! What is found wrong in a file, kept within bounds.
+//! Collects the problems found in a file and limits their number.
 
 use std::collections::BTreeMap;
 
@@ -8,17 +8,17 @@ use pathbuild_diagnostic::{Diagnostic, Message, Value};
 use super::block::{Block, Span};
 use super::text;
 
-/// So often one message is said of one file. A program with a doubtful word in each of a million lines is one problem.
+/// Maximum number of times that a message is reported per file, since a doubtful word in each of a million lines is a single problem.
 const SHOWN: u64 = 20;
 
-/// Where in a file something is.
+/// A position in a file.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a> {
-    /// From 1.
+    /// Line number, counted from 1.
     pub line: u32,
-    /// The whole line.
+    /// The entire line.
     pub text: &'a [u8],
-    /// The faulty part of it.
+    /// Range of the faulty part.
     pub span: Span,
 }
 
@@ -28,7 +28,7 @@ impl<'a> At<'a> {
         Self { line: block.line, text: block.text, span }
     }
 
-    /// A block as a whole.
+    /// An entire block.
     pub fn line(block: &Block<'a>) -> Self {
         Self::block(block, Span::new(0, block.text.len()))
     }
@@ -39,16 +39,16 @@ impl<'a> At<'a> {
     }
 }
 
-/// Diagnostics of one file in the order of finding. Of each message the first few are kept and the others counted.
+/// Diagnostics of a file in the order in which they are found. The first few of each message are kept, the others only counted.
 #[derive(Clone, Debug, Default)]
 pub struct Problems {
     found: Vec<Diagnostic>,
-    /// By the message's key: how often it was found, and the last one kept.
+    /// By the key of the message: how often it was found, and the index of the last one kept.
     counts: BTreeMap<&'static str, (u64, usize)>,
 }
 
 impl Problems {
-    /// Notes a problem; `values` fills in the message and is asked only if it is kept.
+    /// Adds a problem. `values` sets the arguments of the message; it is only called if the problem is kept.
     pub fn add(
         &mut self,
         message: &'static Message,
@@ -58,7 +58,7 @@ impl Problems {
         self.push(message, || at.place(values(Diagnostic::new(message))));
     }
 
-    /// Notes a problem of which only the line is known.
+    /// Adds a problem whose position is only known by line.
     pub fn add_at_line(
         &mut self,
         message: &'static Message,
@@ -73,7 +73,7 @@ impl Problems {
         self.counts.get(message.key).map_or(0, |&(count, _)| count)
     }
 
-    /// Adds those of another stage.
+    /// Adds the problems of another stage.
     pub fn append(&mut self, other: Self) {
         for (key, (count, last)) in other.counts {
             let known = self.counts.entry(key).or_default();
@@ -82,7 +82,7 @@ impl Problems {
         self.found.extend(other.found);
     }
 
-    /// The diagnostics in the order of lines; the last of many says how many more there were.
+    /// Returns the diagnostics in the order of lines. The last one of a limited message tells how many more there were.
     pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
         for &(count, last) in self.counts.values().filter(|(count, _)| *count > SHOWN) {
             let message = if count - SHOWN == 1 { &ONE_MORE } else { &MORE };

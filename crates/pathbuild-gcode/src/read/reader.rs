@@ -1,4 +1,4 @@
-//! A file, line by line.
+//! Reads a file line by line.
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -12,10 +12,10 @@ use super::real_time;
 use super::text::end_of_line;
 use crate::dialect::{LineLength, Percent, Rules};
 
-/// The longest line that is read at all, in bytes. Nothing that a machine takes comes near it.
+/// Maximum length of a line in bytes. No machine accepts lines of a comparable length.
 pub const LONGEST_LINE: usize = 65_536;
 
-/// Reads blocks off a file.
+/// Reads the blocks of a file.
 ///
 /// ```
 /// # use pathbuild_gcode::{dialect::Dialect, read::BlockReader};
@@ -28,27 +28,27 @@ pub struct BlockReader<'t> {
     text: &'t [u8],
     rules: &'static Rules,
     end_of_line: u8,
-    /// Where the next line begins.
+    /// Offset of the next line.
     at: usize,
-    /// The line last read, from 1.
+    /// The line last read, counted from 1.
     line: u32,
     state: State,
     parts: Parts,
     problems: Problems,
 }
 
-/// How far the program in the file has come.
+/// The progress within the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// Nothing but comments so far.
+    /// There have been only comments so far.
     Leader,
     Program,
-    /// It ended in this line.
+    /// The program ended in this line.
     Ended(u32),
 }
 
 impl<'t> BlockReader<'t> {
-    /// A reader at the beginning of a file's bytes.
+    /// Creates a reader at the beginning of a file.
     pub fn new(text: &'t [u8], rules: &'static Rules) -> Self {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
         Self {
@@ -63,13 +63,13 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// The same file goes on with these bytes: what was read ended with a line.
+    /// Continues the same file with further bytes. The bytes before must have ended with a line break.
     pub(crate) fn go_on(self, text: &[u8]) -> BlockReader<'_> {
         let Self { rules, line, state, parts, problems, .. } = self;
         BlockReader { text, rules, end_of_line: end_of_line(text), at: 0, line, state, parts, problems }
     }
 
-    /// The next line that is not blank and can be read.
+    /// Returns the next line that is not blank and can be read.
     pub fn next_block(&mut self) -> Option<Block<'_>> {
         let text = loop {
             self.parts.clear();
@@ -95,29 +95,29 @@ impl<'t> BlockReader<'t> {
         })
     }
 
-    /// Ends the program here (M2, M30): what follows is not read, and reported unless it is `%` or blank.
+    /// Ends the program at this point (M2, M30). What follows is not read, and reported unless it is `%` or blank.
     pub fn end_program(&mut self) {
         if !matches!(self.state, State::Ended(_)) {
             self.state = State::Ended(self.line);
         }
     }
 
-    /// Whether `%` or [`end_program`](Self::end_program) ended the program.
+    /// Whether the program was ended by `%` or [`end_program`](Self::end_program).
     pub fn is_ended(&self) -> bool {
         matches!(self.state, State::Ended(_))
     }
 
-    /// The line last read, from 1.
+    /// The line last read, counted from 1.
     pub fn line(&self) -> u32 {
         self.line
     }
 
-    /// What was wrong with the lines so far.
+    /// Returns the problems in the lines read so far.
     pub fn into_problems(self) -> Problems {
         self.problems
     }
 
-    /// The next line of the program that is not blank, without its end.
+    /// Returns the next line of the program that is not blank, without its line break.
     fn next_line(&mut self) -> Option<&'t [u8]> {
         while self.at < self.text.len() {
             let rest = &self.text[self.at..];
@@ -141,8 +141,8 @@ impl<'t> BlockReader<'t> {
         None
     }
 
-    /// Reads a line of plain words, which most lines are, without looking for its end first. A line with anything else in it is left
-    /// as it was.
+    /// Reads a line of plain words, as most lines are, without searching for its end first. If the line contains anything else, nothing
+    /// is consumed.
     fn next_plain_line(&mut self) -> Option<&'t [u8]> {
         if self.state != State::Program {
             return None;
@@ -163,7 +163,7 @@ impl<'t> BlockReader<'t> {
         Some(&rest[..length])
     }
 
-    /// Reads words, and formulas where there are any, as far as they are plain.
+    /// Reads words, and formulas if there are any, as long as they are plain.
     fn plain_length(&mut self, line: &[u8]) -> usize {
         let mut at = plain_words(line, 0, &mut self.parts.words);
         while self.rules.spelling.formulas && line.get(at) == Some(&b'(') {
@@ -173,7 +173,7 @@ impl<'t> BlockReader<'t> {
         at
     }
 
-    /// A length that no limit forbids.
+    /// A length that satisfies every limit.
     fn surely_short_enough(&self) -> usize {
         match self.rules.spelling.line_length {
             Some(LineLength::Whole(most) | LineLength::Bare(most)) => most,
@@ -181,7 +181,7 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// Reads a line into the parts; whether it is a block.
+    /// Reads a line into the parts. Returns whether it is a block.
     fn read(&mut self, line: &[u8]) -> bool {
         if line.len() > LONGEST_LINE {
             let shown = &line[..256];
@@ -275,7 +275,7 @@ impl<'t> BlockReader<'t> {
         });
     }
 
-    /// A carriage return within a line: controls that end the line there obey what follows, even in a comment.
+    /// Reports a carriage return within a line: controls that end the line there obey the rest, even if it is in a comment.
     fn report_return(&mut self, line: &[u8], at: usize) {
         let at = At { line: self.line, text: line, span: Span::new(at, at + 1) };
         self.problems.add(&say::RETURN_IN_LINE, at, |d| d);
@@ -292,7 +292,7 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// The line's length without blanks and comments.
+    /// Length of the line without blanks and comments.
     fn bare_length(&self, line: &[u8]) -> usize {
         let words: usize = self.parts.words.iter().map(|word| bare(&line[word.span.range()])).sum();
         let settings: usize =
@@ -316,17 +316,17 @@ impl<'t> BlockReader<'t> {
     }
 }
 
-/// What `%` at the beginning of a line makes of it.
+/// The effect of `%` at the beginning of a line.
 enum Beginning {
-    /// There is none.
+    /// There is no `%`.
     Nothing,
-    /// The line goes on at this byte.
+    /// The line continues at this offset.
     Passed(usize),
-    /// The rest is a comment.
+    /// The rest of the line is a comment.
     Comment(Span),
 }
 
-/// The length of a block number, and of the blanks behind it, in front of a program's name.
+/// Length of a block number before a program name, including the blanks after it.
 fn title_number(line: &[u8]) -> usize {
     let [b'N' | b'n', digits @ ..] = line else { return 0 };
     1 + digits.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b' ' | b'\t')).count()

@@ -1,8 +1,8 @@
-//! Bytes that GRBL obeys the moment they arrive, whatever they stand in. (book: program/reading)
+//! Bytes that GRBL obeys as soon as they arrive, regardless of their context. (book: program/reading)
 
 use pathbuild_diagnostic::Text;
 
-/// The first byte of a line that acts at once, and what it does. Other bytes above 127 are merely removed.
+/// The first byte of a line that acts immediately, and its effect. Other bytes above 127 are only removed.
 pub(super) fn first(line: &[u8]) -> Option<(usize, &'static Text)> {
     line.iter().enumerate().find_map(|(at, &byte)| effect(byte).map(|effect| (at, effect)))
 }

@@ -1,4 +1,4 @@
-//! Bytes of a file as text for a person.
+//! Decodes the bytes of a file as text for the user.
 
 use std::borrow::Cow;
 
@@ -6,10 +6,10 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use super::block::Span;
 
-/// As much of a line as is shown on either side of a fault, in bytes.
+/// Maximum number of bytes of a line shown on either side of an error.
 const SHOWN: usize = 160;
 
-/// UTF-8, or Windows-1252 where it is not.
+/// Decodes UTF-8, or else Windows-1252.
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
@@ -17,13 +17,13 @@ pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The column of a byte, in characters from 1.
+/// The column of a byte, in characters counted from 1.
 pub(crate) fn column(line: &[u8], byte: usize) -> u32 {
     let before = decode(&line[..byte.min(line.len())]).chars().count();
     u32::try_from(before + 1).unwrap_or(u32::MAX)
 }
 
-/// The line with the faulty part of it marked; of a long line the surroundings of the fault.
+/// The line with its faulty part marked. Of a long line only the surroundings are kept.
 pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
     let start = (span.start as usize).min(line.len());
     let end = (span.end as usize).clamp(start, line.len()).min(start + SHOWN);
@@ -49,7 +49,7 @@ fn shown_after(bytes: &[u8]) -> Cow<'_, str> {
     format!("{}...", decode(&bytes[..cut])).into()
 }
 
-/// Shows the lines of a file under diagnostics that know only their number.
+/// Adds the text of the line to diagnostics that only have its number.
 pub fn quote<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &[u8]) {
     let is_bare = |one: &&mut Diagnostic| one.text.is_none() && one.place.line.is_some();
     let mut bare: Vec<&mut Diagnostic> = diagnostics.into_iter().filter(is_bare).collect();
@@ -67,7 +67,7 @@ pub fn quote<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file
     }
 }
 
-/// What ends the lines of a file: LF, but for files of CR alone.
+/// The character that ends the lines of a file: LF, or CR in files that contain only CR.
 pub(super) fn end_of_line(file: &[u8]) -> u8 {
     if memchr::memchr(b'\n', file).is_none() { b'\r' } else { b'\n' }
 }

@@ -1,4 +1,4 @@
-//! Words and settings of a line that are not of the plainest kind.
+//! Reads words and settings that do not have the simplest form.
 
 use pathbuild_diagnostic::messages::gcode as say;
 
@@ -46,7 +46,7 @@ impl Line<'_> {
         self.skip_blanks();
     }
 
-    /// `-[`, `-#` and `-SIN[` are expressions.
+    /// Whether it is an expression such as `-[`, `-#` or `-SIN[`.
     fn signed_expression(&self, byte: u8) -> bool {
         matches!(byte, b'+' | b'-')
             && self.bytes[self.at + 1..]
@@ -64,7 +64,7 @@ impl Line<'_> {
         self.compiled_value(syntax).map(Value::Expression)
     }
 
-    /// A letter that is the next word and not the beginning of a function's name.
+    /// Whether the next letter begins a word instead of the name of a function.
     fn letter_follows_without_bracket(&self) -> bool {
         let letters = self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         letters == 1
@@ -79,7 +79,7 @@ impl Line<'_> {
         self.fault(&say::UNKNOWN_EXPRESSION, Span::new(start, self.bytes.len()), |d| d)
     }
 
-    /// Reads a number and reports what is odd about it.
+    /// Reads a number and reports unusual features of its notation.
     pub(super) fn number(&mut self) -> Result<Number, Broken> {
         let start = self.at;
         if let Some((number, end)) = number::plain(self.bytes, start) {
@@ -136,7 +136,7 @@ impl Line<'_> {
         }
     }
 
-    /// A number without a letter: the tool behind M6 in some dialects, else an error.
+    /// Reads a number without a letter, which is the tool after M6 in some dialects and an error otherwise.
     pub(super) fn bare_number(&mut self) -> Result<(), Broken> {
         let start = self.at;
         let follows_tool_change = self.out.words.last().is_some_and(|word| {

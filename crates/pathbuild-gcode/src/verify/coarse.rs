@@ -1,4 +1,4 @@
-//! Whether the numbers of arcs are fine enough. (reference: LinuxCNC's best practices ask for three decimals of a millimetre)
+//! Checks whether the numbers of arcs are precise enough. (LinuxCNC's best practices recommend three decimals of a millimetre)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -8,14 +8,14 @@ use crate::dialect::Dialect;
 use crate::interpret::{Options, interpret_each};
 use crate::read::{BlockReader, Problems, Value, Word};
 
-/// Decimals that a millimetre needs.
+/// Number of decimals required for millimetres.
 const FINE: u8 = 3;
 
-/// Radii that differ by less, in mm, are one.
+/// Radii are equal if they differ by less than this, in mm.
 const EXACT: f64 = 1e-4;
 
-/// Says where a program in millimetres has its first arc, if its centres have decimals and nothing in it has three. Numbers without any
-/// are taken as meant: somebody wrote them by hand.
+/// Reports the first arc of a program in millimetres if centres have decimals but never three of them. Numbers without decimals are
+/// considered to be written by hand and exact.
 pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     let mut reader = BlockReader::new(text, dialect.rules());
     let (mut finest, mut first) = (0, None);
@@ -43,7 +43,7 @@ pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     problems.into_diagnostics().pop()
 }
 
-/// Whether the radii at the ends of some arc differ: numbers that fit each other exactly were not rounded.
+/// Whether some arc has different radii at its ends. Numbers that fit exactly were not rounded.
 fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
     let mut is_rounded = false;
     interpret_each(text, dialect, &Options::default(), &mut |step| {

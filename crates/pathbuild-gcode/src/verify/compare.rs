@@ -1,6 +1,6 @@
-//! Whether two programs move alike: the same way in the plane and in Z, at the same feeds, in the same order.
+//! Checks whether two programs move identically: the same path in the plane and in Z, at the same feeds, in the same order.
 //!
-//! They need not be cut into the same pieces: a circle may be two halves, or chords within a tolerance.
+//! They may be divided differently: a circle may consist of two halves, or of chords within a tolerance.
 
 use std::borrow::Cow;
 
@@ -10,65 +10,65 @@ use pathbuild_motion::{Axes, Course, Move, Pace, Path, Position};
 
 use super::walk::{Stretch, Walker, are_alike};
 
-/// How far apart two programs may be and still be the same, in mm and mm/min.
+/// Tolerances in mm and mm/min within which two programs are equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Of the coordinate of an end. On a line between ends, where both sides are rounded, it is twice that, and within an arc six times:
+    /// For the coordinates of ends. Along a line, both of whose ends are rounded, twice that is permitted, and within an arc six times:
     /// its centre is the sum of two rounded numbers, and the far side of a circle moves twice as far as the centre.
     pub place: f64,
-    /// Of a feed.
+    /// For feeds.
     pub feed: f64,
-    /// Between an arc and the chords that stand for it.
+    /// For the distance between an arc and the chords that replace it.
     pub chord: f64,
-    /// Which moves count.
+    /// Which moves are compared.
     pub ends: Ends,
 }
 
-/// Which rapid moves at the ends of programs count.
+/// Which rapid moves at the ends of programs are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// All of them, from where the position is first known.
+    /// All of them, once the position is known.
     All,
-    /// Those between the first and the last cut: heads and feet of a post-processor are the machine's own.
+    /// Those between the first and the last cut, because heads and feet written by a post depend on the machine.
     Cutting,
 }
 
 impl Tolerance {
-    /// Half a unit of the last digit of numbers with so many decimals, and what a double adds to that.
+    /// Half a unit of the last digit for numbers with this number of decimals, plus the error of doubles.
     pub fn of_decimals(decimals: i32) -> Self {
         let half = 0.5 * libm::pow(10.0, f64::from(-decimals)) * (1.0 + 1e-6);
         Self { place: half, feed: half, chord: 0.0, ends: Ends::All }
     }
 }
 
-/// How many times farther apart two arcs may be between their ends: see [`Tolerance::place`].
+/// Factor for the distance of two arcs between their ends: see [`Tolerance::place`].
 const ARC_SLACK: f64 = 6.0;
 
-/// The first place where two programs differ.
+/// The first difference between two programs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// In what.
+    /// The kind of difference.
     pub kind: DifferenceKind,
-    /// The move that was found, with its line; `None` when there is none left.
+    /// The move that was found, with its line; `None` if there is none left.
     pub found: Option<(u32, Move)>,
-    /// The move that was expected, with its line; `None` when there is none left.
+    /// The expected move, with its line; `None` if there is none left.
     pub expected: Option<(u32, Move)>,
 }
 
-/// In what two moves differ.
+/// What differs between two moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DifferenceKind {
-    /// They lead to different places, or one has no counterpart.
+    /// They lead to different positions, or one is missing.
     Place,
-    /// They part between their ends.
+    /// They differ between their ends.
     Shape,
-    /// One is rapid, the other is not.
+    /// One is a rapid, the other is not.
     Pace,
-    /// Their feeds.
+    /// Their feeds differ.
     Feed,
 }
 
-/// Compares the moves that were found with those that were expected; `None` if they are the same.
+/// Compares the moves found with those expected. Returns `None` if they are equal.
 pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tolerance) -> Option<Difference> {
     let (found, expected) = (counting(found, tolerance.ends), counting(expected, tolerance.ends));
     let (mut found, mut expected) = (Walker::new(&found), Walker::new(&expected));
@@ -94,7 +94,7 @@ pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tole
     (!both_are_done).then(|| difference(DifferenceKind::Place, &found, &expected))
 }
 
-/// Whether two moves that begin at one place are the same from end to end.
+/// Whether two moves that begin at the same position are equal throughout.
 pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance) -> bool {
     if let (Path::Line, Path::Line) = (found.path, expected.path) {
         return is_near(&found.to.at, &expected.to.at, tolerance.place)
@@ -117,7 +117,7 @@ pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance)
 }
 
 impl Difference {
-    /// What is said of it, in the line of the move that was found.
+    /// Converts the difference to a diagnostic in the line of the move that was found.
     pub fn diagnostic(&self) -> Diagnostic {
         let diagnostic = match (&self.found, &self.expected) {
             (Some(found), Some(expected)) => between(self.kind, found, expected),
@@ -133,7 +133,7 @@ impl Difference {
 }
 
 impl Difference {
-    /// What is said of it where the other program is a drawing's, which has no lines.
+    /// The same for a comparison with a drawing, which has no lines.
     pub(super) fn against_drawing(&self) -> Diagnostic {
         let drawn = |message: &'static Message| Diagnostic::new(message);
         let diagnostic = match (&self.found, &self.expected) {
@@ -184,19 +184,19 @@ fn place(at: &Position) -> String {
 }
 
 fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
-    // What is left of a move is no move without counterpart: its counterpart is the one that ended too early.
+    // The rest of a move does not count as a missing counterpart; rather, the corresponding move ended too early.
     let shown = |one: &Walker<'_>, other: &Walker<'_>| {
         one.current().or_else(|| other.is_within().then(|| one.last()).flatten())
     };
     Difference { kind, found: shown(found, expected), expected: shown(expected, found) }
 }
 
-/// The moves that count: those to places that are known, and of those at the ends what the tolerance says.
+/// The moves to be compared: those to known positions, with those at the ends as required by the tolerance.
 fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     let is_known = |(_, it): &(u32, Move)| it.to.known == Axes::ALL;
     let is_cut = |it: &(u32, Move)| is_known(it) && it.1.pace != Pace::Rapid;
     let (first, end) = match ends {
-        // The position becomes known bit by bit; the way there is nobody's business.
+        // The position becomes known axis by axis; how does not matter.
         Ends::All => {
             let begins = |it: &(u32, Move)| is_known(it) && it.1.from.known == Axes::ALL;
             (moves.iter().position(begins), moves.len())
@@ -214,7 +214,7 @@ fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     }
 }
 
-/// Brings both to the first place that they have in common, over rapid moves of one of them.
+/// Advances to the first common position, over rapid moves of one of the programs.
 fn begin_together(
     found: &mut Walker<'_>,
     expected: &mut Walker<'_>,
@@ -231,12 +231,13 @@ fn begin_together(
     Err(DifferenceKind::Place)
 }
 
-/// Leaves out what is too short to be anything but rounding, if it ends where the other is; whether it did.
+/// Skips a move that is too short to be anything but rounding, if it ends at the position of the other. Returns whether it did.
 fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance) -> bool {
     let Some(stretch) = one.stretch() else { return false };
     let here = other.place().unwrap_or(stretch.end());
-    // A short arc must not end, rounded, where it begins, because it would be a circle: it is written one digit longer. What is left of
-    // a longer move, however, is what one of them has too much.
+    // The rounded end of a short arc must not equal its start, because that would be a circle, so it is written one digit longer. The rest
+    // of a
+    // longer move, however, is a real excess.
     let slack = if stretch.begin > 0.0 { tolerance.place } else { 3.0 * tolerance.place };
     let is_standing = stretch.length <= 4.0 * tolerance.place && is_near(&stretch.end(), &here, slack);
     if is_standing {
@@ -245,7 +246,7 @@ fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance
     is_standing
 }
 
-/// Walks both as far as the one that ends first.
+/// Advances both to the end of the move that ends first.
 fn step(
     found: &mut Walker<'_>,
     ours: &Stretch,
@@ -272,7 +273,7 @@ fn step(
     Ok(())
 }
 
-/// Where on the longer stretch the shorter one ends.
+/// The fraction of the longer stretch at which the shorter one ends.
 pub(super) fn meet(
     shorter: &Stretch,
     longer: &Stretch,
@@ -282,7 +283,7 @@ pub(super) fn meet(
     let share = longer.nearest(&end, shorter.length).ok_or(DifferenceKind::Place)?;
     let slack = if longer.is_arc() { ARC_SLACK } else { 2.0 } * tolerance.place + tolerance.chord;
     let [x, y, z] = longer.point(share);
-    // The place on an arc is found in its plane: on a steep one a rounding there is a height.
+    // A position on an arc is determined in its plane; on a steep arc, a rounding error there means a difference in height.
     let height = slack + ARC_SLACK * tolerance.place * longer.steepness();
     if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], slack) || libm::fabs(z - end[2]) > height {
         return Err(DifferenceKind::Place);
@@ -306,7 +307,7 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
     }
 }
 
-/// Compares two stretches between their beginnings and these shares of them.
+/// Compares two stretches from their starts up to the given fractions.
 pub(super) fn check_shape(
     one: &Stretch,
     one_end: f64,
@@ -326,13 +327,13 @@ pub(super) fn check_shape(
     if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(DifferenceKind::Shape) }
 }
 
-/// The same of two whole arcs.
+/// Compares two entire arcs.
 fn is_same_course(one: &Course, other: &Course, tolerance: &Tolerance) -> bool {
     let slack = ARC_SLACK * tolerance.place;
     one.quarters().iter().zip(&other.quarters()).all(|(ours, theirs)| is_near(ours, theirs, slack))
 }
 
-/// Whether two places agree in each coordinate.
+/// Whether two positions agree in each coordinate.
 pub(crate) fn is_near(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| libm::fabs(a - b) <= slack)
 }

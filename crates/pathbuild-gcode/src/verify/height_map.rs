@@ -1,52 +1,52 @@
-//! Heights of material over the plane, known in places.
+//! A map of the heights of the material over the plane, where they are known.
 
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
 
-/// Cells along a tile's side.
+/// Number of cells along the side of a tile.
 const SIDE: i32 = 64;
 const CELLS: usize = (SIDE * SIDE) as usize;
 
-/// A row of a shape costs as much time as so many cells, and so does a shape that meets nothing.
+/// Cost of a row of a shape, in cells; a shape that meets nothing costs the same.
 const ROW: u64 = 16;
 
-/// A sparse grid of heights. A cell's height is that of the whole cell.
+/// A sparse grid of heights. Each cell has a single height.
 #[derive(Debug)]
 pub(super) struct HeightMap {
     /// Side of a cell in mm.
     resolution: f64,
-    /// By row and column of the tile. `NaN` where nothing is known.
+    /// Tiles by row and column, with `NaN` where nothing is known.
     tiles: BTreeMap<(i32, i32), Box<[f32; CELLS]>>,
-    /// How many cells may still be visited.
+    /// Number of cells that may still be visited.
     left: u64,
 }
 
-/// The key of a tile, a row, and the row's first and last column.
+/// The key of a tile, a row, and the first and last column of the row.
 type Stretch = ((i32, i32), i32, (i32, i32));
 
-/// A convex shape in the plane, asked row by row.
+/// A convex shape in the plane, described row by row.
 pub(super) trait Shape {
-    /// Lowest and highest y.
+    /// Least and greatest y.
     fn rows(&self) -> (f64, f64);
-    /// Lowest and highest x at this y, if it is there.
+    /// Least and greatest x at this y, if the shape extends there.
     fn row(&self, y: f64) -> Option<(f64, f64)>;
 }
 
 impl HeightMap {
-    /// A map of which so many cells are visited at most, cells visited several times counted as often. After that, nothing changes and
+    /// Creates a map on which at most `cells` cells may be visited, counting repeated visits. After that, nothing changes and
     /// nothing is found: see [`is_exhausted`](Self::is_exhausted).
     pub(super) fn new(resolution: f64, cells: u64) -> Self {
         Self { resolution, tiles: BTreeMap::new(), left: cells }
     }
 
-    /// Whether as many cells were visited as may be.
+    /// Whether the limit on visited cells has been reached.
     pub(super) fn is_exhausted(&self) -> bool {
         self.left == 0
     }
 
-    /// Material stands up to `surface` in the shape; where some is known already, only up to the lower of both.
+    /// Adds material up to `surface` within the shape. Where some is known already, the lower of both heights applies.
     pub(super) fn add(&mut self, shape: &impl Shape, surface: f64) {
         let surface = rounded(surface);
         let (first, last) = self.centres_within(shape.rows());
@@ -65,7 +65,7 @@ impl HeightMap {
         }
     }
 
-    /// Material in the shape is cut down to `z`.
+    /// Removes material within the shape down to `z`.
     pub(super) fn cut(&mut self, shape: &impl Shape, z: f64) {
         let z = rounded(z);
         for (key, row, (column, last)) in self.stretches(shape) {
@@ -78,7 +78,7 @@ impl HeightMap {
         }
     }
 
-    /// The highest material in the shape that is above `z`, with its place.
+    /// The highest material within the shape that is above `z`, with its position.
     pub(super) fn highest_above(&mut self, shape: &impl Shape, z: f64) -> Option<(f64, [f64; 2])> {
         let mut highest = rounded(z);
         let mut place = None;
@@ -95,9 +95,9 @@ impl HeightMap {
         place.map(|place| (f64::from(highest), place))
     }
 
-    /// The rows of the shape, cut into the tiles that there are: the key of each tile, the row, and the row's columns.
+    /// Divides the rows of a shape by existing tiles: the key of each tile, the row, and its columns.
     ///
-    /// It goes by tiles, not by the shape: however far a move goes, what it costs depends on what is known of the material.
+    /// It iterates over tiles, so that the cost of a long move depends on the known material and not on the length of the move.
     fn stretches(&mut self, shape: &impl Shape) -> Vec<Stretch> {
         let (first, last) = self.centres_within(shape.rows());
         let mut found = Vec::new();
@@ -132,26 +132,26 @@ impl HeightMap {
         self.spend(0, (last - column).min(known));
     }
 
-    /// Counts a row from one column to another; whether it may be visited.
+    /// Counts a row from one column to another. Returns whether it may be visited.
     fn spend(&mut self, column: i32, last: i32) -> bool {
         let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
         self.left = self.left.saturating_sub(ROW + cells);
         !self.is_exhausted()
     }
 
-    /// The first and last column of cells in a row whose centres are in the shape.
+    /// The first and last column of a row whose cell centres are within the shape.
     fn columns(&self, shape: &impl Shape, row: i32) -> Option<(i32, i32)> {
         shape.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
     }
 
-    /// The first and last index of cells whose centres lie between two coordinates; none if the last is less than the first.
+    /// The first and last index of cells whose centres are between two coordinates. If the last is less than the first, there are none.
     fn centres_within(&self, (low, high): (f64, f64)) -> (i32, i32) {
         let index = |coordinate: f64| coordinate / self.resolution - 0.5;
         (whole(index(low).ceil()), whole(index(high).floor()))
     }
 }
 
-/// The indices in a tile of a row's cells from one column to another, as far as they lie in the tile.
+/// Indices within a tile of the cells of a row from one column to another, as far as they are in the tile.
 fn cells(row: i32, column: i32, last: i32, tile_column: i32) -> std::ops::Range<usize> {
     let first = column.max(tile_column * SIDE);
     let last = last.min(tile_column * SIDE + SIDE - 1);
@@ -163,30 +163,30 @@ fn cell(row: i32, column: i32) -> usize {
     usize::try_from(within).unwrap_or(0)
 }
 
-/// Heights are kept in single precision: at 1000 mm that is 0.06 micrometres.
+/// Rounds to single precision, which at 1000 mm is 0.06 micrometres.
 fn rounded(height: f64) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "less exact, as said")]
     let rounded = height as f32;
     rounded
 }
 
-/// Indices stay away from the ends of their type.
+/// Keeps indices away from the limits of their type.
 const MOST_INDEX: f64 = 1e9;
 
-/// An index as an integer; far out ones are cut to what there is.
+/// Converts an index to an integer, clamping extreme values.
 fn whole(index: f64) -> i32 {
     #[expect(clippy::cast_possible_truncation, reason = "cut to the range")]
     let whole = index.clamp(-MOST_INDEX, MOST_INDEX) as i32;
     whole
 }
 
-/// All places within a distance of a segment: what a cutter covers on its way.
+/// All points within a distance of a segment, which is the area covered by a cutter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Capsule {
     from: [f64; 2],
     to: [f64; 2],
     radius: f64,
-    /// From the segment to one straight side; not a number where the segment has no length.
+    /// Offset from the segment to one of the straight sides; NaN if the segment has no length.
     beside: [f64; 2],
 }
 

@@ -1,8 +1,8 @@
-//! Whether two programs are written alike: the same moves in the same lines, whatever stands around them.
+//! Checks whether two programs have the same moves in the same lines, regardless of anything else.
 
-/// Whether the lines that move the tool are the same in both, in order: the same words, numbers within one unit of the third decimal.
+/// Whether the lines that move the tool are equal in both programs: the same words, with numbers within one unit of the third decimal.
 ///
-/// Comments (correction formulas too), blanks, leading zeros, line ends, and lines without X, Y or Z do not count.
+/// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y or Z are ignored.
 pub fn same_move_lines(found: &str, expected: &str) -> bool {
     let (mut found, mut expected) = (moves(found), moves(expected));
     loop {
@@ -17,10 +17,10 @@ pub fn same_move_lines(found: &str, expected: &str) -> bool {
 /// A letter and its number.
 type Word = (char, f64);
 
-/// One unit of the last printed digit, and what a double adds to that.
+/// One unit of the last printed digit, plus the error of doubles.
 const UNIT: f64 = 0.001 * (1.0 + 1e-6);
 
-/// The words of each line that moves the tool; `None` for one that cannot be read.
+/// The words of each line that moves the tool; `None` for a line that cannot be read.
 fn moves(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
     let is_move = |words: &Option<Vec<Word>>| {
         words.as_ref().is_none_or(|words| words.iter().any(|(letter, _)| matches!(letter, 'X' | 'Y' | 'Z')))
@@ -42,7 +42,7 @@ fn words(line: &str) -> Option<Vec<Word>> {
     Some(words)
 }
 
-/// A line without blanks, and without what stands in parentheses or behind a semicolon.
+/// A line without blanks, parentheses and text after a semicolon.
 fn without_comments(line: &str) -> String {
     let mut plain = String::with_capacity(line.len());
     let mut is_comment = false;

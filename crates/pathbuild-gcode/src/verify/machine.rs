@@ -1,4 +1,4 @@
-//! What a machine can do. (book: reference/configuration, `[machine]`)
+//! Checks the capabilities of a machine. (book: reference/configuration, `[machine]`)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -6,32 +6,32 @@ use pathbuild_motion::{Action, Move, Step, Turning};
 
 use crate::read::Problems;
 
-/// A machine's limits. What is not known is not checked.
+/// The limits of a machine. Unknown ones are not checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Machine {
-    /// How far its axes go.
+    /// Travel of its axes.
     pub travel: Option<Travel>,
-    /// The fastest that it cuts, in mm/min.
+    /// Maximum cutting feed, in mm/min.
     pub feed: Option<f64>,
-    /// The fastest that each axis cuts, in mm/min.
+    /// Maximum cutting feed of each axis, in mm/min.
     pub rates: [Option<f64>; 3],
-    /// The spindle's slowest and fastest speed, in turns a minute.
+    /// Minimum and maximum spindle speed, in 1/min.
     pub spindle: Option<(f64, f64)>,
 }
 
-/// How far the axes of a machine go, in mm.
+/// The travel of the axes, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Travel {
-    /// From the lowest to the highest coordinate of X, Y, Z in the program's coordinates: the part is clamped where they say. An axis that
-    /// goes as far as it likes ends at infinity.
+    /// Least and greatest coordinates of X, Y, Z in program coordinates, for parts clamped at a fixed position. Unlimited ends are
+    /// infinite.
     Placed([(f64, f64); 3]),
-    /// So far in X, Y, Z, wherever the part is clamped.
+    /// The size in X, Y, Z, wherever the part is clamped.
     Size([f64; 3]),
 }
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
-/// Looks for what a machine cannot do: give it every step of a program, then [`finish`](Self::finish) it.
+/// Finds what exceeds the capabilities of a machine: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct MachineRules<'m> {
     limits: Limits<'m>,
@@ -39,23 +39,23 @@ pub struct MachineRules<'m> {
 }
 
 impl<'m> MachineRules<'m> {
-    /// The rules at the beginning of a program.
+    /// Starts at the beginning of a program.
     pub fn new(machine: &'m Machine) -> Self {
         Self { limits: Limits::new(machine), problems: Problems::default() }
     }
 
-    /// The next step of the program.
+    /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.limits.step(step, &mut self.problems);
     }
 
-    /// Everything that was found, by line.
+    /// Returns all problems, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         self.problems.into_diagnostics()
     }
 }
 
-/// Reports what a machine cannot do.
+/// Reports what exceeds the capabilities of a machine.
 #[derive(Debug)]
 pub(super) struct Limits<'m> {
     machine: &'m Machine,
@@ -84,7 +84,7 @@ impl<'m> Limits<'m> {
     }
 }
 
-/// How far the program has come, and of which ends of axes it has been said that they are too far.
+/// The extent of the program so far, and which ends of axes have been reported as exceeded.
 #[derive(Debug, Default)]
 struct Reach {
     extent: [Option<(f64, f64)>; 3],
@@ -136,7 +136,7 @@ impl Reach {
     }
 }
 
-/// A feed is too high where the part of it along an axis is; it is said once until the feed changes.
+/// Reports a feed whose component along an axis is too high; once until the feed changes.
 fn check_feed(line: u32, it: &Move, machine: &Machine, last: &mut Option<f64>, problems: &mut Problems) {
     let Some(feed) = it.pace.feed().filter(|feed| Some(*feed) != *last) else { return };
     if let Some(most) = machine.feed.filter(|most| feed > *most) {

@@ -1,4 +1,4 @@
-//! Rapid moves through material that is still there. (book: program/reading)
+//! Finds rapid moves through material that has not been removed. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
@@ -10,23 +10,23 @@ use super::stock::{self, Stock};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Material that stands less than this above the tip, in mm, is rounding.
+/// Material less than this above the tip, in mm, is attributed to rounding.
 pub(super) const RESIDUE: f64 = 0.002;
 
-/// The most cells that are kept. Where the stock's resolution gives more, it is made coarser.
+/// Maximum number of cells in memory. If the resolution of the stock would require more, it is made coarser.
 const MOST_KEPT: f64 = 16e6;
 
-/// Cells across the cutter that it takes to tell anything at all.
+/// Minimum number of cells across the cutter for a useful result.
 const FEWEST_ACROSS: f64 = 4.0;
 
-/// Chords leave their arc by the side of a cell divided by this, at most.
+/// The distance of chords from their arc is at most the side of a cell divided by this.
 const CHORDS: f64 = 4.0;
 
-/// A cell within O of a cut is visited so often: when the material is laid, when half of it is cut, and for each row.
+/// Number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
 const VISITS: f64 = 3.0;
 
-/// Runs the moves over the stock and reports rapid ones that meet material. The program is gone through three times: how large a map it
-/// takes, where there is material, and what becomes of it.
+/// Applies the moves to the stock and reports rapid moves that hit material. The program is processed three times: to find the size of
+/// the map, to find where there is material, and to remove it.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     let mut extent = Extent::default();
     each_known_move(program, &mut |line, it| extent.add(line, it, stock));
@@ -66,8 +66,8 @@ fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     });
 }
 
-/// Whether these cuts, as far as they lie wholly below a rapid move, have made room for it, if all round it is material up to `surface`.
-/// `false` also where so many cells are not enough to tell.
+/// Whether the given cuts, which are entirely below a rapid move, have made room for it, assuming material up to `surface` all around. Also
+/// `false` if the number of cells does not suffice.
 pub(super) fn has_room<'c>(
     line: u32,
     it: &Move,
@@ -97,17 +97,17 @@ fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, 
     });
 }
 
-/// How large the material is that a program cuts.
+/// The extent of the material that a program cuts.
 #[derive(Default)]
 struct Extent {
-    /// At most the area in mm² within O of cutting moves, counted as often as they come.
+    /// Upper bound of the area in mm² within O of cutting moves, counting repetitions.
     area: f64,
-    /// The same of rapid moves below the highest surface, and how many there are.
+    /// The same for rapid moves below the highest surface, and their number.
     passed: f64,
     passes: f64,
-    /// How many pieces arcs and slopes that cut are cut into, at most.
+    /// Upper bound of the number of parts into which arcs and slopes that cut are divided.
     pieces: u64,
-    /// The box round all that is cut, in X and Y.
+    /// Bounding box of all cuts in X and Y.
     sides: Option<[(f64, f64); 2]>,
     /// The last line that cuts.
     line: u32,
@@ -130,7 +130,7 @@ impl Extent {
         }
     }
 
-    /// The side of a cell in mm; `None` if the program is too large for a map that tells anything.
+    /// The side of a cell in mm; `None` if the program is too large for a useful map.
     fn resolution(&self, stock: &Stock) -> Option<f64> {
         let in_box: f64 = self.sides.iter().flatten().map(|(low, high)| (high - low).max(0.0)).product();
         let kept = self.area.min(in_box);
@@ -149,7 +149,7 @@ struct Bench<'s> {
     stock: &'s Stock,
     resolution: f64,
     map: HeightMap,
-    /// The last move, where it went down by rapid below the surface and nothing is known of the material there.
+    /// The last move, if it was a rapid down below the surface and nothing is known of the material there.
     dip: Option<(u32, Move)>,
 }
 
@@ -158,7 +158,7 @@ impl<'s> Bench<'s> {
         Self { stock, resolution, map: HeightMap::new(resolution, cells), dip: None }
     }
 
-    /// There is material within O of where a move cuts.
+    /// Adds material within O of a cutting move.
     fn lay(&mut self, line: u32, it: &Move) {
         let Some(piece) = cutting_piece(line, it, self.stock) else { return };
         for part in self.parts(it) {
@@ -168,7 +168,7 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Down and up again by rapid moves where nothing else is cut: a hole drilled with them.
+    /// Handles rapid moves down and up again without any cut there, as if a hole were drilled with them.
     fn dips(&mut self, line: u32, it: &Move, problems: &mut Problems) {
         let stays = it.pace == Pace::Rapid && it.from.at[..2] == it.to.at[..2];
         let (from, to) = (it.from.z(), it.to.z());
@@ -184,7 +184,8 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// A cutting move takes away what it meets. Cells that it only touches count as cut, so that the grid is never the reason of a report.
+    /// Removes the material along a cutting move. Cells that are only touched count as removed, so that the grid never causes a false
+    /// report.
     fn mill(&mut self, line: u32, it: &Move) {
         let Some(piece) = cutting_piece(line, it, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
@@ -193,7 +194,7 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// A rapid move reports what it meets. Cells that it only touches do not count.
+    /// Reports material along a rapid move. Cells that are only touched do not count.
     fn pass(&mut self, line: u32, it: &Move, problems: &mut Problems) {
         let Some(piece) = self.stock.at(line) else { return };
         if !is_low_rapid(it, self.stock) {
@@ -220,7 +221,7 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Half the diagonal of a cell, and how far chords leave their arc.
+    /// Half the diagonal of a cell plus the distance of chords from their arc.
     fn slack(&self) -> f64 {
         self.resolution
     }
@@ -235,21 +236,21 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
     Capsule::new(plane(&part.from), plane(&part.to), radius)
 }
 
-/// What holds where a move cuts; `None` where nothing is known or the move does not cut below the surface.
+/// The stock at a cutting move; `None` if it is unknown or the move does not cut below the surface.
 pub(super) fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::StockSpan> {
     let is_known = it.from.known.and(it.to.known) == Axes::ALL;
     let piece = stock.at(line).filter(|_| is_known && matches!(it.pace, Pace::Feed(_)))?;
     (it.from.z().min(it.to.z()) < piece.surface).then_some(*piece)
 }
 
-/// Whether a rapid move can meet material: not above all of it, and not straight up.
+/// Whether a rapid move can hit material: it is not above all of it, and not straight up.
 fn is_low_rapid(it: &Move, stock: &Stock) -> bool {
     let is_above = stock.highest().is_none_or(|highest| it.from.z().min(it.to.z()) >= highest);
     let goes_up = it.from.at[..2] == it.to.at[..2] && it.to.z() >= it.from.z();
     it.pace == Pace::Rapid && !is_above && !goes_up
 }
 
-/// At most the area in mm² within O of a move's pieces. An arc whose ends have different radii goes as far as the larger one.
+/// Upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.
 fn covered_area(it: &Move, cutter: f64) -> f64 {
     let widest = it.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
     let tips = 2.0 * cutter * pieces::slopes(it);

@@ -1,8 +1,8 @@
-//! Whether a program is what it should be: the same as another, and safe to run. (book: program/reading)
+//! Checks whether a program is equal to another one, and whether it is safe to run. (book: program/reading)
 //!
-//! The words of a program are judged when it is interpreted in the dialect of the machine; the rules here judge what it does. None of
-//! them guesses: what is not known of stock and machine is not checked, because a false alarm that stops a good program is worse
-//! than a warning that is missing.
+//! The words of a program are checked when it is interpreted in the dialect of the machine; the rules in this module check its effects.
+//! They do not guess: unknown properties of stock and machine are not checked, because a false alarm that stops a good program is worse
+//! than a missing warning.
 
 mod against;
 mod coarse;
@@ -41,19 +41,20 @@ use crate::read::Problems;
 /// What a program is checked against.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Checks<'c> {
-    /// The material, where it is known: rapid moves into it, tool changes in it.
+    /// The material, if it is known, for rapid moves and tool changes in it.
     pub stock: Option<&'c Stock>,
-    /// The machine, where it is known: its travel, feeds and speeds.
+    /// The machine, if it is known, for its travel, feeds and speeds.
     pub machine: Option<&'c Machine>,
 }
 
-/// What is wrong with what a program does, by line.
+/// Reports what is wrong with the effects of a program, ordered by line.
 pub fn verify(program: &(impl Program + ?Sized), checks: &Checks<'_>) -> Vec<Diagnostic> {
     verify_with(program, checks, &mut |_| {})
 }
 
-/// The same; each step goes to somebody else too, so that the program is not gone through once more for that. Only for the map of the
-/// material it is gone through again.
+/// Like [`verify`], but also passes each step to `take`, so that the program need not be processed again for another purpose. Only the map
+/// of
+/// the material requires further passes.
 pub fn verify_with(
     program: &(impl Program + ?Sized),
     checks: &Checks<'_>,

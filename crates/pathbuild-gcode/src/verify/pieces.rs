@@ -1,14 +1,14 @@
-//! Moves cut into pieces that are straight in the plane and nearly level.
+//! Divides moves into parts that are straight in the plane and almost level.
 
 use pathbuild_motion::{Move, Path, widest_chord};
 
-/// A piece of a slope is at most so high, in mm.
+/// Maximum height of a part of a slope, in mm.
 const STEP: f64 = 0.05;
 
-/// The most pieces of one move.
+/// Maximum number of parts per move.
 const MOST: f64 = 4096.0;
 
-/// A straight piece of a move.
+/// A straight part of a move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovePiece {
     pub(super) from: [f64; 3],
@@ -25,14 +25,14 @@ impl MovePiece {
     }
 }
 
-/// How many pieces a move has because it is not level, from 1 on.
+/// Number of parts required because a move is not level, at least 1.
 pub(super) fn slopes(it: &Move) -> f64 {
     let is_plunge = it.from.at[..2] == it.to.at[..2] && matches!(it.path, Path::Line);
     let rise = libm::fabs(it.to.z() - it.from.z());
     if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
 }
 
-/// How many pieces a move is cut into, from 1 on.
+/// Number of parts into which a move is divided, at least 1.
 pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
     let slope = slopes(it);
     let count = match it.path {
@@ -46,7 +46,7 @@ pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
     count
 }
 
-/// The pieces of a move; arcs become chords that leave them by at most `sagitta` mm.
+/// The parts of a move. Arcs become chords at a distance of at most `sagitta` mm.
 pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
     it.split(count(it, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
 }

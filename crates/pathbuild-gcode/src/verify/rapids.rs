@@ -1,7 +1,8 @@
-//! Rapid moves into material, looked for in every program that is about to be written. (book: program/reading)
+//! Finds rapid moves into material in every program that is about to be written. (book: program/reading)
 //!
-//! What it costs grows with the moves: only a rapid move below a surface is looked at, and is fine where the last cuts before it have made
-//! room. Where they have not, a map of the material near them decides.
+//! The cost is proportional to the number of moves: only rapid moves below a surface are examined, and accepted if the preceding cuts have
+//! made
+//! room. Otherwise a map of the material near them decides.
 
 use std::cell::LazyCell;
 use std::collections::VecDeque;
@@ -18,23 +19,23 @@ use super::tops::Tops;
 use crate::interpret::{Program, each_move_of};
 use crate::read::Problems;
 
-/// So many cuts at most are looked at for a rapid move: the last turns of a helical circle, the end of a chain.
+/// Maximum number of cuts examined for a rapid move, such as the last turns of a helical circle or the end of a chain.
 const MOST_CUTS: usize = 64;
 
-/// Where more rapid moves than that are in doubt, all moves are looked at.
+/// With more doubtful rapid moves than this, all moves are examined.
 const MOST_SUSPECTS: usize = 16;
 
-/// So many cells at most are visited for a rapid move.
+/// Maximum number of cells visited for a rapid move.
 const MOST_CELLS: u64 = 1_000_000;
 
-/// What of a drawing's program a machine cannot do, by the number of its step.
+/// What exceeds the capabilities of a machine in the program of a drawing, by step number.
 pub fn beyond_machine(drawn: &Drawn, machine: &Machine) -> Vec<Diagnostic> {
     let mut rules = MachineRules::new(machine);
     Moves(drawn).each(&mut |step| rules.step(step));
     rules.finish()
 }
 
-/// The rapid moves of a drawing's program that go into material, by the number of its step.
+/// The rapid moves into material in the program of a drawing, by step number.
 pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
     let stock = Stock::of(drawn);
     let suspects = suspects(drawn, &stock);
@@ -47,7 +48,7 @@ pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
     problems.into_diagnostics()
 }
 
-/// The rapid moves for which the last cuts before them have not made room.
+/// The rapid moves for which the preceding cuts have not made room.
 fn suspects(drawn: &Drawn, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| Tops::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
@@ -77,7 +78,7 @@ fn suspects(drawn: &Drawn, stock: &Stock) -> Vec<Move> {
     found
 }
 
-/// What holds for a rapid move that goes below a surface near its way, with the highest of these.
+/// The stock for a rapid move that goes below a surface nearby, with the highest of these surfaces.
 fn low_at<'s>(
     line: u32,
     it: &Move,
@@ -94,14 +95,14 @@ fn low_at<'s>(
     (low < surface).then_some((piece, surface))
 }
 
-/// Whether a rapid move stays inside the circle that the cuts before it have gone all round, and no core stands in that: the end of a
+/// Whether a rapid move stays inside the circle milled by the preceding cuts, in which there is no core. This is the end of a
 /// helical circle.
 fn is_in_circle(it: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool {
     let Some(Path::Arc(last)) = recent.back().map(|(_, cut)| cut.path) else { return false };
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
     let radius = from_centre(&it.from);
     let low = it.from.z().min(it.to.z()) + material::RESIDUE;
-    // The angle of a cut on that circle, low enough to make room.
+    // The angle of a cut on that circle, if it is deep enough to make room.
     let angle = |(_, cut): &(u32, Move)| match cut.path {
         Path::Arc(arc) => {
             let is_on_circle = [cut.from, cut.to].iter().all(|end| is_same(from_centre(end), radius));
@@ -115,14 +116,14 @@ fn is_in_circle(it: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool 
     turned >= TAU - EXACT && radius <= cutter / 2.0 + EXACT && from_centre(&it.to) <= radius + EXACT
 }
 
-/// Places in mm and angles that differ by less are one.
+/// Positions in mm and angles that differ by less than this are equal.
 const EXACT: f64 = 1e-6;
 
 fn is_same(one: f64, other: f64) -> bool {
     libm::fabs(one - other) < EXACT
 }
 
-/// Whether two rapid moves after each other go below the surface and up again.
+/// Whether two consecutive rapid moves go down below the surface and up again.
 fn is_dip(line: u32, down: &Move, up: &Move, stock: &Stock) -> bool {
     let is_down = down.pace == Pace::Rapid && stays(down) && down.to.z() < down.from.z();
     let is_below = || stock.at(line).is_some_and(|piece| down.to.z() < piece.surface - material::RESIDUE);
@@ -133,7 +134,7 @@ fn stays(it: &Move) -> bool {
     it.from.at[..2] == it.to.at[..2]
 }
 
-/// A drawing's program as steps.
+/// The program of a drawing as steps.
 struct Moves<'d>(&'d Drawn);
 
 impl Program for Moves<'_> {
@@ -142,15 +143,15 @@ impl Program for Moves<'_> {
     }
 }
 
-/// The sides of a box in the plane, as lowest and highest coordinates in mm.
+/// The sides of a box in the plane, as least and greatest coordinates in mm.
 type Sides = [(f64, f64); 2];
 
-/// The moves that have to do with the material at some places; nobody knows of another one whether it meets any.
+/// The moves that affect the material at some positions; whether other moves hit material is irrelevant.
 struct Near<'d> {
     drawn: &'d Drawn,
-    /// `None`: anywhere.
+    /// `None` means everywhere.
     places: Option<Vec<Sides>>,
-    /// So far beside its way, in mm, a move has to do with places: material is known within O of a cut, and what passes has a radius.
+    /// Distance in mm within which a move affects a position: material is known within O of a cut, and a passing cutter has a radius.
     reach: f64,
 }
 
@@ -170,7 +171,7 @@ impl Program for Near<'_> {
     }
 }
 
-/// The moves of a drawing are known in all axes.
+/// The bounding box of a move. The moves of a drawing are known in all axes.
 fn sides(it: &Move) -> Sides {
     let [across, up, _] = it.extent();
     [across, up].map(|side| side.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))

@@ -1,4 +1,4 @@
-//! Rules that look at where the tool is and what is switched on.
+//! Rules about the position of the tool and about what is switched on.
 
 use std::fmt;
 
@@ -12,33 +12,33 @@ use super::stock::Stock;
 use crate::interpret::code_name;
 use crate::read::Problems;
 
-/// Heights that differ by less, in mm, are one.
+/// Heights are equal if they differ by less than this, in mm.
 const SAME_HEIGHT: f64 = 0.002;
 
-/// The rules that need no map of the material: give them every step of a program, then [`finish`](Self::finish) them. What they cost
-/// grows with the steps.
+/// The rules that need no map of the material: pass every step of a program, then call [`finish`](Self::finish). The cost is
+/// proportional to the number of steps.
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, which may hold together")]
 pub struct Rules<'c> {
     stock: Option<&'c Stock>,
     limits: Option<Limits<'c>>,
     problems: Problems,
     at: Position,
-    /// The last line that moved.
+    /// The last line with a move.
     line: u32,
-    /// The height has been known, or it has been said that it was not.
+    /// Whether the height has been known, or has been reported as unknown.
     is_raised: bool,
     spindle: Spindle,
-    /// The first cut before any word on the spindle.
+    /// The first cut before any spindle word.
     cut_before_spindle: Option<u32>,
-    /// It has been said that the spindle stands.
+    /// Whether it has been reported that the spindle does not turn.
     spindle_said: bool,
-    /// Where it was switched last.
+    /// The line that last switched the spindle.
     spindle_line: u32,
-    /// The last move probed downwards.
+    /// Whether the last move probed downwards.
     has_probed: bool,
-    /// It has cut.
+    /// Whether anything has been cut.
     has_cut: bool,
-    /// G52 or G92 hold: since when, and whether that was after the first cut.
+    /// Since when G52 or G92 is active, and whether that was after the first cut.
     shifted: Option<(u32, u16, bool)>,
 }
 
@@ -49,7 +49,7 @@ impl fmt::Debug for Rules<'_> {
 }
 
 impl<'c> Rules<'c> {
-    /// The rules at the beginning of a program.
+    /// Starts at the beginning of a program.
     pub fn new(checks: &Checks<'c>) -> Self {
         Self {
             stock: checks.stock,
@@ -68,7 +68,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// The next step of the program.
+    /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
         if let Some(limits) = &mut self.limits {
@@ -86,7 +86,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Everything that was found, by line.
+    /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
         self.end();
         self.problems.into_diagnostics()
@@ -103,7 +103,7 @@ impl<'c> Rules<'c> {
         self.at = it.to;
     }
 
-    /// The machine's own places are reached by a straight rapid move from where the tool is.
+    /// Checks moves to machine positions, which lead there by a straight rapid from the position of the tool.
     fn home(&mut self, line: u32, it: &Move) {
         let stays = it.to.known.has(Axes::XY) && it.from.at[..2] == it.to.at[..2];
         if it.named.is_none() || stays || !it.from.known.has(Axes::Z) {
@@ -130,7 +130,7 @@ impl<'c> Rules<'c> {
         self.spindle_line = line;
     }
 
-    /// The surface that the tool's tip is below.
+    /// The surface above the tip of the tool.
     fn surface_above(&self, line: u32, z: f64) -> Option<f64> {
         let surface = self.stock?.at(line)?.surface;
         (z < surface - SAME_HEIGHT).then_some(surface)
@@ -157,7 +157,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Only a program that switches the spindle is asked for it: on many machines that is done by hand.
+    /// Only programs that switch the spindle are checked for it, because on many machines the operator does that.
     fn cutting(&mut self, line: u32, it: &Move) {
         if !matches!(it.pace, Pace::Feed(_)) || it.is_nothing() {
             return;
@@ -179,7 +179,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// What was met is still under the tool.
+    /// Checks the move after a probe, when the touched material is still below the tool.
     fn after_probe(&mut self, line: u32, it: &Move) {
         let stays_in_plane = it.from.at[..2] == it.to.at[..2];
         let is_known = it.from.known.and(it.to.known).and(Axes::XY) == Axes::XY;
@@ -223,7 +223,7 @@ impl<'c> Rules<'c> {
     }
 }
 
-/// A probe goes towards the material, which is below.
+/// Checks that a probe moves towards the material, which is below.
 fn probe(line: u32, it: &Move, problems: &mut Problems) {
     let Pace::Probe { toward: true, .. } = it.pace else { return };
     let stays_in_plane = it.from.at[..2] == it.to.at[..2];

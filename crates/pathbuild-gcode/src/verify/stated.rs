@@ -1,4 +1,4 @@
-//! Whether the statistics in a native program's comments are what its moves come to. (book: program/gcode, "Statistics")
+//! Checks whether the statistics in the comments of a native program agree with its moves. (book: program/gcode, "Statistics")
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -8,13 +8,13 @@ use crate::native::stated_length;
 use crate::read::Problems;
 use crate::statistics::{Counting, Tally};
 
-/// Lengths may differ by so many mm, because they are written without decimals and heights that probes correct move a little.
+/// Permitted difference of lengths in mm, because they are written without decimals, and correction by probes changes heights slightly.
 const SLACK: f64 = 1.0;
 
-/// And by this share.
+/// Permitted relative difference of lengths.
 const SHARE: f64 = 0.01;
 
-/// Holds the statistics that a program states against its moves: give it every step, then [`finish`](Self::finish) it.
+/// Compares the statistics stated in a program with its moves: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug, Default)]
 pub struct StatedStatistics {
     counting: Counting,
@@ -24,7 +24,7 @@ pub struct StatedStatistics {
 }
 
 impl StatedStatistics {
-    /// The next step of the program.
+    /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let has_length = self.counting.counts(step);
         match &step.action {
@@ -37,7 +37,7 @@ impl StatedStatistics {
         }
     }
 
-    /// The lengths that are stated wrongly, by line.
+    /// Returns the lengths stated incorrectly, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         let Tally { rapid, milling, drilling, .. } = self.tally;
         let mut problems = Problems::default();

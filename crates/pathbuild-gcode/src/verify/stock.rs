@@ -1,55 +1,55 @@
-//! What is known of the material. (book: program/reading)
+//! What is known about the material. (book: program/reading)
 //!
-//! Its extent is in no drawing. Material is known only within O of where a program cuts, up to the surface T that holds there;
-//! elsewhere nothing is known, and nothing is said.
+//! No drawing contains its extent. Material is only known within O of the cuts of a program, up to the surface T that applies there.
+//! Nothing is known or reported elsewhere.
 
 use pathbuild_motion::{Action, Move, Pace};
 use pathbuild_toolpath::{Comment, Program, Step as Emitted};
 
 use crate::interpret::Program as Steps;
 
-/// The finest resolution that is any use, in mm: programs have three decimals.
+/// The finest useful resolution in mm; programs have three decimals.
 const FINEST: f64 = 0.01;
 
-/// Where nobody says otherwise, so many cells are visited at most.
+/// Default for the maximum number of visited cells.
 const MOST_VISITED: u64 = 1_000_000_000;
 
-/// Cells across the narrowest cutter, where nobody says otherwise.
+/// Default for the number of cells across the narrowest cutter.
 const CELLS_ACROSS: f64 = 12.0;
 
-/// The material's upper face and the cutter, from line to line of a program.
+/// The upper face of the material and the cutter, as they change over the lines of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stock {
     /// In the order of lines. Before the first, nothing is known.
     pieces: Vec<StockSpan>,
-    /// The highest surface of all: asked for each rapid move, so not looked for each time.
+    /// The highest surface, which is needed for every rapid move.
     highest: Option<f64>,
     /// Side of a cell of the height map, in mm.
     resolution: f64,
-    /// The most cells that are visited, cells that many moves visit counted as often.
+    /// Maximum number of cells that are visited, counting repeated visits.
     cells: u64,
-    /// The most pieces that arcs and slopes are cut into.
+    /// Maximum number of parts into which arcs and slopes are divided.
     most_pieces: u64,
 }
 
-/// What holds from a line on.
+/// The stock from a line on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StockSpan {
-    /// From 1; of a program that was never text, the number of the step.
+    /// Line counted from 1, or the step number for a program that does not exist as text.
     pub line: u32,
-    /// Height of the material's upper face T, in mm.
+    /// Height of the upper face T of the material, in mm.
     pub surface: f64,
     /// Diameter of the cutter O, in mm.
     pub cutter: f64,
 }
 
 impl Stock {
-    /// Material with one surface and one cutter, both in mm, for a whole program.
+    /// Stock with a single surface and cutter for an entire program, both in mm.
     pub fn uniform(surface: f64, cutter: f64) -> Self {
         Self::of_pieces(vec![StockSpan { line: 0, surface, cutter }])
     }
 
-    /// Material whose surface or cutter changes; pieces are in the order of their lines.
+    /// Stock whose surface or cutter changes; the pieces must be in the order of their lines.
     pub fn of_pieces(pieces: Vec<StockSpan>) -> Self {
         let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
         let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED, most_pieces: u64::MAX };
@@ -57,7 +57,7 @@ impl Stock {
         stock.with_resolution(resolution)
     }
 
-    /// The material of a program, for the moves that [`moves_of`](crate::interpret::moves_of) gives.
+    /// The stock of a program, for the moves returned by [`moves_of`](crate::interpret::moves_of).
     pub fn of(program: &Program) -> Self {
         let piece = |line, surface, cutter| StockSpan { line, surface, cutter };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
@@ -69,8 +69,8 @@ impl Stock {
         Self::of_pieces(std::iter::once(piece(0, program.thickness, program.tool)).chain(elements).collect())
     }
 
-    /// The material of a program in the native dialect that comes without its drawing: where a rapid move down hands over to a cutting one
-    /// is T (book: program/gcode), one for each embedded path. `None` if there is no such place.
+    /// The stock of a native program whose drawing is not available. T is the height at which a downward move changes from rapid to feed
+    /// (book: program/gcode), separately for each embedded path. `None` if there is no such move.
     pub fn of_native_text(program: &(impl Steps + ?Sized), cutter: f64) -> Option<Self> {
         let mut pieces = Vec::new();
         let mut section = Section { line: 0, surface: None };
@@ -96,61 +96,61 @@ impl Stock {
         self.resolution
     }
 
-    /// The same with another side of cells, in mm; one that is too fine to be of use is made coarser.
+    /// Sets the side of a cell in mm. If it is too fine to be useful, a coarser one is used.
     pub fn with_resolution(self, resolution: f64) -> Self {
         Self { resolution: resolution.max(FINEST), ..self }
     }
 
-    /// The same with another limit of the cells that are visited. (`[limits] verify-cells`)
+    /// Sets the maximum number of visited cells. (`[limits] verify-cells`)
     pub fn with_cells(self, most: u64) -> Self {
         Self { cells: most, ..self }
     }
 
-    /// The same with another limit of the pieces that arcs and slopes are cut into. (`[limits] verify-pieces`)
+    /// Sets the maximum number of parts into which arcs and slopes are divided. (`[limits] verify-pieces`)
     pub fn with_pieces(self, most: u64) -> Self {
         Self { most_pieces: most, ..self }
     }
 
-    /// The most pieces that arcs and slopes are cut into.
+    /// Maximum number of parts into which arcs and slopes are divided.
     pub(super) fn most_pieces(&self) -> u64 {
         self.most_pieces
     }
 
-    /// The most cells that are visited.
+    /// Maximum number of visited cells.
     pub(super) fn cells(&self) -> u64 {
         self.cells
     }
 
-    /// The diameter of the narrowest cutter, in mm.
+    /// Diameter of the narrowest cutter, in mm.
     pub(super) fn narrowest(&self) -> Option<f64> {
         self.pieces.iter().map(|piece| piece.cutter).reduce(f64::min)
     }
 
-    /// The diameter of the widest cutter, in mm; 0 where nothing is known.
+    /// Diameter of the widest cutter in mm; 0 if nothing is known.
     pub(super) fn widest(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.cutter).fold(0.0, f64::max)
     }
 
-    /// The highest surface of all.
+    /// The highest surface.
     pub(super) fn highest(&self) -> Option<f64> {
         self.highest
     }
 
-    /// What holds in a line.
+    /// The stock in a line.
     pub(super) fn at(&self, line: u32) -> Option<&StockSpan> {
         let later = self.pieces.partition_point(|piece| piece.line <= line);
         later.checked_sub(1).map(|index| &self.pieces[index])
     }
 }
 
-/// A part of a native program that belongs to one path.
+/// A part of a native program that belongs to a single path.
 struct Section {
     line: u32,
     surface: Option<f64>,
 }
 
 impl Section {
-    /// Two moves one after the other: down by rapid, then down by feed?
+    /// Checks two consecutive moves for a descent by rapid followed by a descent at feed.
     fn hand_over(&mut self, first: &Move, second: &Move) {
         let is_vertical = |it: &Move| it.from.at[..2] == it.to.at[..2] && it.to.z() < it.from.z();
         if is_vertical(first)

@@ -1,6 +1,6 @@
-//! How high the material may stand near a place, on a coarse grid.
+//! An upper bound of the height of the material near a position, on a coarse grid.
 //!
-//! It is never lower than what the map of the material has there, and takes no time to speak of: most rapid moves pass above it.
+//! It is never lower than the detailed map of the material, and very fast, because most rapid moves pass above it.
 
 #[cfg(test)]
 mod tests;
@@ -12,22 +12,22 @@ use super::material::cutting_piece;
 use super::stock::Stock;
 use crate::interpret::each_move_of;
 
-/// Cells along a side.
+/// Number of cells along a side.
 const SIDE: usize = 64;
 
 /// A grid over everything that is cut.
 #[derive(Debug)]
 pub(super) struct Tops {
-    /// The corner with the lowest X and Y, in mm.
+    /// The corner with the least X and Y, in mm.
     corner: [f64; 2],
     /// The sides of a cell, in mm.
     cell: [f64; 2],
-    /// By row, then column: the highest surface there, in mm; `-inf` where there is no material.
+    /// By row, then column: the highest surface in mm; `-inf` where there is no material.
     heights: Vec<f64>,
 }
 
 impl Tops {
-    /// Of a drawing's program.
+    /// Creates the grid for the program of a drawing.
     pub(super) fn of(drawn: &Drawn, stock: &Stock) -> Self {
         let cuts: Vec<Cut> = cuts(drawn, stock).collect();
         let mut sides = [(f64::INFINITY, f64::NEG_INFINITY); 2];
@@ -54,7 +54,7 @@ impl Tops {
         for row in rows {
             #[expect(clippy::cast_precision_loss, reason = "a small number")]
             let low = self.corner[1] + row as f64 * self.cell[1];
-            // The shares of the move between which its Y is within the radius of this row.
+            // The fractions of the move between which its Y is within the radius of this row.
             let share = |y: f64| if to_y == from_y { f64::NAN } else { (y - from_y) / (to_y - from_y) };
             let (one, other) = (share(low - radius), share(low + self.cell[1] + radius));
             let x = |share: f64| from_x + share * (to_x - from_x);
@@ -75,7 +75,7 @@ impl Tops {
         }
     }
 
-    /// The cells that lie between two coordinates, ends included; those outside the grid are left out.
+    /// The cells between two coordinates, inclusive; those outside the grid are omitted.
     fn indices(&self, axis: usize, (low, high): (f64, f64)) -> std::ops::Range<usize> {
         let index = |coordinate: f64| ((coordinate - self.corner[axis]) / self.cell[axis]).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "negative ones become 0")]
@@ -84,7 +84,7 @@ impl Tops {
     }
 }
 
-/// The box in the plane, ends included, of the material that a cut says there is, with its surface.
+/// The bounding box in the plane of the material implied by a cut, with its surface.
 type Cut = ([(f64, f64); 2], f64);
 
 fn cuts(drawn: &Drawn, stock: &Stock) -> impl Iterator<Item = Cut> {

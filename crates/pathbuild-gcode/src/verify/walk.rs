@@ -1,24 +1,24 @@
-//! Walking along a list of moves, piece by piece.
+//! Walks along a list of moves, part by part.
 
 use pathbuild_motion::{Axes, Course, Move, Pace, Path};
 
 use super::compare::is_near;
 
-/// Somewhere on a list of moves.
+/// A position in a list of moves.
 pub(super) struct Walker<'m> {
     moves: &'m [(u32, Move)],
     index: usize,
-    /// The share of the current move that is behind us.
+    /// The fraction of the current move that has been done.
     done: f64,
 }
 
-/// What is left of a move.
+/// The rest of a move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) it: Move,
-    /// The share of the move where it begins.
+    /// The fraction of the move at which it begins.
     pub(super) begin: f64,
-    /// What is left of its length in mm; of a move from an unknown place 0.
+    /// Its length in mm; 0 for a move from an unknown position.
     pub(super) length: f64,
 }
 
@@ -32,23 +32,23 @@ impl<'m> Walker<'m> {
         self.moves.get(self.index).copied()
     }
 
-    /// The last move of all with its line.
+    /// The last move of the list with its line.
     pub(super) fn last(&self) -> Option<(u32, Move)> {
         self.moves.last().copied()
     }
 
-    /// Whether a part of the current move is behind us.
+    /// Whether a part of the current move has been done.
     pub(super) fn is_within(&self) -> bool {
         self.done > 0.0
     }
 
-    /// What is left of the current move.
+    /// The rest of the current move.
     pub(super) fn stretch(&self) -> Option<Stretch> {
         let (_, it) = self.current()?;
         Some(Stretch { it, begin: self.done, length: it.length() * (1.0 - self.done) })
     }
 
-    /// Where the tool is, if there are moves at all.
+    /// The current position, unless there are no moves.
     pub(super) fn place(&self) -> Option<[f64; 3]> {
         match self.stretch() {
             Some(stretch) if stretch.it.from.known == Axes::ALL => Some(stretch.point(stretch.begin)),
@@ -62,12 +62,12 @@ impl<'m> Walker<'m> {
         self.done = 0.0;
     }
 
-    /// Goes on to this share of the current move.
+    /// Advances to this fraction of the current move.
     pub(super) fn go_to(&mut self, share: f64) {
         self.done = share;
     }
 
-    /// Goes over rapid moves to the first place that will do; if there is none, stays.
+    /// Advances over rapid moves to the first position that satisfies the condition. If there is none, it stays. Returns whether it moved.
     pub(super) fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
         let rapids = self.moves[self.index..].iter().take_while(|(_, it)| it.pace == Pace::Rapid);
         let found = rapids.clone().position(|(_, it)| will_do(&it.to.at));
@@ -94,14 +94,14 @@ impl Stretch {
         self.it.point(share)
     }
 
-    /// Whether both end at one place, not one a whole turn later than the other.
+    /// Whether both end at the same position, and not one of them a full turn later.
     pub(super) fn end_together(&self, other: &Self, slack: f64) -> bool {
         let from_unknown = self.it.from.known != Axes::ALL || other.it.from.known != Axes::ALL;
         is_near(&self.end(), &other.end(), slack)
             && (from_unknown || are_alike(self.length, other.length, slack))
     }
 
-    /// The share of the move at which it comes nearest to a place about `along` mm ahead; `None` if it has no length.
+    /// The fraction of the move at which it is nearest to a position about `along` mm ahead; `None` if the move has no length.
     pub(super) fn nearest(&self, place: &[f64; 3], along: f64) -> Option<f64> {
         let whole = self.it.length();
         if whole <= 0.0 {
@@ -122,7 +122,7 @@ impl Stretch {
         Some(share.clamp(self.begin, 1.0))
     }
 
-    /// How much an arc rises or falls in each mm of its plane; 0 of a line.
+    /// Rise or fall of an arc per mm in its plane; 0 for a line.
     pub(super) fn steepness(&self) -> f64 {
         let rise = libm::fabs(self.it.to.z() - self.it.from.z());
         let way = libm::sqrt((self.it.length() * self.it.length() - rise * rise).max(0.0));
@@ -130,7 +130,7 @@ impl Stretch {
     }
 }
 
-/// Whether two lengths are of one way, which may be rounded, and not of that and a whole turn more.
+/// Whether two lengths differ only by rounding, and not by a full turn.
 pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
     one.max(other) <= 1.25 * one.min(other) + 10.0 * slack
 }

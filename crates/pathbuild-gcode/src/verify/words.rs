@@ -1,7 +1,7 @@
-//! Known words: a closed list for each program. (book: program/reading, "Known words")
+//! The words known for a program, which are a closed list. (book: program/reading, "Known words")
 //!
-//! A word is known if the post for the program writes it, or if the interpreter follows what it does. Any other word may change
-//! where, how deep or how fast the tool cuts, and nothing here would tell.
+//! A word is known if the post of the program writes it, or if the interpreter follows its effect. Any other word may change where,
+//! how deep or how fast the tool cuts without being noticed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,35 +13,35 @@ use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::Problems;
 
-/// What the native program writes beside moves: see [`crate::native`].
+/// What the native program writes besides moves: see [`crate::native`].
 const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nF40 G38.3 Z0\nG4 P4\nM30\n";
 
 /// The words that a post writes.
 #[derive(Clone, Debug, Default)]
 pub struct PostWords {
-    /// G and M words that are no motions.
+    /// G and M words other than motions.
     codes: BTreeSet<(char, u16)>,
-    /// The words that it writes before the first move, by their groups.
+    /// The words that it writes before the first move, by group.
     lead: BTreeMap<Group, u16>,
-    /// It writes T.
+    /// Whether it writes T.
     chooses_tools: bool,
-    /// It goes to places of the machine before the first cut, by these words.
+    /// The words by which it goes to machine positions before the first cut.
     first_places: BTreeSet<u16>,
-    /// The fastest feed of its rapid moves in mm/min, where F says how fast they are.
+    /// The greatest feed of its rapid moves in mm/min, if it depends on F.
     rapid_feed: Option<f64>,
-    /// It lets the control round corners as far as it likes.
+    /// Whether it lets the control round corners without limit.
     rounds_freely: bool,
-    /// Whether its first move in the plane begins at a height that the program has stated; `None` before that move.
+    /// Whether its first move in the plane begins at a height specified by the program; `None` before that move.
     raises_first: Option<bool>,
 }
 
-/// How far a program has come.
+/// How far a program has progressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Progress {
-    /// Nothing has moved.
+    /// Nothing has moved yet.
     #[default]
     Head,
-    /// Nothing was cut.
+    /// Nothing has been cut yet.
     Approach,
     Cutting,
 }
@@ -57,7 +57,7 @@ impl Progress {
 }
 
 impl PostWords {
-    /// The words of the native program, and what is known of a dialect that no post writes.
+    /// The words of the native program, for dialects that no post writes.
     pub fn native(dialect: Dialect) -> Self {
         let words = Self::of_programs([NATIVE], Dialect::Native);
         if dialect == Dialect::Native {
@@ -67,7 +67,7 @@ impl PostWords {
         }
     }
 
-    /// The words of programs that a post wrote. The head is that of the first.
+    /// The words of programs written by a post. The head is taken from the first one.
     pub fn of_programs<T: AsRef<[u8]>>(programs: impl IntoIterator<Item = T>, dialect: Dialect) -> Self {
         let mut words = Self::default();
         for (index, program) in programs.into_iter().enumerate() {
@@ -105,7 +105,7 @@ impl PostWords {
         }
     }
 
-    /// Whether the post writes a word, whose code is ten times its number.
+    /// Whether the post writes a word, with its code multiplied by ten.
     pub fn has(&self, letter: char, code: u16) -> bool {
         self.codes.contains(&(letter, code))
     }
@@ -126,18 +126,18 @@ impl PostWords {
         &self.lead
     }
 
-    /// Whether the post chooses one of the coordinate systems.
+    /// Whether the post selects a coordinate system.
     fn has_systems(&self) -> bool {
         (540..600).any(|code| self.has('G', code))
     }
 }
 
-/// Whether a move goes to a place in the plane.
+/// Whether a move goes to a known position in the plane.
 fn moves_in_plane(it: &Move) -> bool {
     !it.to.known.and(Axes::XY).is_empty()
 }
 
-/// Groups of which a control keeps what the program before has set. Motions, tool lengths and corners are judged where they count.
+/// Whether a control keeps the state of a group from the previous program. Motions, tool lengths and corners are checked elsewhere.
 fn is_kept(group: Group) -> bool {
     !matches!(
         group,
@@ -150,23 +150,23 @@ fn is_kept(group: Group) -> bool {
     )
 }
 
-/// Looks for words that are not known: give it every step of a program, then [`finish`](Self::finish) it.
+/// Finds words that are not known: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct WordRules<'w> {
     words: &'w PostWords,
     dialect: Dialect,
-    /// The program is to be what a drawing says.
+    /// Whether the program must agree with a drawing.
     is_strict: bool,
     progress: Progress,
     has_moved_in_plane: bool,
-    /// Words before the first cut that go where the post goes only behind it: harmless in a program that cuts nothing.
+    /// Words before the first cut that go where the post only goes after it. They are harmless in programs that do not cut.
     early_places: Vec<(u32, StatedWord)>,
     found: BTreeSet<(char, u16)>,
     problems: Problems,
 }
 
 impl<'w> WordRules<'w> {
-    /// Doubts about the words of a program of this dialect.
+    /// Starts a check for a program in this dialect.
     pub fn new(words: &'w PostWords, dialect: Dialect) -> Self {
         Self {
             words,
@@ -180,12 +180,12 @@ impl<'w> WordRules<'w> {
         }
     }
 
-    /// The same, where every unknown word is an error.
+    /// Like [`new`](Self::new), but every unknown word is an error.
     pub(super) fn strict(words: &'w PostWords, dialect: Dialect) -> Self {
         Self { is_strict: true, ..Self::new(words, dialect) }
     }
 
-    /// The next step of the program.
+    /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.progress.step(step);
         if self.progress == Progress::Cutting {
@@ -219,8 +219,9 @@ impl<'w> WordRules<'w> {
         });
     }
 
-    /// A first move in the plane that also goes to a height leads there aslant from a height that nobody knows. Where the post raises the
-    /// cutter before, the line that does so is missing. (A move at an unknown height is judged in [`super::rules`].)
+    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height; if the post
+    /// raises the
+    /// cutter before, the line for that is missing. (Moves at unknown height are checked in [`super::rules`].)
     fn first_in_plane(&mut self, line: u32, it: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = it.to.known.has(Axes::Z) && !it.from.known.has(Axes::Z);
@@ -237,7 +238,7 @@ impl<'w> WordRules<'w> {
             && !self.words.first_places.contains(&word.code)
     }
 
-    /// Everything that was found, by line.
+    /// Returns all problems, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         self.problems.into_diagnostics()
     }

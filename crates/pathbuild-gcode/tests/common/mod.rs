@@ -1,4 +1,4 @@
-//! Programs in, short texts out, for tests that compare them.
+//! Converts programs to short texts, for tests that compare them.
 
 #![allow(dead_code, clippy::format_collect, reason = "each test file uses its part, and none is in a hurry")]
 
@@ -8,7 +8,7 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::read::{Block, BlockReader, Value};
 use pathbuild_motion::{Action, Move, Pace, Path, Position, Step};
 
-/// What a program does, a text a step.
+/// The effects of a program, with one text per step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
     trace_with(dialect, program, &Options::default())
 }
@@ -20,13 +20,13 @@ pub(crate) fn trace_with(dialect: Dialect, program: &str, options: &Options) -> 
     steps.iter().filter(is_shown).map(step_text).collect()
 }
 
-/// What a program changes beside position, spindle, tool and system.
+/// The changes made by a program besides position, spindle, tool and system.
 pub(crate) fn changes(dialect: Dialect, program: &str) -> Vec<String> {
     let steps = interpret(program.as_bytes(), dialect, &Options::default()).steps;
     steps.iter().filter(|step| matches!(step.action, Action::Change(_))).map(step_text).collect()
 }
 
-/// What is wrong with a program: line and name of the code.
+/// The problems of a program, as line and name of the code.
 pub(crate) fn faults(dialect: Dialect, program: &str) -> Vec<String> {
     faults_with(dialect, program, &Options::default())
 }
@@ -41,7 +41,7 @@ pub(crate) fn fault_text(diagnostic: &Diagnostic) -> String {
     format!("{} {}", diagnostic.place.line.unwrap_or(0), diagnostic.code().name())
 }
 
-/// Line, message and marked text of diagnostics, as a person sees them.
+/// Line, message and marked text of diagnostics, as shown to the user.
 pub(crate) fn spelled_out(diagnostics: &[Diagnostic]) -> String {
     diagnostics
         .iter()
@@ -53,7 +53,7 @@ pub(crate) fn spelled_out(diagnostics: &[Diagnostic]) -> String {
         .collect()
 }
 
-/// The words of each block: `1: G1 X2.5`; expressions are shown as `[ ]`.
+/// The words of each block: `1: G1 X2.5`. Expressions are shown as `[ ]`.
 pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
     let mut reader = BlockReader::new(program.as_bytes(), dialect.rules());
     let mut blocks = Vec::new();
@@ -63,7 +63,7 @@ pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
     blocks
 }
 
-/// What the reader alone finds wrong.
+/// The problems reported by the reader alone.
 pub(crate) fn reading_faults(dialect: Dialect, program: &[u8]) -> Vec<String> {
     let mut reader = BlockReader::new(program, dialect.rules());
     while reader.next_block().is_some() {}

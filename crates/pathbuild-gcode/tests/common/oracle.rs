@@ -1,6 +1,7 @@
-//! LinuxCNC's own interpreter, `rs274`, as an oracle: what it makes of a program, and what ours does.
+//! Uses LinuxCNC's own interpreter, `rs274`, as an oracle to compare with ours.
 //!
-//! `tests/tools/fetch-rs274.sh DIR` unpacks it; `PATHBUILD_RS274=DIR` says where. Without it these tests skip with a message, unless
+//! `tests/tools/fetch-rs274.sh DIR` unpacks it, and `PATHBUILD_RS274=DIR` tells where it is. Without it these tests are skipped with a
+//! message, unless
 //! `PATHBUILD_REQUIRE` contains `rs274`.
 
 use std::path::{Path, PathBuf};
@@ -11,25 +12,25 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Action, Pace};
 
-/// Both print, or compute, in doubles; rs274 shows four decimals.
+/// Both calculate with doubles; rs274 prints four decimals.
 const PRINTED: f64 = 0.000_051;
 
-/// One canonical call that moves or waits.
+/// A canonical call that moves or dwells.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Call {
     Rapid([f64; 3]),
     Feed([f64; 3], f64),
-    /// Ends, centre in the plane, signed number of turns begun, feed.
+    /// End, centre in the plane, signed number of turns begun, feed.
     Arc([f64; 3], [f64; 2], i64, f64),
     Probe([f64; 3], f64),
     Dwell(f64),
     Tool(i64),
 }
 
-/// What rs274 makes of a program.
+/// The interpretation of a program by rs274.
 pub(crate) struct Oracle {
     pub(crate) calls: Vec<Call>,
-    /// What it printed when it refused.
+    /// Its output if it rejected the program.
     pub(crate) refusal: Option<String>,
 }
 
@@ -52,7 +53,7 @@ pub(crate) fn ask(program: &Path, text: &str) -> Oracle {
     Oracle { calls: calls_of(&String::from_utf8_lossy(&output.stdout)), refusal }
 }
 
-/// The canonical calls that rs274 prints for a program, which may be any bytes, with a table of tools; `None` where it refuses the program.
+/// The canonical calls printed by rs274 for a program, which may be any bytes, with a tool table; `None` if it rejects the program.
 #[allow(dead_code, reason = "not every test that has this oracle asks for its own words")]
 pub(crate) fn output(program: &Path, tools: &Path, text: &[u8]) -> Option<String> {
     let file = tempfile::Builder::new().suffix(".ngc").tempfile().expect("a temporary file");
@@ -61,7 +62,7 @@ pub(crate) fn output(program: &Path, tools: &Path, text: &[u8]) -> Option<String
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// Reads rs274's canonical calls; lengths become millimetres in the coordinates of the first move.
+/// Parses the canonical calls of rs274. Lengths are converted to millimetres in the coordinates of the first move.
 fn calls_of(output: &str) -> Vec<Call> {
     let mut unit = 1.0;
     let (mut system, mut origin) = ([0.0; 3], [0.0; 3]);
@@ -69,7 +70,7 @@ fn calls_of(output: &str) -> Vec<Call> {
     let (mut feed, mut plane) = (0.0, [0, 1, 2]);
     let mut calls = Vec::new();
     for line in output.lines() {
-        // `   12 N..... STRAIGHT_FEED(1.0000, ...)`, with the block number where there is one.
+        // `   12 N..... STRAIGHT_FEED(1.0000, ...)`, with the block number if there is one.
         let Some((front, arguments)) = line.split_once('(') else { continue };
         let name = front.rsplit(' ').next().unwrap_or_default();
         let words: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
@@ -135,7 +136,7 @@ pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
     without_standing(calls.collect())
 }
 
-/// Leaves out straight moves to where the tool is: some of them rs274 prints, and some it does not.
+/// Omits straight moves to the current position, which rs274 prints only in some cases.
 fn without_standing(calls: Vec<Call>) -> Vec<Call> {
     let mut here = [0.0; 3];
     calls
@@ -169,7 +170,7 @@ fn agree(theirs: &Call, ours: &Call) -> bool {
     }
 }
 
-/// Where the two part on a program; `None` if they agree, and it moves at all.
+/// The first difference between both for a program. `None` if they agree and the program moves at all.
 pub(crate) fn difference(program: &Path, text: &str, dialect: Dialect) -> Option<String> {
     let oracle = ask(program, text);
     if let Some(refusal) = oracle.refusal {

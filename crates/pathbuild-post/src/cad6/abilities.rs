@@ -1,40 +1,40 @@
-//! What the control texts of a definition can say.
+//! What the control texts of a definition are able to express.
 
 use super::control_text::ControlTextKind;
 use super::definition::Definition;
 
-/// Which texts there are, and what they hold.
+/// Which control texts a definition has, and what they contain.
 #[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is about a text of its own")]
 pub(super) struct Abilities {
-    /// Every rapid can be written as it is.
+    /// Every rapid can be written exactly as it is.
     pub(super) rapid: bool,
-    /// Holes have a text of their own.
+    /// There is a text for holes.
     pub(super) hole: bool,
-    /// It has the depth of a peck.
+    /// The text for holes uses the peck depth.
     pub(super) peck: bool,
-    /// It has the time to wait at the bottom.
+    /// The text for holes uses the dwell time at the bottom.
     pub(super) dwell: bool,
     pub(super) arc: bool,
-    /// The text of arcs has centres relative to where they begin.
+    /// The text for arcs uses centres relative to the start of the arc.
     pub(super) has_relative_centres: bool,
-    /// The text of arcs has centres.
+    /// The text for arcs uses absolute centres.
     pub(super) has_absolute_centres: bool,
     /// Decimals of rounded numbers.
     pub(super) decimals: usize,
-    /// Lines may go up and down.
+    /// Lines may change Z.
     pub(super) line_z: bool,
-    /// Arcs may go up and down.
+    /// Arcs may change Z.
     pub(super) arc_z: bool,
     pub(super) lift_between_passes: bool,
-    /// The widest arc, radians.
+    /// Widest arc, in radians.
     pub(super) arc_sweep: f64,
-    /// mm.
+    /// In mm.
     pub(super) arc_tolerance: f64,
 }
 
 impl Abilities {
-    /// Looks through a definition.
+    /// Determines the abilities of a definition.
     pub(super) fn of(definition: &Definition) -> Self {
         let has = |kind| definition.text(kind).is_some();
         let hole = if has(ControlTextKind::Cycle) { ControlTextKind::Cycle } else { ControlTextKind::Point };

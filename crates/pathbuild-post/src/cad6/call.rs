@@ -1,4 +1,4 @@
-//! A call of a control text, before the variables are set.
+//! A call of a control text before its variables are set.
 
 use pathbuild_motion::Move;
 
@@ -7,40 +7,40 @@ use crate::step::Hole;
 /// X, Y, Z in mm.
 pub(super) type Point = [f64; 3];
 
-/// One call, and the operation that it belongs to.
+/// A call and the operation it belongs to.
 #[derive(Debug)]
 pub(super) struct Call<'a> {
     pub(super) operation: usize,
     pub(super) what: What<'a>,
 }
 
-/// What is called for.
+/// What the called text has to write.
 #[derive(Debug)]
 pub(super) enum What<'a> {
-    /// To the start of a contour at safety height, down to working height by rapid, to depth by feed.
+    /// Moves to the start of a contour at safety height, down to working height by rapid, and down to depth at feed.
     Start { at: Point, clearance: f64, working: f64, feed: Option<f64> },
     /// A straight element.
     Line { to: Point, feed: Option<f64>, place: ContourPosition },
     /// A circular element.
     Arc { it: Move, place: ContourPosition },
-    /// Up from the end of a contour.
+    /// Retracts from the end of a contour.
     End { clearance: f64 },
     /// A hole.
     Hole { hole: Hole, clearance: f64 },
-    /// A rapid move of its own.
+    /// A rapid move that does not lead to a contour.
     Rapid { to: Point },
-    /// Standing still, in seconds.
+    /// A dwell, in seconds.
     Dwell(f64),
-    /// Waiting for a person.
+    /// A stop that waits for the operator.
     Stop,
-    /// A remark.
+    /// A comment.
     Comment(&'a str),
 }
 
-/// Where in its contour an element is.
+/// The position of an element within its contour.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContourPosition {
-    /// The first one, or the first one with another feed.
+    /// Whether it is the first element, or the first one after a change of feed.
     pub(super) is_first: bool,
     pub(super) is_last: bool,
 }

@@ -1,7 +1,8 @@
-//! The order in which a program calls control texts. (section 1.6)
+//! Determines the order in which a program calls its control texts. (section 1.6)
 //!
-//! CAD6 knows contours: over a point at safety height, down to working height, plunge, elements, up to safety height. A job's rapids are
-//! taken together to such ways; what cannot be told that way is an error, never left out.
+//! CAD6 thinks in contours: move above a point at safety height, descend to working height, plunge, cut the elements, and retract to
+//! safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error; they are
+//! never dropped.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Course, Move, Pace, Plane, Position};
@@ -18,7 +19,7 @@ use crate::step::{Hole, HoleKind, Step};
 
 type Built = Result<(), Box<Diagnostic>>;
 
-/// The calls of a job, without those at its start and end.
+/// Returns the calls for a job, except those at its start and end.
 pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Call<'a>>, Box<Diagnostic>> {
     let mut builder = Builder::new(job, definition);
     builder.begin();
@@ -38,11 +39,11 @@ struct Builder<'a> {
     at: Point,
     /// Rapids since the last cut.
     ways: Vec<Point>,
-    /// Remarks and waits among them.
+    /// Comments and dwells among those rapids.
     asides: Vec<What<'a>>,
     is_open: bool,
     is_first: bool,
-    /// The call of the last element that a contour may still end with.
+    /// The call of the last element, as long as a contour may still end with it.
     last_element: Option<usize>,
     feed: Option<f64>,
 }
@@ -70,7 +71,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Where every move is written as it is, so is the one to the start.
+    /// Definitions that write every rapid as it is also write the one to the start.
     fn begin(&mut self) {
         if self.abilities.rapid {
             self.call(What::Rapid { to: self.at });
@@ -105,7 +106,7 @@ impl<'a> Builder<'a> {
         self.present().steps.iter().try_for_each(|step| self.step(step))
     }
 
-    /// The way to where an operation begins, if the tool is not there.
+    /// Moves to the start of an operation, unless the tool is already there.
     fn enter(&mut self) {
         let [x, y, z] = self.end();
         let clearance = self.present().clearance;
@@ -120,7 +121,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Where the tool is after the rapids that were put off.
+    /// Position of the tool after the pending rapids.
     fn end(&self) -> Point {
         self.ways.last().copied().unwrap_or(self.at)
     }
@@ -166,7 +167,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Neither moves the tool nor ends a contour.
+    /// Adds something that neither moves the tool nor ends a contour.
     fn aside(&mut self, what: What<'a>) {
         if self.ways.is_empty() {
             self.call(what);
@@ -211,7 +212,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Straight, cutting.
+    /// Adds a straight cut.
     fn feed(&mut self, to: Point, feed: Option<f64>) -> Built {
         let way_end = self.end();
         let is_plunge = same_plane(way_end, to) && to[2] < way_end[2];
@@ -279,8 +280,8 @@ impl<'a> Builder<'a> {
         it.split(count).try_for_each(|piece| self.line(piece.to.at, piece.pace.stated_feed()))
     }
 
-    /// The arc with a centre that still is one when it is rounded; `None` where it would be written as a full circle because it ends where
-    /// it begins.
+    /// Adjusts the arc so that it is still an arc when its numbers are rounded. Returns `None` if it would be read as a full circle because
+    /// its rounded ends are equal.
     fn as_written(&self, it: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
         let unit = self.units.millimetres();
         let digits = libm::pow(10.0, self.abilities.decimals as f64);
@@ -295,8 +296,9 @@ impl<'a> Builder<'a> {
         Ok(Some(*it))
     }
 
-    /// Ends the rapids that were put off: within the material they are elements, else they lead to a new contour, which may begin with
-    /// a plunge.
+    /// Completes the pending rapids. Within the material they become elements of the contour, otherwise they lead to a new contour, which
+    /// may
+    /// begin with a plunge.
     fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> Built {
         if self.abilities.rapid {
             return Ok(());
@@ -314,13 +316,13 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Makes elements of the first rapids that were put off.
+    /// Turns the first pending rapids into elements of the contour.
     fn walk(&mut self, count: usize) -> Built {
         let ways: Vec<Point> = self.ways.drain(..count).collect();
         ways.into_iter().try_for_each(|way| self.line(way, self.feed))
     }
 
-    /// How many of the rapids that were put off lead to places within the material, beside the end of the contour.
+    /// Number of pending rapids that lead sideways within the material, away from the end of the contour.
     fn sideways(&self) -> usize {
         let surface = self.present().surface;
         let (mut before, mut count) = (self.at, 0);
@@ -333,14 +335,15 @@ impl<'a> Builder<'a> {
         count
     }
 
-    /// The highest point of the rapids that were put off.
+    /// Highest point of the pending rapids.
     fn highest(&self) -> f64 {
         let start = if self.is_open { f64::NEG_INFINITY } else { self.at[2] };
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)
     }
 
-    /// The height at which the tool goes where the rapids lead that were put off: their highest point, if they go straight there, else above
-    /// everything.
+    /// Height at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight line,
+    /// otherwise
+    /// the clearance above everything.
     fn height(&self) -> f64 {
         let (from, to) = (self.at, self.end());
         let is_straight = |way: &Point| {
@@ -361,7 +364,7 @@ impl<'a> Builder<'a> {
         self.is_first = true;
     }
 
-    /// Ends the contour that is open, above where the rapids lead that were put off.
+    /// Ends the open contour at a height from which the end of the pending rapids can be reached.
     fn close(&mut self) -> Built {
         let end = self.end();
         if self.is_open && !self.abilities.rapid {
@@ -378,7 +381,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// The text of a hole ends at its safety height, from where the way goes on: it is as high as that way.
+    /// Raises the safety height of the last hole to that of the following moves: the text of a hole ends at its safety height.
     fn raise_hole(&mut self) {
         let height = self.height();
         let is_aside = |what: &What<'_>| matches!(what, What::Comment(_) | What::Dwell(_) | What::Stop);
@@ -400,7 +403,7 @@ impl<'a> Builder<'a> {
         self.is_open = false;
     }
 
-    /// Marks the last element.
+    /// Marks the last element of the contour.
     fn finish_contour(&mut self) {
         self.is_first = true;
         let last = self.last_element.map(|index| &mut self.calls[index].what);

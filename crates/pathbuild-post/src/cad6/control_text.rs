@@ -1,4 +1,4 @@
-//! The control texts of a definition: which there are, and when each is called. (section 1.6)
+//! The control texts a definition can have, and when each is called. (section 1.6)
 
 use pathbuild_diagnostic::Text;
 
@@ -11,17 +11,17 @@ macro_rules! kinds {
         }
 
         impl ControlTextKind {
-            /// Every kind.
+            /// All kinds.
             pub(super) const ALL: &[Self] = &[$(Self::$variant,)*];
 
-            /// The key in a definition.
+            /// Key of the text in a definition.
             pub(super) fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name,)*
                 }
             }
 
-            /// When it is called, for the book.
+            /// When the text is called, for the book.
             pub(super) fn when(self) -> Text {
                 match self {
                     $(Self::$variant => Text { en: $en, de: $de },)*
@@ -53,17 +53,17 @@ kinds! {
     Comment "comment" "pathbuild's own: for each remark, `~CommentText~`" "Zusatz von pathbuild: bei jeder Bemerkung, `~CommentText~`";
 }
 
-/// A control text as its file has it.
+/// A control text as it is in its file.
 #[derive(Clone, Debug)]
 pub(super) struct ControlText {
-    /// Without the line end before the closing quotes.
+    /// Without the line break before the closing quotes.
     pub(super) text: String,
-    /// Where its first character stands in the file, from 1; nothing in built-in texts.
+    /// Line and column of its first character in the file, counted from 1; `None` for built-in texts.
     pub(super) begins: Option<(u32, u32)>,
 }
 
 impl ControlText {
-    /// Line and column, from 1, of a byte within the text.
+    /// Line and column, counted from 1, of a byte within the text.
     pub(super) fn place(&self, byte: usize) -> (u32, u32) {
         let before = &self.text[..self.text.floor_char_boundary(byte)];
         let line = before.matches('\n').count();
@@ -71,7 +71,7 @@ impl ControlText {
         (count(line) + 1, count(column) + 1)
     }
 
-    /// Line and column, from 1, of a byte within the file.
+    /// Line and column, counted from 1, of a byte within the file.
     pub(super) fn place_in_file(&self, byte: usize) -> Option<(u32, u32)> {
         let (first_line, first_column) = self.begins?;
         let (line, column) = self.place(byte);
@@ -79,7 +79,7 @@ impl ControlText {
         Some((first_line + line - 1, column))
     }
 
-    /// The line in which a byte is, and where it begins.
+    /// The line that contains a byte, and the offset at which the line begins.
     pub(super) fn line_around(&self, byte: usize) -> (usize, &str) {
         let byte = self.text.floor_char_boundary(byte);
         let start = self.text[..byte].rfind('\n').map_or(0, |end| end + 1);

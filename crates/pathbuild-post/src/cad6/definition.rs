@@ -1,4 +1,4 @@
-//! Reading a definition with control texts: a TOML file. (book: program/posts)
+//! Reads a definition consisting of control texts, which is a TOML file. (book: program/posts)
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -18,18 +18,18 @@ use crate::findings::{Findings, LineStarts};
 use crate::number::FEWEST_DECIMALS;
 use crate::suggest::nearest;
 
-/// A definition as its file has it.
+/// A definition as it is in its file.
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
     pub(super) settings: Settings,
-    /// By kind.
+    /// Indexed by kind.
     texts: Vec<Option<ControlText>>,
-    /// Names that the texts use, and the variables that they stand for.
+    /// Names used in the texts, with the variables they stand for.
     pub(super) aliases: Vec<(Box<str>, Box<str>)>,
 }
 
 impl Definition {
-    /// Reads a definition. What is doubtful in it is warnings beside it.
+    /// Parses a definition. Doubtful entries are returned as warnings.
     pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         let mut reader = ControlTextReader {
             source: text,
@@ -63,17 +63,17 @@ impl Definition {
         &self.settings.extension
     }
 
-    /// The dialect that it names.
+    /// The dialect named in the definition.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.settings.dialect.as_deref()
     }
 
-    /// Whether a text uses a variable, under its own name or another.
+    /// Whether any text uses a variable, by its own name or an alias.
     pub(crate) fn uses(&self, variable: &str) -> bool {
         self.uses_in(ControlTextKind::ALL, variable)
     }
 
-    /// The same, of some texts.
+    /// Like [`uses`](Self::uses), but only for texts of these kinds.
     pub(super) fn uses_in(&self, kinds: &[ControlTextKind], variable: &str) -> bool {
         let others = self.aliases.iter().filter(|(_, ours)| **ours == *variable).map(|(theirs, _)| &**theirs);
         let names: Vec<&str> = others.chain([variable]).collect();
@@ -81,7 +81,7 @@ impl Definition {
         texts.into_iter().any(|text| names.iter().any(|name| text.text.contains(name)))
     }
 
-    /// Whether only changes of tools have the spindle's speed.
+    /// Whether the spindle speed is written only at tool changes.
     pub(crate) fn has_one_speed_a_tool(&self) -> bool {
         let mut with_speed =
             self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
@@ -90,27 +90,27 @@ impl Definition {
                 .all(|(kind, _)| matches!(kind, ControlTextKind::ToolChange | ControlTextKind::ProgramStart))
     }
 
-    /// Decimals of rounded numbers.
+    /// Number of decimals to which numbers are rounded.
     pub(crate) fn decimals(&self) -> u8 {
         u8::try_from(self.settings.decimals).unwrap_or(u8::MAX)
     }
 
-    /// Greatest distance in mm of a line from the arc that it stands for.
+    /// Greatest distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self) -> f64 {
         self.settings.arc_tolerance
     }
 
-    /// The unit that is written; `None`: the program's.
+    /// Unit of the output; `None` means that of the program.
     pub(crate) fn units(&self) -> Option<Units> {
         self.settings.units
     }
 
-    /// A control text; `None` when it is absent or empty.
+    /// Returns a control text; `None` if it is absent or empty.
     pub(super) fn text(&self, kind: ControlTextKind) -> Option<&ControlText> {
         self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())
     }
 
-    /// Whether a text has one of these variables, under its own name or another.
+    /// Whether a text uses one of these variables, by its own name or an alias.
     pub(super) fn names(&self, kind: ControlTextKind, variables: &[&str]) -> bool {
         let others =
             self.aliases.iter().filter(|(_, own)| variables.contains(&&**own)).map(|(other, _)| &**other);
@@ -118,7 +118,7 @@ impl Definition {
         self.text(kind).is_some_and(|text| names.any(|name| text.text.contains(&name)))
     }
 
-    /// Why no program calls a text; `None` where one may.
+    /// The reason why no program calls a text, or `None` if one may.
     pub(super) fn called_instead(&self, kind: ControlTextKind) -> Option<Uncalled> {
         let instead = |other| self.text(other).map(|_| Uncalled::Instead(other));
         match kind {
@@ -131,7 +131,7 @@ impl Definition {
         }
     }
 
-    /// Every control text.
+    /// All control texts that are present.
     pub(super) fn texts(&self) -> impl Iterator<Item = (ControlTextKind, &ControlText)> {
         ControlTextKind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
     }
@@ -140,9 +140,9 @@ impl Definition {
 /// Why no program calls a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Uncalled {
-    /// No program has what it is for.
+    /// Programs do not contain what the text is for.
     Never,
-    /// The definition has this text, which is called in its place.
+    /// The definition has this other text, which is called instead.
     Instead(ControlTextKind),
 }
 
@@ -157,7 +157,7 @@ struct ControlTextReader<'a> {
 
 impl ControlTextReader<'_> {
     fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
-        // To find a column takes a look at all of the line in front of it.
+        // Finding the column requires scanning the line up to it.
         if self.findings.is_full(diagnostic.is_error()) {
             return;
         }
@@ -165,7 +165,7 @@ impl ControlTextReader<'_> {
         self.findings.add(diagnostic.in_file(self.file).at_line(line, Some(column)));
     }
 
-    /// Line and column, from 1.
+    /// Line and column, counted from 1.
     fn place(&self, byte: usize) -> (u32, u32) {
         let byte = self.source.floor_char_boundary(byte);
         let column = self.source[self.lines.start(byte)..byte].chars().count();
@@ -191,7 +191,7 @@ impl ControlTextReader<'_> {
         definition
     }
 
-    /// Reads every entry of a table whose key is known.
+    /// Reads all entries of a table that have a known key.
     fn each(
         &mut self,
         table: &DeTable<'_>,
@@ -264,7 +264,7 @@ impl ControlTextReader<'_> {
         ControlText { begins: Some(self.place(span.start + self.opening_length(&span))), text }
     }
 
-    /// The length of the quotes in front of a text, with the line end that belongs to them.
+    /// Length of the opening quotes of a text, including the line break that belongs to them.
     fn opening_length(&self, span: &Range<usize>) -> usize {
         let quoted = self.source.get(span.clone()).unwrap_or("");
         let quotes = if quoted.starts_with("'''") || quoted.starts_with("\"\"\"") { 3 } else { 1 };

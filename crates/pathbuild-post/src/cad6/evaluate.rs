@@ -1,4 +1,4 @@
-//! The second phase of a call: every statement is replaced by its result. (sections 1.2 and 1.7)
+//! The second phase of a call: replaces every statement by its result. (sections 1.2 and 1.7)
 
 use std::ops::Range;
 
@@ -13,41 +13,41 @@ use super::term::{Doubt, evaluate};
 use super::variables::Variables;
 use crate::PostFiles;
 
-/// Statements may be nested so deep.
+/// Maximum nesting depth of statements.
 const MOST_DEPTH: usize = 64;
 
-/// What a text is evaluated with.
+/// The environment in which a text is evaluated.
 pub(super) struct Surroundings<'a> {
     pub(super) variables: &'a mut Variables,
-    /// Decimals of rounded numbers.
+    /// Number of decimals to which numbers are rounded.
     pub(super) decimals: usize,
-    /// Files that may be inserted.
+    /// Files that the text may insert.
     pub(super) files: &'a dyn PostFiles,
 }
 
-/// A line of a result.
+/// A line of the result.
 #[derive(Debug, Default)]
 pub(super) struct ResultLine {
     pub(super) text: String,
-    /// A statement or variable stood in it: it is dropped when it is blank.
+    /// Whether the line contained a statement or a variable. Such a line is dropped if it is blank.
     pub(super) is_made: bool,
-    /// Part of it comes from a file.
+    /// Whether part of the line comes from a file.
     pub(super) is_inserted: bool,
-    /// The byte of the expanded text where it begins.
+    /// Offset of the line in the expanded text.
     pub(super) begins: usize,
-    /// The line of the definition's file that wrote it, from 1; 0 where that is not known.
+    /// Line of the definition's file that produced it, counted from 1; 0 if unknown.
     pub(super) origin: u32,
 }
 
-/// What a text comes to.
+/// The result of evaluating a text.
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) lines: Vec<ResultLine>,
-    /// What is doubtful, by byte of the expanded text.
+    /// Doubtful constructs, with their offsets in the expanded text.
     pub(super) doubts: Vec<(usize, Doubt)>,
 }
 
-/// Runs the statements of a text.
+/// Evaluates the statements of an expanded text.
 pub(super) fn run(text: &Expanded, surroundings: Surroundings<'_>) -> Evaluated<Outcome> {
     let mut evaluator = Evaluator {
         text: &text.text,
@@ -62,7 +62,7 @@ pub(super) fn run(text: &Expanded, surroundings: Surroundings<'_>) -> Evaluated<
     Ok(Outcome { lines: evaluator.lines, doubts: evaluator.doubts })
 }
 
-/// Goes through a text.
+/// The state of an evaluation.
 pub(super) struct Evaluator<'a> {
     pub(super) text: &'a str,
     expanded: &'a Expanded,
@@ -82,7 +82,7 @@ impl<'a> Evaluator<'a> {
         Fault::new(message, self.at..(self.at + length).min(self.text.len()))
     }
 
-    /// Literal text with statements in it, up to its end, or up to the closing brace of the statement that it is in.
+    /// Copies literal text and evaluates the statements in it, up to the end of the text or the closing brace of the enclosing statement.
     fn text(&mut self, is_inside: bool) -> Evaluated<()> {
         while let Some(c) = self.rest().chars().next() {
             match c {
@@ -141,7 +141,7 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// The content of a file, which means nothing here.
+    /// Inserts a file. Its content is copied without being evaluated.
     fn insertion(&mut self, after: &str) -> Evaluated<()> {
         let start = self.at;
         let Some(length) = after.find('*') else { return Err(self.fault(&posts::INSERTION_OPEN, 5)) };
@@ -161,7 +161,7 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// A statement, whose result goes into the text.
+    /// Evaluates a statement and adds its result to the output.
     pub(super) fn statement(&mut self) -> Evaluated<()> {
         if self.depth == MOST_DEPTH {
             return Err(self.fault(&posts::TEXT_DEPTH, 1).with("limit", MOST_DEPTH));
@@ -236,18 +236,18 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// The character of a text, where nothing else stands in the next part of a statement.
+    /// Returns the placeholder of a text if the next part of a statement contains nothing else.
     fn lone_text(&self, length: usize) -> Option<char> {
         let mut inside = self.rest()[..length].chars().filter(|c| !is_mark(*c) && *c != ' ');
         let first = inside.next().filter(|c| self.surroundings.variables.text(*c).is_some());
         first.filter(|_| inside.next().is_none())
     }
 
-    /// `{s ~PrgName~}`, `{-20s ~PrgName~}`: a text, with blanks beside it.
+    /// Writes a text padded with blanks: `{s ~PrgName~}`, `{-20s ~PrgName~}`.
     fn text_in_form(&mut self, form: CForm, text: char, length: usize) -> Evaluated<()> {
         let width = self.surroundings.variables.text(text).map_or(0, |text| text.chars().count());
         let Some([before, behind]) = form.blanks(width) else {
-            // Another form is a number's.
+            // The other forms format numbers.
             let found = self.surroundings.variables.text(text).unwrap_or("").to_owned();
             let is_number = found.trim().parse::<f64>().is_ok_and(f64::is_finite);
             if !is_number {
@@ -268,14 +268,14 @@ impl<'a> Evaluator<'a> {
         Ok(())
     }
 
-    /// The form of a number; a form as in C needs a blank behind it.
+    /// Reads the form of a number. A form in C notation must be followed by a blank.
     fn form(&mut self) -> Form {
         let rest = self.rest();
         if let Some(form) = rest.chars().next().and_then(Form::of) {
             self.at += 1;
             return form;
         }
-        // No form has a brace: behind the end of the statement there is none.
+        // Forms contain no braces, so stop at the first one.
         let end = rest.find([' ', '\t', '}', '{']);
         let blank = end.filter(|end| !rest[*end..].starts_with(['}', '{']));
         let c_form = blank.and_then(|blank| Some((blank, rest[..blank].parse::<CForm>().ok()?)));
@@ -293,7 +293,7 @@ impl<'a> Evaluator<'a> {
         if let Some(at) = text.find(UNDEFINED) {
             return Err(self.undefined(span.start + at));
         }
-        // A text may be a number, but no term.
+        // A text may be a number, but not a term.
         let plain = self.surroundings.variables.plain(text);
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
         let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);

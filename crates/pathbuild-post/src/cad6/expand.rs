@@ -1,4 +1,4 @@
-//! The first phase of a call: every variable is replaced by its text, over the whole control text. (section 1.4)
+//! The first phase of a call: replaces every variable of the control text by its value. (section 1.4)
 
 use pathbuild_diagnostic::messages::posts;
 
@@ -6,22 +6,22 @@ use super::fault::{Evaluated, Fault};
 use super::marks::{UNDEFINED, VARIABLE};
 use super::variables::Variables;
 
-/// Variables may name others so deep.
+/// Maximum nesting depth of variables that refer to each other.
 const MOST_DEPTH: usize = 32;
-/// A call resolves at most so many variables.
+/// Maximum number of variables resolved per call.
 const MOST_VARIABLES: usize = 10_000;
-/// No line of a program is as long as this text of one call, in bytes.
+/// Maximum length in bytes of the text produced by one call; no line of a program is as long.
 const LONGEST: usize = 1 << 16;
 
-/// A control text without variables.
+/// A control text whose variables have been replaced.
 #[derive(Debug, Default)]
 pub(super) struct Expanded {
     pub(super) text: String,
-    /// Where pieces begin, here and in the control text; between two of them the texts are the same or a variable's.
+    /// Offsets at which parts begin in both texts. Between two of them, the texts are equal or the expanded text is the value of a variable.
     pieces: Vec<ExpandedPart>,
-    /// The variables that do not exist, by where they stood.
+    /// The variables that do not exist, by the offset at which they occurred.
     undefined: Vec<(usize, String)>,
-    /// How many variables were resolved.
+    /// Number of variables resolved.
     resolved: usize,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Expanded {
 struct ExpandedPart {
     here: usize,
     there: usize,
-    /// The piece is a variable's text: all of it stands for one place of the control text.
+    /// Whether the part is the value of a variable, so that all of it corresponds to a single position of the control text.
     is_variable: bool,
 }
 
@@ -94,7 +94,7 @@ impl Expanded {
         Ok(())
     }
 
-    /// The byte of the control text that a byte of this one stands for.
+    /// Maps an offset of the expanded text to the control text.
     pub(super) fn origin(&self, here: usize) -> usize {
         let after = self.pieces.partition_point(|piece| piece.here <= here);
         match after.checked_sub(1).map(|index| self.pieces[index]) {
@@ -104,13 +104,13 @@ impl Expanded {
         }
     }
 
-    /// The name of the variable that does not exist and stood at a byte.
+    /// Name of the non-existent variable at an offset.
     pub(super) fn undefined_at(&self, here: usize) -> &str {
         self.undefined.iter().find(|(at, _)| *at == here).map_or("", |(_, name)| name)
     }
 }
 
-/// The text before the next variable, its name, and the text after it. Escapes are passed over.
+/// Splits a text at its next variable into the text before it, its name and the rest. Escape sequences are skipped.
 pub(super) fn next_variable(text: &str) -> Evaluated<Option<(&str, &str, &str)>> {
     let mut at = 0;
     while let Some(found) = text[at..].find(['~', '\\']) {
@@ -133,7 +133,7 @@ pub(super) fn next_variable(text: &str) -> Evaluated<Option<(&str, &str, &str)>>
     Ok(None)
 }
 
-/// The length of the escape at the beginning of a text, as far as it hides characters from being variables.
+/// Length of the escape sequence at the beginning of a text, as far as it prevents characters from starting a variable.
 fn escape_length(text: &str) -> Option<usize> {
     ["\\\\\\~", "\\~", "\\{", "\\}", "\\\\"]
         .iter()
@@ -145,7 +145,7 @@ fn is_name_character(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
-/// A letter, then letters, digits and underscores.
+/// Whether a text is a valid name: a letter followed by letters, digits and underscores.
 pub(super) fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(is_name_character)
 }

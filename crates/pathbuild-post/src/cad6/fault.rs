@@ -1,26 +1,26 @@
-//! What is wrong at a place of a control text, before it is known which text it is.
+//! An error at a position of a control text, before it is known which text that is.
 
 use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, Message};
 
-/// A diagnostic and the bytes of the text that it is about.
+/// A diagnostic and the range of the text it is about.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub(super) span: Range<usize>,
     pub(super) diagnostic: Diagnostic,
 }
 
-/// A result of reading or evaluating a text.
+/// Result of reading or evaluating a text.
 pub(super) type Evaluated<T> = Result<T, Box<Fault>>;
 
 impl Fault {
-    /// A fault without values yet.
+    /// Creates a fault whose message has no arguments yet.
     pub(super) fn new(message: &'static Message, span: Range<usize>) -> Box<Self> {
         Box::new(Self { span, diagnostic: Diagnostic::new(message) })
     }
 
-    /// Sets a value of its message.
+    /// Sets an argument of the message.
     pub(super) fn with(
         mut self: Box<Self>,
         name: &'static str,
@@ -35,7 +35,7 @@ impl Fault {
         self.with(name, pathbuild_diagnostic::Value::quoted(text))
     }
 
-    /// The fault in a text of which its own text is a part that begins at a byte.
+    /// Moves the fault from a part of a text, which begins at `by`, to the text itself.
     pub(super) fn shifted(mut self: Box<Self>, by: usize) -> Box<Self> {
         self.span = self.span.start + by..self.span.end + by;
         self

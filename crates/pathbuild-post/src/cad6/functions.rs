@@ -1,4 +1,4 @@
-//! Functions of terms. They are pathbuild's own: which ones CAD6 has is not known. Angles are degrees.
+//! Functions in terms. They are an extension of pathbuild, because it is unknown which functions CAD6 has. Angles are in degrees.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::posts;
 
 use super::fault::Fault;
 
-/// Why a function has no value.
+/// Why a function cannot be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wrong {
     Name,
@@ -15,7 +15,7 @@ pub(super) enum Wrong {
 }
 
 impl Wrong {
-    /// The fault where the function's name stands.
+    /// Converts it to a fault at the name of the function.
     pub(super) fn at(self, span: Range<usize>) -> Box<Fault> {
         match self {
             Self::Name => Fault::new(&posts::TERM_FUNCTION, span),
@@ -24,27 +24,27 @@ impl Wrong {
     }
 }
 
-/// How a function is computed.
+/// The arguments a function takes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Rule {
-    /// From one argument.
+    /// One argument.
     One(fn(f64) -> f64),
-    /// From two.
+    /// Two arguments.
     Two(fn(f64, f64) -> f64),
-    /// From any number of them, but one at least.
+    /// Any number of arguments, but at least one.
     Any(fn(&[f64]) -> f64),
 }
 
-/// A function that terms may call.
+/// A function available in terms.
 #[derive(Debug)]
 pub(super) struct Function {
     pub(super) name: &'static str,
     pub(super) rule: Rule,
-    /// What it returns, for the book.
+    /// Description of the result, for the book.
     pub(super) about: Text,
 }
 
-/// The functions, in the order in which they are documented.
+/// All functions, in the order in which they are documented.
 pub(super) static FUNCTIONS: &[Function] = &[
     Function { name: "abs", rule: Rule::One(f64::abs), about: Text { en: "absolute value", de: "Betrag" } },
     Function {
@@ -130,7 +130,7 @@ pub(super) static FUNCTIONS: &[Function] = &[
     },
 ];
 
-/// The value of a function.
+/// Evaluates a function.
 pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, Wrong> {
     let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(Wrong::Name)?;
     match (function.rule, arguments) {

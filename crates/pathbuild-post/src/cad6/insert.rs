@@ -1,4 +1,4 @@
-//! Files that control texts insert. Only those below the post's own directory are read.
+//! Files inserted by control texts. Only files below the directory of the post are read.
 
 use std::collections::BTreeSet;
 
@@ -13,19 +13,19 @@ use super::program::assign_macros;
 use super::variables::Variables;
 use crate::{PostFiles, PostMacro};
 
-/// What stands before the name of a file, with a `*` behind it.
+/// Introduces the name of an inserted file, which ends with a `*`.
 pub(super) const INSERTION: &str = r"\\\~*";
 
-/// The files that control texts insert whatever the program: those whose names are made of nothing but texts and the user's macros.
+/// Returns the files that control texts insert in every program: those whose names consist only of literal text and the user's macros.
 pub(crate) fn foreseen(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
     let mut variables = Variables::new(definition.aliases.iter().map(|(other, own)| (&**other, &**own)));
     assign_macros(&mut variables, macros);
-    // A text that cannot be expanded is no part of a program.
+    // Texts that cannot be expanded cannot be part of a program.
     let texts = definition.texts().filter_map(|(_, text)| Expanded::new(&text.text, &variables).ok());
     texts.flat_map(|expanded| names(&expanded.text)).filter_map(|name| below(&name)).collect()
 }
 
-/// The names of files in an expanded text.
+/// Names of the files inserted by an expanded text.
 fn names(text: &str) -> Vec<String> {
     let names = text.split(INSERTION).skip(1).filter_map(|rest| Some(rest.split_once('*')?.0));
     names
@@ -34,7 +34,7 @@ fn names(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The content of a file, without the end of its last line, or the reason why not.
+/// Returns the content of a file without its last line break, or the reason why it cannot be read.
 pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> {
     let path = below(name).ok_or(Value::Prose(&NOT_BELOW_POST))?;
     let mut content = files.read(&path)?;
@@ -46,7 +46,7 @@ pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> 
     Ok(content)
 }
 
-/// The path as one that leads nowhere but down. Backslashes are those of Windows.
+/// Returns the path if it stays below the current directory. Backslashes are separators, as on Windows.
 fn below(name: &str) -> Option<Utf8PathBuf> {
     let path = Utf8PathBuf::from(name.replace('\\', "/"));
     let is_drive = name.contains(':');

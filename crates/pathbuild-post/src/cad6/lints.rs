@@ -1,4 +1,4 @@
-//! What may not be meant in control texts, found without running them.
+//! Finds likely mistakes in control texts without running them.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use super::report::locate;
 use super::variables::Variable;
 use crate::findings::MOST_FINDINGS;
 
-/// The doubts about a definition, and the texts in it that no program calls: what they switch would never be switched.
+/// Reports likely mistakes in a definition, including texts that no program calls: what they switch would never be switched.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
         let diagnostic = match definition.called_instead(kind)? {
@@ -30,7 +30,7 @@ fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Di
     let mut diagnostics = Vec::new();
     let mut statements = Statements::default();
     let mut rest = text.text.as_str();
-    // A text that is broken is reported when it is run.
+    // Invalid texts are reported when they are run.
     while let Ok(Some((before, name, after))) = next_variable(rest)
         && diagnostics.len() < MOST_FINDINGS
     {
@@ -54,10 +54,10 @@ fn is_number(name: &str) -> bool {
     Variable::named(name).is_some_and(|variable| !variable.is_text)
 }
 
-/// The statements that are open at a place of a text, and what those that are over assigned.
+/// The statements that are open at a position of a text, and the variables assigned by those before it.
 #[derive(Default)]
 struct Statements<'a> {
-    /// The variable that each open statement assigns, if any.
+    /// The variable assigned by each open statement, if it assigns one.
     open: Vec<Option<&'a str>>,
     assigned: BTreeSet<&'a str>,
 }

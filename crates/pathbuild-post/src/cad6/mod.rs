@@ -1,8 +1,8 @@
-//! Control texts as CAD6's CAM module has them: texts with variables and statements, called in a fixed order.
+//! Control texts as in CAD6's CAM module: texts with variables and statements that are called in a fixed order.
 //! (book: program/reading)
 //!
-//! A [`Definition`] is read once. `calls` turns a job into calls, `program` sets the variables of each, and a `Runner` makes it in two
-//! phases: variables are replaced by their texts, then statements by their results.
+//! A [`Definition`] is read once. `calls` turns a job into calls, `program` sets the variables of each call, and a `Runner` executes it in
+//! two phases: it replaces variables by their values, then statements by their results.
 
 mod abilities;
 mod call;
@@ -41,25 +41,25 @@ use super::shadow::{Shadow, Unfollowed};
 use super::target::Target;
 use super::words::{CommentMarks, words};
 
-/// What the engine wrote.
+/// The output of the engine.
 pub(super) struct Written {
     pub(super) text: Vec<u8>,
-    /// What the text says, in the words of RS274.
+    /// The meaning of the text in RS274 words.
     pub(super) shadow: String,
-    /// The words of the text that its shadow does not have.
+    /// Words of the text that the shadow cannot express.
     pub(super) unfollowed: Vec<Unfollowed>,
-    /// Of each line.
+    /// For each line of the text.
     pub(super) origins: Vec<LineOrigin>,
-    /// What is doubtful in it.
+    /// Doubtful constructs.
     pub(super) warnings: Vec<Diagnostic>,
-    /// The variables of switches that the texts have which were called.
+    /// The switch variables used by the texts that were called.
     pub(super) switches: Vec<&'static str>,
 }
 
-/// The variables that say what spindle and coolant do.
+/// The variables that describe the state of spindle and coolant.
 const SWITCHES: &[&str] = &["ToolControl1", "ToolControl2", "MillingSpindleDir", "SpinUpTime"];
 
-/// Writes a job that has operations.
+/// Writes a job, which must contain operations.
 pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,

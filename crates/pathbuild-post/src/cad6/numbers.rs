@@ -1,4 +1,4 @@
-//! How statements write numbers. (book: program/reading)
+//! Formats numbers in statements. (book: program/reading)
 
 use std::str::FromStr;
 
@@ -7,12 +7,12 @@ use pathbuild_diagnostic::Text;
 use super::term::bits;
 use crate::number::NumberFormat;
 
-/// A form of number, chosen by the character behind the brace.
+/// A number format, selected by the character after the brace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// As many decimals as there are.
     Shortest,
-    /// `'`: two decimals, thousands apart.
+    /// `'`: two decimals and a thousands separator.
     Money,
     /// `%`, `.`: rounded.
     Rounded,
@@ -20,27 +20,27 @@ pub(super) enum Form {
     Comma,
     /// `+`: rounded, always with a sign.
     Signed,
-    /// `&`: rounded, always with a sign, with a decimal comma.
+    /// `&`: rounded, always with a sign and with a decimal comma.
     SignedComma,
-    /// `#`: whole.
+    /// `#`: an integer.
     Whole,
-    /// `f`, `g`, `d`, `x`, `b`, `s` as in C.
+    /// The C formats `f`, `g`, `d`, `x`, `b` and `s`.
     C(CForm),
 }
 
-/// A form as in C. Flags, width and precision are pathbuild's own: how CAD6 spells them is not known.
+/// A C format. Flags, width and precision are an extension of pathbuild, because their notation in CAD6 is unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CForm {
-    /// Blanks are added behind instead of in front.
+    /// Pad with blanks on the right instead of the left.
     left: bool,
-    /// Zeros are added instead of blanks.
+    /// Pad with zeros instead of blanks.
     zeros: bool,
     width: usize,
     precision: Option<usize>,
     letter: char,
 }
 
-/// The characters that choose a form, and what they do, for the book.
+/// The format characters with their meanings, for the book.
 pub(super) static FORMS: [(char, Form, Text); 7] = [
     (
         '\'',
@@ -62,16 +62,17 @@ pub(super) static FORMS: [(char, Form, Text); 7] = [
     ('#', Form::Whole, Text { en: "whole", de: "ganze Zahl" }),
 ];
 
-/// Wider numbers are a slip of the pen.
+/// Maximum width; greater ones are taken for typing errors.
 const WIDEST: usize = 64;
 
 impl Form {
-    /// The form that a character chooses.
+    /// The format selected by a character.
     pub(super) fn of(character: char) -> Option<Self> {
         FORMS.iter().find(|(sign, ..)| *sign == character).map(|(_, form, _)| *form)
     }
 
-    /// A finite number as text, rounded to `decimals` where the form says so; `None` where it has no such form (bits of a fraction).
+    /// Formats a finite number, rounding it to `decimals` where the format requires it. Returns `None` if the format does not apply (bits
+    /// of a fraction).
     pub(super) fn write(self, value: f64, decimals: usize) -> Option<String> {
         let rounded = || NumberFormat::decimals(0, decimals).format(value);
         Some(match self {
@@ -87,7 +88,7 @@ impl Form {
     }
 }
 
-/// The shortest text that is read back as the same number.
+/// The shortest text that parses to the same number.
 pub(super) fn shortest(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { value.to_string() }
 }
@@ -124,7 +125,7 @@ impl CForm {
         Some(self.pad(&text))
     }
 
-    /// The blanks in front of and behind a text of so many characters; `None` where this is no form of texts.
+    /// Number of blanks before and after a text of `length` characters, or `None` if this is not a format for texts.
     pub(super) fn blanks(self, length: usize) -> Option<[usize; 2]> {
         let fill = self.width.saturating_sub(length);
         (self.letter == 's').then_some(if self.left { [0, fill] } else { [fill, 0] })

@@ -1,4 +1,4 @@
-//! A job through control texts: sets the variables of each call and makes it.
+//! Writes a job through control texts: sets the variables of each call and executes it.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Move, Turning};
@@ -14,24 +14,24 @@ use crate::step::{Hole, HoleKind};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
-/// Makes the calls of a job.
+/// Executes the calls of a job.
 pub(super) struct Caller<'a, 'r> {
     job: &'a Job,
-    /// Of each operation.
+    /// For each operation.
     feeds: Vec<Feeds>,
     runner: &'r mut Runner<'a>,
-    /// The unit that is written, in mm.
+    /// The output unit, in mm.
     unit: f64,
     at: Point,
     tool: Option<u32>,
     contours: u32,
     elements: u32,
     unchecked: bool,
-    /// Tools are XpertMILL's layers.
+    /// Whether tools are XpertMILL layers.
     has_layers: bool,
 }
 
-/// Runs every text that a job calls.
+/// Runs all texts that a job calls.
 pub(super) fn run<'a>(
     job: &'a Job,
     target: Option<&Target>,
@@ -67,7 +67,7 @@ pub(super) fn run<'a>(
     caller.runner.call(ControlTextKind::ProgramEnd)
 }
 
-/// The user's macros are variables.
+/// Defines the user's macros as variables.
 pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
     for own in macros {
         variables.assign(&own.name, &own.value.replace(is_private, "?"));
@@ -119,7 +119,7 @@ impl Caller<'_, '_> {
         self.text("ToolName", &operation.tool.name);
         match operation.tool.index {
             index if operation.tool.is_named => self.set("MachineToolNo", f64::from(index)),
-            // What is on no layer is on the first.
+            // Elements without a layer are on the first one.
             _ if self.has_layers => self.set("MachineToolNo", 1.0),
             _ => self.runner.variables.remove("MachineToolNo"),
         }
@@ -197,7 +197,7 @@ impl Caller<'_, '_> {
         }
     }
 
-    /// A move that a text must write is not written without it, unless somebody answers for that.
+    /// Requires the text for a move: omitting the move is an error, unless the user has taken responsibility for unchecked output.
     fn require_move(&self, kind: ControlTextKind, operation: &Operation) -> Called {
         if self.unchecked { Ok(()) } else { self.require(kind, operation) }
     }
@@ -268,7 +268,7 @@ impl Caller<'_, '_> {
         self.flag("ArcDir", !arc.clockwise);
     }
 
-    /// What only an arc has must not seem to be there for the next element.
+    /// Removes the variables of an arc so that the next element does not see them.
     fn forget_arc(&mut self) {
         for name in ["XC", "YC", "IRel", "JRel", "Radius", "StartAngle", "EndAngle", "SweepAngle", "ArcDir"] {
             self.runner.variables.remove(name);

@@ -11,7 +11,7 @@ use super::term::LEVELS;
 use super::variables::VARIABLES;
 use crate::reference::{Row, code};
 
-/// The keys of `[post]`: name, what it takes, what it sets.
+/// The keys of `[post]`: name, permitted values, meaning.
 pub(crate) fn settings(lang: Lang) -> Vec<Row> {
     let row = |it: &super::settings::Setting| {
         vec![code(it.name), it.expected.in_lang(lang).to_owned(), it.about.in_lang(lang).to_owned()]
@@ -19,13 +19,13 @@ pub(crate) fn settings(lang: Lang) -> Vec<Row> {
     SETTINGS.iter().map(row).collect()
 }
 
-/// The keys of `[text]`: name, when it is called.
+/// The keys of `[text]`: name, when the text is called.
 pub(crate) fn texts(lang: Lang) -> Vec<Row> {
     let row = |kind: &ControlTextKind| vec![code(kind.name()), kind.when().in_lang(lang).to_owned()];
     ControlTextKind::ALL.iter().map(row).collect()
 }
 
-/// The variables: name, what it holds, where it has a value.
+/// The variables: name, content, where they are available.
 pub(crate) fn variables(lang: Lang) -> Vec<Row> {
     let row = |it: &super::variables::Variable| {
         let presence = it.presence.word().in_lang(lang).to_owned();
@@ -34,7 +34,7 @@ pub(crate) fn variables(lang: Lang) -> Vec<Row> {
     VARIABLES.iter().map(row).collect()
 }
 
-/// The statements: spelling, result.
+/// The statements: notation, result.
 pub(crate) fn statements(lang: Lang) -> Vec<Row> {
     let others = STATEMENTS.iter().map(|it| vec![code(it.form), it.about.in_lang(lang).to_owned()]);
     let shortest = vec![code("{Term}"), SHORTEST.in_lang(lang).to_owned()];
@@ -45,13 +45,13 @@ pub(crate) fn statements(lang: Lang) -> Vec<Row> {
     others.chain([shortest]).chain(numbers).chain([as_in_c]).collect()
 }
 
-/// The operators, from loosest to tightest.
+/// The operators, from lowest to highest precedence.
 pub(crate) fn operators() -> Vec<Row> {
     let level = |level: &&[&str]| level.iter().map(|operator| code(operator)).collect::<Vec<_>>().join(" ");
     LEVELS.iter().map(|operators| vec![level(operators)]).collect()
 }
 
-/// The functions: spelling, value.
+/// The functions: notation, result.
 pub(crate) fn functions(lang: Lang) -> Vec<Row> {
     let arguments = |rule| match rule {
         Rule::One(_) => "x",

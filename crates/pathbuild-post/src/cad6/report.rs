@@ -1,4 +1,4 @@
-//! Faults in control texts as diagnostics, with their places in the text and in its file.
+//! Converts errors in control texts to diagnostics that give their position in the text and in its file.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 
 use super::control_text::{ControlText, ControlTextKind};
 
-/// Says where a fault is: which text, its line and column there, and the same in the file.
+/// Adds the position of an error: the name of the text, line and column in it, and line and column in the file.
 pub(super) fn locate(
     diagnostic: Diagnostic,
     kind: ControlTextKind,

@@ -1,4 +1,4 @@
-//! Calling control texts: variables in, lines out.
+//! Executes control texts: variables in, lines out.
 
 use std::ops::Range;
 
@@ -20,18 +20,18 @@ use crate::guard::Guard;
 use crate::origin::LineOrigin;
 use crate::suggest::nearest;
 
-/// Success, or the diagnostic that ends the writing.
+/// Success, or the diagnostic that aborts writing.
 pub(super) type Called = Result<(), Box<Diagnostic>>;
 
-/// What stands in front of lines when the definition has no text for it.
+/// Prefix of each line if the definition has no text for it.
 const LINE_NUMBER: &str = "N{#~LineNumber~} {=LineNumber{#~LineNumber~+10}}";
-/// Bytes that texts may come to whatever the program, and more for each call.
+/// Number of bytes that texts may produce regardless of the program; each call adds more.
 const FUEL: usize = 1 << 20;
 const FUEL_PER_CALL: usize = 1 << 12;
-/// Nobody reads more warnings.
+/// Maximum number of warnings reported.
 const MOST_WARNINGS: usize = 50;
 
-/// Runs control texts and collects the lines.
+/// Executes control texts and collects the resulting lines.
 pub(super) struct Runner<'a> {
     pub(super) definition: &'a Definition,
     file: &'a Utf8Path,
@@ -41,12 +41,12 @@ pub(super) struct Runner<'a> {
     guard: Guard<'a>,
     text: Vec<u8>,
     most_bytes: usize,
-    /// Bytes that the texts may still come to, files that are inserted apart.
+    /// Number of bytes that texts may still produce, not counting inserted files.
     fuel: usize,
     pub(super) warnings: Vec<Diagnostic>,
-    /// The texts that were called.
+    /// The texts called so far.
     called: Vec<ControlTextKind>,
-    /// Of each line.
+    /// For each line.
     origins: Vec<LineOrigin>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Calls a control text, if the definition has it, and adds its lines.
+    /// Calls a control text, if the definition has it, and adds the resulting lines.
     pub(super) fn call(&mut self, kind: ControlTextKind) -> Called {
         let Some(text) = self.definition.text(kind) else { return Ok(()) };
         self.fuel += FUEL_PER_CALL;
@@ -128,7 +128,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// Adds a line. Texts of drawings and options get into it so that no control acts on them.
+    /// Adds a line. Texts from drawings and options are inserted in such a way that no control acts on them.
     fn push(&mut self, line: &str, kind: ControlTextKind) -> Called {
         let mut before = String::new();
         for c in line.chars() {
@@ -152,7 +152,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// The two phases of a call.
+    /// Runs both phases of a call.
     fn evaluate(
         &mut self,
         kind: ControlTextKind,
@@ -206,18 +206,18 @@ impl<'a> Runner<'a> {
         Box::new(locate(diagnostic, kind, text, span, self.file))
     }
 
-    /// The texts that were called, each once.
+    /// The distinct texts called so far.
     pub(super) fn called(&self) -> &[ControlTextKind] {
         &self.called
     }
 
-    /// The content of the file.
+    /// Returns the content of the file.
     pub(super) fn finish(self) -> (Vec<u8>, Vec<LineOrigin>, Vec<Diagnostic>) {
         (self.text, self.origins, self.warnings)
     }
 }
 
-/// The lines of a result with the lines of the file that wrote them.
+/// Adds to each line of a result the line of the file that produced it.
 fn with_origins(mut lines: Vec<ResultLine>, expanded: &Expanded, text: &ControlText) -> Vec<ResultLine> {
     let Some((first, _)) = text.begins else { return lines };
     let ends: Vec<usize> = text.text.match_indices('\n').map(|(at, _)| at).collect();
@@ -229,12 +229,12 @@ fn with_origins(mut lines: Vec<ResultLine>, expanded: &Expanded, text: &ControlT
     lines
 }
 
-/// How many lines end in a text.
+/// Number of line breaks in a text.
 fn line_ends(text: &[u8]) -> usize {
     memchr::memchr_iter(b'\n', text).count()
 }
 
-/// A span of the expanded text as one of the control text.
+/// Maps a range of the expanded text to the control text.
 fn in_text(expanded: &Expanded, span: &Range<usize>, length: usize) -> Range<usize> {
     let start = expanded.origin(span.start).min(length);
     let end = expanded.origin(span.end.max(span.start + 1) - 1).min(length);

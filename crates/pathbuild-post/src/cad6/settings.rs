@@ -1,28 +1,28 @@
-//! What a definition sets beside its texts.
+//! The settings of a definition besides its texts.
 
 use pathbuild_diagnostic::Text;
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use crate::Units;
 
-/// `[post]`.
+/// The table `[post]`.
 #[derive(Clone, Debug)]
 pub(super) struct Settings {
     pub(super) name: Box<str>,
     pub(super) extension: Box<str>,
     pub(super) end_of_line: &'static str,
     pub(super) decimals: usize,
-    /// `None`: those of the program.
+    /// Unit of the output; `None` means that of the program.
     pub(super) units: Option<Units>,
     pub(super) number_lines: bool,
-    /// Blanks at the ends of lines are taken away.
+    /// Whether trailing blanks of lines are removed.
     pub(super) trim: bool,
     pub(super) dialect: Option<Box<str>>,
-    /// Greatest distance of a line from the arc that it stands for, mm.
+    /// Greatest distance between an arc and the lines that replace it, in mm.
     pub(super) arc_tolerance: f64,
-    /// The widest angle of an arc, degrees; wider ones are cut.
+    /// Widest sweep of an arc in degrees; wider arcs are split.
     pub(super) arc_sweep: f64,
-    /// A way down between two passes may be made by lifting the tool out and coming down again.
+    /// Whether the descent from one pass to the next may be replaced by retracting the tool and plunging again.
     pub(super) lift_between_passes: bool,
 }
 
@@ -48,15 +48,15 @@ impl Default for Settings {
 pub(super) struct Setting {
     /// The key.
     pub(super) name: &'static str,
-    /// What it takes.
+    /// Permitted values.
     pub(super) expected: &'static Text,
-    /// Sets it; nothing where the value is no such thing.
+    /// Applies a value; returns `None` if the value is not permitted.
     pub(super) set: fn(&mut Settings, &DeValue<'_>) -> Option<()>,
-    /// What it sets, and what holds without it, for the book.
+    /// Meaning and default, for the book.
     pub(super) about: Text,
 }
 
-/// The keys of `[post]`.
+/// All keys of `[post]`.
 pub(super) static SETTINGS: &[Setting] = &[
     Setting {
         name: "name",

@@ -1,4 +1,4 @@
-//! Statements that hold other statements: assignments, conditions, comparisons.
+//! Statements that can contain other statements: assignments, conditions, comparisons.
 
 use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::posts;
@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::posts;
 use super::evaluate::Evaluator;
 use super::fault::{Evaluated, Fault};
 
-/// What a statement is, by the character behind its brace. Any other character begins a number.
+/// Kind of a statement, identified by the character after its brace. Any other character starts a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StatementKind {
     Assignment,
@@ -18,18 +18,18 @@ pub(super) enum StatementKind {
     VariableName,
 }
 
-/// A statement that is no number.
+/// A statement that is not a number.
 #[derive(Debug)]
 pub(super) struct StatementForm {
     pub(super) sign: char,
     pub(super) kind: StatementKind,
-    /// How it is spelt, for the book.
+    /// Notation, for the book.
     pub(super) form: &'static str,
-    /// What it gives, for the book.
+    /// Result, for the book.
     pub(super) about: Text,
 }
 
-/// The statements that are no numbers.
+/// All statements that are not numbers.
 pub(super) static STATEMENTS: &[StatementForm] = &[
     StatementForm {
         sign: '=',
@@ -122,7 +122,7 @@ impl Evaluator<'_> {
         self.branches(is_same)
     }
 
-    /// The result of the statement that comes next, which does not go into the text.
+    /// Evaluates the next statement and returns its result without adding it to the output.
     pub(super) fn result(&mut self) -> Evaluated<String> {
         if !self.rest().starts_with('{') {
             return Err(self.fault(&posts::BRANCH_EXPECTED, 0));
@@ -133,7 +133,7 @@ impl Evaluator<'_> {
         Ok(result.into_iter().map(|line| line.text).collect::<Vec<_>>().join("\n"))
     }
 
-    /// Evaluates the first branch or the second, which may be missing; the other one does nothing at all.
+    /// Evaluates the first or the second branch. The second branch is optional; the other branch has no effect at all.
     pub(super) fn branches(&mut self, takes_first: bool) -> Evaluated<()> {
         self.blanks();
         if !self.rest().starts_with('{') {
@@ -156,7 +156,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The brace that closes the statement that is open.
+    /// Position of the brace that closes the open statement.
     pub(super) fn closing_brace(&self, start: usize) -> Evaluated<usize> {
         let mut depth = 0_usize;
         let mut is_escaped = false;

@@ -1,7 +1,9 @@
-//! Mathematical terms: numbers, operators, functions. (book: program/reading)
+//! Mathematical terms: numbers, operators and functions. (book: program/reading)
 //!
-//! Everything is left-associative. From loosest to tightest: `||`, `&&`, comparisons with `& | ^` (bitwise), `+ -`, `* /`, `^^` (power),
-//! signs and `!`. The order of some of these, and all functions, are pathbuild's own: the manual's page does not tell.
+//! All operators are left-associative. From lowest to highest precedence: `||`, `&&`, comparisons with `&
+//! ^` (bitwise), `+ -`, `* /`,
+//! `^^` (power), signs and `!`. The manual does not specify the order of some of these, nor any functions, so those are defined by
+//! pathbuild.
 
 use pathbuild_diagnostic::messages::posts;
 
@@ -9,17 +11,17 @@ use super::fault::{Evaluated, Fault};
 use super::functions;
 use super::marks::is_mark;
 
-/// Parentheses and signs may be nested so deep.
+/// Maximum nesting depth of parentheses and signs.
 const MOST_DEPTH: usize = 64;
 
-/// The value of a term, and what is doubtful in it.
+/// The value of a term, and doubtful constructs in it.
 #[derive(Debug)]
 pub(super) struct Term {
     pub(super) value: f64,
     pub(super) doubts: Vec<Doubt>,
 }
 
-/// What may not be meant, or may not be understood by CAD6 itself.
+/// Constructs that are likely mistakes, or that CAD6 itself may not support.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Doubt {
     /// `--5`.
@@ -30,7 +32,7 @@ pub(super) enum Doubt {
     Extension,
 }
 
-/// The value of a term that is the whole of a text. Its value is a number, not infinite.
+/// Evaluates a term that makes up an entire text. The value is always finite.
 pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
     let mut parser = Parser { text, at: 0, depth: 0, doubts: Vec::new() };
     let value = parser.binary(0)?;
@@ -44,7 +46,7 @@ pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
     Ok(Term { value, doubts: parser.doubts })
 }
 
-/// The operators from loosest to tightest; of two that begin alike the longer one comes first.
+/// The operators from lowest to highest precedence. Where one is a prefix of another, the longer one is first.
 pub(super) const LEVELS: [&[&str]; 6] =
     [&["||"], &["&&"], &["<=", ">=", "==", "!=", "<", ">", "&", "|", "^"], &["+", "-"], &["*", "/"], &["^^"]];
 
@@ -97,7 +99,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    /// Takes an operator of a level, if one comes next.
+    /// Consumes an operator of this level, if one follows.
     fn operator(&mut self, operators: &'static [&'static str]) -> Option<&'static str> {
         self.blanks();
         let rest = self.rest();
@@ -207,7 +209,7 @@ fn truth(is_true: bool) -> f64 {
     f64::from(u8::from(is_true))
 }
 
-/// `None` where bits of a number that is not whole are asked for.
+/// Applies an operator. Returns `None` for a bitwise operator on a number that is not an integer.
 fn apply(operator: &str, a: f64, b: f64) -> Option<f64> {
     Some(match operator {
         "||" => truth(a != 0.0 || b != 0.0),
@@ -229,7 +231,7 @@ fn apply(operator: &str, a: f64, b: f64) -> Option<f64> {
     })
 }
 
-/// A whole number that an `f64` holds exactly.
+/// Converts the value to an integer if an `f64` can represent it exactly.
 pub(super) fn bits(value: f64) -> Option<i64> {
     #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]
     (value.fract() == 0.0 && value.abs() <= 9_007_199_254_740_992.0).then_some(value as i64)

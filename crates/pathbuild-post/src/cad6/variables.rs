@@ -1,4 +1,4 @@
-//! The variables of control texts: which there are, and what they hold.
+//! The variables available in control texts, and their values.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,20 +7,20 @@ use pathbuild_diagnostic::Text;
 
 use super::marks::{MOST_TEXTS, char_of_text, is_private, text_of};
 
-/// A variable that pathbuild sets.
+/// A variable set by pathbuild.
 #[derive(Debug)]
 pub(super) struct Variable {
-    /// Its name without tildes.
+    /// Name without tildes.
     pub(super) name: &'static str,
-    /// Whether it holds no number.
+    /// Whether its value is a text instead of a number.
     pub(super) is_text: bool,
-    /// Where it has a value.
+    /// Where it is available.
     pub(super) presence: Presence,
-    /// What it holds.
+    /// Meaning of the value.
     pub(super) about: Text,
 }
 
-/// Where a variable has a value. (book: reference/post-definitions)
+/// Where a variable is available. (book: reference/post-definitions)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Presence {
     Always,
@@ -39,7 +39,7 @@ pub(super) enum Presence {
 }
 
 impl Presence {
-    /// What the book says of it.
+    /// Description for the book.
     pub(super) fn word(self) -> Text {
         let word = |en, de| Text { en, de };
         match self {
@@ -73,13 +73,13 @@ impl Variable {
         Self { name, is_text: true, presence, about: Text { en, de } }
     }
 
-    /// The variable of a name.
+    /// Finds a variable by its name.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
 }
 
-/// The variables that pathbuild sets, in the order in which they are documented.
+/// All variables set by pathbuild, in the order in which they are documented.
 pub(super) static VARIABLES: &[Variable] = &[
     Variable::number(
         "X1",
@@ -223,7 +223,7 @@ pub(super) static VARIABLES: &[Variable] = &[
     ),
 ];
 
-/// Why a variable that pathbuild sets has no value at some places; `None` if it sets no variable of that name.
+/// The reason why a variable is not available in some places, or `None` if pathbuild sets no such variable.
 pub(super) fn reason(name: &str) -> Option<&'static Text> {
     let reason = match name {
         "MillingSpindleRate" => &Text {
@@ -255,57 +255,57 @@ pub(super) fn reason(name: &str) -> Option<&'static Text> {
     Some(reason)
 }
 
-/// Whether a name is that of a parameter that every user may set: Q0, Q1 ..., T0, T1 ...
+/// Whether a name is that of a parameter that users may set: Q0, Q1 ..., T0, T1 ...
 pub(super) fn is_parameter(name: &str) -> bool {
     let digits = name.strip_prefix(['Q', 'T']);
     digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit()))
 }
 
-/// What the variables hold. A variable's text may name other variables.
+/// The values of the variables. A value may refer to other variables.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Variables {
     values: BTreeMap<Box<str>, Box<str>>,
-    /// Names of the definition's own, and the variables that they stand for.
+    /// Names introduced by the definition, with the variables they stand for.
     aliases: BTreeMap<Box<str>, Box<str>>,
-    /// Texts of drawings, file names and options. In values a character stands for each, so that nothing in them is ever read again.
+    /// Texts from drawings, file names and options. Values contain a placeholder character for each, so that the texts are never evaluated.
     texts: Vec<Box<str>>,
     numbers: BTreeMap<Box<str>, usize>,
 }
 
 impl Variables {
-    /// No variables; `aliases` are pairs of another name and the one it stands for.
+    /// Creates an empty set of variables. `aliases` are pairs of an alias and the variable it stands for.
     pub(super) fn new<'a>(aliases: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let aliases = aliases.into_iter().map(|(other, own)| (other.into(), own.into())).collect();
         Self { aliases, ..Self::default() }
     }
 
-    /// pathbuild's name of a variable that the definition calls otherwise.
+    /// Resolves an alias to the name of the variable.
     pub(super) fn own_name<'a>(&'a self, name: &'a str) -> &'a str {
         self.aliases.get(name).map_or(name, |own| own)
     }
 
-    /// The text of a variable, if it exists.
+    /// The value of a variable, if it exists.
     pub(super) fn get(&self, name: &str) -> Option<&str> {
         self.values.get(self.own_name(name)).map(|value| &**value)
     }
 
-    /// Gives a variable a text that may name others.
+    /// Sets a variable to a text that may refer to other variables.
     pub(super) fn assign(&mut self, name: &str, text: &str) {
         let name = self.own_name(name).into();
         self.values.insert(name, text.into());
     }
 
-    /// Makes a variable undefined.
+    /// Removes a variable.
     pub(super) fn remove(&mut self, name: &str) {
         self.values.remove(name);
     }
 
-    /// Gives a variable a number.
+    /// Sets a variable to a number.
     pub(super) fn set(&mut self, name: &str, value: f64) {
         self.assign(name, &super::numbers::shortest(value));
     }
 
-    /// Gives a variable a text in which nothing has a meaning.
+    /// Sets a variable to a text that is never evaluated.
     pub(super) fn set_text(&mut self, name: &str, text: &str) {
         let number = match self.numbers.get(text) {
             Some(number) => *number,
@@ -314,7 +314,7 @@ impl Variables {
         self.assign(name, char_of_text(number).encode_utf8(&mut [0; 4]));
     }
 
-    /// The last place is used again when there are more texts than characters.
+    /// Adds a text. If there are more texts than placeholders, the last placeholder is reused.
     fn add(&mut self, text: &str) -> usize {
         if self.texts.len() == MOST_TEXTS {
             self.texts.pop();
@@ -330,7 +330,7 @@ impl Variables {
         self.texts.get(text_of(c)?).map(|text| &**text)
     }
 
-    /// A value with its texts in it, to be compared or read as a number, never to be expanded.
+    /// Replaces the placeholders of a value by their texts. The result is only compared or parsed as a number, never expanded.
     pub(super) fn plain<'t>(&self, value: &'t str) -> Cow<'t, str> {
         if !value.contains(is_private) {
             return Cow::Borrowed(value);

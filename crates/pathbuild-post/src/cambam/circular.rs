@@ -1,4 +1,5 @@
-//! Arcs of an operation: as arcs where their written numbers still are a circle, else as lines where the definition says so.
+//! Arcs of an operation. They are written as arcs if they are still circular after rounding, otherwise as lines if the definition permits
+//! it.
 
 use std::f64::consts::PI;
 
@@ -15,7 +16,7 @@ use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
 const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
 
 impl Writer<'_> {
-    /// A circular move, in the form that the definition's options ask for.
+    /// Writes a circular move in the form required by the options of the definition.
     pub(super) fn arc(&mut self, it: &Move, course: &Course) -> Written {
         let options = &self.plan.definition.options;
         if options.arcs_as_lines || options.rotary.wrap {
@@ -54,7 +55,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the template has the radius and no centre: then the way round is only clear for less than half a turn.
+    /// Whether the template uses the radius but no centre. Then the arc is only unambiguous if it sweeps less than half a turn.
     fn is_written_by_radius(&self, course: &Course) -> bool {
         let template = self.plan.definition.section(self.arc_section(&course.arc()));
         let has_centre = template.macros().any(|(what, _)| match what {
@@ -71,7 +72,7 @@ impl Writer<'_> {
         if arc.clockwise == is_inverted { Section::ArcCcw } else { Section::ArcCw }
     }
 
-    /// How the numbers of arcs are rounded.
+    /// Passes the rounding rules of arcs to a function.
     fn rounded<T>(&self, ask: impl FnOnce(&Rounding<'_>) -> T) -> T {
         let length = |length: f64| self.number_format().round(self.scaled(length));
         ask(&Rounding { length: &length, is_absolute: self.is_absolute() })
@@ -101,5 +102,5 @@ impl Writer<'_> {
     }
 }
 
-/// Arcs written by radius are cut into pieces of at most this angle.
+/// Arcs written by radius are split into parts of at most this angle.
 const WIDEST_BY_RADIUS: f64 = PI * 2.0 / 3.0;

@@ -1,4 +1,4 @@
-//! The command that a definition wants to be run on the finished file, as a list of arguments. It is never run here.
+//! The command that a definition asks to run on the finished file, as a list of arguments. It is not run here.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
@@ -8,7 +8,7 @@ use super::plan::framed;
 use crate::PostOptions;
 use crate::job::Job;
 
-/// The program and its arguments; `None` when the definition has no command.
+/// Returns the program and its arguments, or `None` if the definition has no command.
 pub(super) fn post_build(
     definition: &Definition,
     file: &Utf8Path,
@@ -23,7 +23,7 @@ pub(super) fn post_build(
     let output = options.output.as_deref().map_or_else(default_output, str::to_owned);
     let mut words = vec![command.to_owned()];
     for argument in split(&definition.options.post_build_arguments) {
-        // Values are put in after splitting, so that a path with blanks stays one argument.
+        // Macros are replaced after splitting, so that a path with spaces remains one argument.
         let argument = argument.replace("{$outfile}", &output).replace("{$cbfile.name}", &job.name);
         if let Some(start) = argument.find("{$") {
             let name = argument[start + 2..].split('}').next().unwrap_or("");
@@ -35,7 +35,7 @@ pub(super) fn post_build(
     Ok(Some(words))
 }
 
-/// Arguments are separated by blanks; double quotes hold one together. Backslashes are those of Windows paths.
+/// Splits a command line at spaces. Double quotes group an argument. Backslashes are literal, as in Windows paths.
 fn split(text: &str) -> Vec<String> {
     let mut arguments: Vec<String> = Vec::new();
     let mut is_quoted = false;

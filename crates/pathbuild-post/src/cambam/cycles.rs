@@ -12,7 +12,7 @@ use super::writer::{Writer, Written};
 use crate::step::{Hole, HoleKind, Step};
 
 impl<'a> Writer<'a> {
-    /// The holes at the beginning of some steps as one group; returns the steps after it.
+    /// Writes the holes at the beginning of some steps as one group and returns the remaining steps.
     pub(super) fn cycles(&mut self, steps: &'a [Step]) -> Result<&'a [Step], Box<Diagnostic>> {
         let (group, rest) = steps.split_at(group_length(steps));
         let holes = || group.iter().filter_map(as_hole);
@@ -65,7 +65,7 @@ impl<'a> Writer<'a> {
         values
     }
 
-    /// A hole must not vanish because its section, or the word of its cycle, is empty.
+    /// Checks that a hole does not vanish because its section or the word of its cycle is empty.
     fn check_drilled(&self, hole: &Hole, section: Section) -> Written {
         let is_blank = self.plan.definition.section(section).is_blank();
         let Some(empty) = is_blank.then_some(section).or(self.empty_code) else { return Ok(()) };
@@ -75,16 +75,16 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Whether a hole can be a canned cycle, which ends at the height where it began.
+/// Whether a hole can be written as a canned cycle, which ends at the height where it started.
 pub(super) fn can_be_canned(hole: &Hole) -> bool {
     at_least(hole.exit, hole.level)
 }
 
-/// How many steps belong to one group: holes between which the tool stays at one level, and remarks among them.
+/// Number of steps in the group: holes between which the tool stays at the same level, and comments among them.
 fn group_length(steps: &[Step]) -> usize {
     let mut length = 0;
     let mut last: Option<&Hole> = None;
-    // Each kind of cycle is a group, since a control forgets R when the cycle's word changes.
+    // Different kinds of cycles are different groups, because a control forgets R when the word of the cycle changes.
     let continues = |last: &Hole, hole: &Hole| {
         near(last.exit, hole.level) && discriminant(&last.kind) == discriminant(&hole.kind)
     };

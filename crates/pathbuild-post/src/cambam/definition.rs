@@ -1,4 +1,4 @@
-//! Reading a CamBam definition: a flat XML file of templates and options.
+//! Reads a CamBam definition, a flat XML file of templates and options.
 
 use std::collections::{HashMap, HashSet};
 
@@ -17,18 +17,18 @@ use crate::findings::{Findings, LineStarts};
 use crate::job::Units;
 use crate::number::FEWEST_DECIMALS;
 
-/// A definition as its file has it.
+/// A definition as it is in its file.
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
-    /// By section; `None` where the element is absent, which is not the same as empty.
+    /// Indexed by section; `None` if the element is absent, which is different from empty.
     sections: Vec<Option<Template>>,
     defaults: Vec<Template>,
     pub(super) options: Options,
-    /// The user macros of `PostProcessorMacros`.
+    /// The user macros in `PostProcessorMacros`.
     pub(super) macros: UserMacros,
 }
 
-/// Macros by name, in the order in which they were defined.
+/// Macros by name, in order of definition.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UserMacros {
     macros: Vec<(Box<str>, Template)>,
@@ -36,7 +36,7 @@ pub(super) struct UserMacros {
 }
 
 impl UserMacros {
-    /// Defines a macro; the last definition of a name holds.
+    /// Defines a macro; later definitions replace earlier ones.
     pub(super) fn set(&mut self, name: &str, text: Template) {
         let next = self.macros.len();
         match *self.by_name.entry(name.into()).or_insert(next) {
@@ -50,22 +50,22 @@ impl UserMacros {
         self.by_name.get(name).map(|&index| &self.macros[index].1)
     }
 
-    /// The names, in order.
+    /// The names, in order of definition.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.macros.iter().map(|(name, _)| &**name)
     }
 
-    /// The texts, in order.
+    /// The texts, in order of definition.
     pub(super) fn texts(&self) -> impl Iterator<Item = &Template> {
         self.macros.iter().map(|(_, text)| text)
     }
 }
 
-/// No definition has as many elements; a file that has is hostile.
+/// Files with more elements are refused, because they can only be malicious.
 const MOST_ELEMENTS: u32 = 10_000;
 
 impl Definition {
-    /// Reads a definition. Elements that are not understood are warnings beside it.
+    /// Parses a definition. Elements that are not understood are returned as warnings.
     pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         let limits = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
         let document =
@@ -85,38 +85,38 @@ impl Definition {
         &self.options.extension
     }
 
-    /// The dialect that it names.
+    /// The dialect named in the definition.
     pub(crate) fn dialect(&self) -> Option<&str> {
         self.options.dialect.as_deref()
     }
 
-    /// Whether it switches the spindle.
+    /// Whether the definition switches the spindle.
     pub(crate) fn switches_spindle(&self) -> bool {
         let is_spindle =
             |what: &Macro| matches!(what, Macro::State(State::Spindle) | Macro::SpindleUp | Macro::Speed);
         self.templates().flat_map(Template::macros).any(|(what, _)| is_spindle(what))
     }
 
-    /// Whether it waits until the spindle turns.
+    /// Whether the definition waits until the spindle is up to speed.
     pub(crate) fn waits_for_spindle(&self) -> bool {
         self.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::SpindleUp)
     }
 
-    /// Whether axes are not the program's: wrapped round a cylinder, or with another sign.
+    /// Whether the output axes differ from those of the program: wrapped around a cylinder, or with reversed sign.
     pub(crate) fn has_own_axes(&self) -> bool {
         let is_turned = |what: &Macro| matches!(what, Macro::Register(_, Form::Reversed));
         self.options.rotary.wrap
             || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }
 
-    /// Whether paths are wrapped round a cylinder.
+    /// Whether paths are wrapped around a cylinder.
     pub(crate) fn is_wrapped(&self) -> bool {
         self.options.rotary.wrap
     }
 
-    /// Whether nothing is moved in Z: a beam is switched on where a cut starts and off where it ends.
+    /// Whether the definition never moves in Z but switches a beam on where a cut starts and off where it ends.
     pub(crate) fn is_flat(&self) -> bool {
-        // Other macros may stand for anything.
+        // Other macros may expand to anything.
         let is_without_z = |what: &Macro| match what {
             Macro::Register(register, _) | Macro::Value(Value::MoveAxis(register)) => {
                 *register != Register::Z
@@ -134,28 +134,28 @@ impl Definition {
                 .all(|section| !self.section(section).is_blank())
     }
 
-    /// Decimals of the numbers that are written.
+    /// Number of decimals in the output.
     pub(crate) fn decimals(&self) -> u8 {
         self.options.number_format.most_decimals()
     }
 
-    /// Greatest distance in mm of a line from the arc that it stands for.
+    /// Greatest distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self, units: Units) -> f64 {
         self.options.arc_tolerance * units.millimetres()
     }
 
-    /// Whether a hole becomes the word of a cycle.
+    /// Whether holes are written with the word of a cycle.
     pub(crate) fn writes_cycles(&self) -> bool {
         !self.section(Section::G81).is_blank()
     }
 
-    /// The text of a section: the file's own, else the one that stands in for an absent element.
+    /// Template of a section: that of the file, or the default if the element is absent.
     pub(super) fn section(&self, section: Section) -> &Template {
         let index = section as usize;
         self.sections[index].as_ref().unwrap_or(&self.defaults[index])
     }
 
-    /// Every template of the file and those that stand in for absent ones.
+    /// All templates of the file, and the defaults of absent elements.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
         Section::ALL.iter().map(|&section| self.section(section)).chain(self.macros.texts())
     }
@@ -213,7 +213,7 @@ impl<'a> CbppReader<'a> {
         }
     }
 
-    /// Elements within one that holds a text mean nothing.
+    /// Reports elements nested in a text element, which are ignored.
     fn notice_nested(&mut self, element: Node<'_, '_>) {
         for nested in element.children().filter(Node::is_element) {
             let line = self.lines.line(nested.range().start);
@@ -237,7 +237,7 @@ impl<'a> CbppReader<'a> {
         }
     }
 
-    /// `{units}` would be written as it stands.
+    /// Reports `{units}` and the like, which would be written literally.
     fn notice_bare_macros(&mut self, template: &Template) {
         if matches!(template.section, Section::Comment | Section::EndComment) {
             return;
@@ -305,7 +305,7 @@ impl<'a> CbppReader<'a> {
     }
 }
 
-/// The text of an element, and the byte at which it begins.
+/// The text of an element, and its offset.
 fn text_of(element: Node<'_, '_>) -> (String, usize) {
     let first = element.children().find(Node::is_text);
     let start = first.map_or(element.range().start, |text| text.range().start);
@@ -313,14 +313,14 @@ fn text_of(element: Node<'_, '_>) -> (String, usize) {
     (text, start)
 }
 
-/// `$name=value`.
+/// Parses `$name=value`.
 fn user_macro(line: &str) -> Option<(&str, &str)> {
     let (name, value) = line.trim().strip_prefix('$')?.split_once('=')?;
     let name = name.trim();
     (!name.is_empty() && !name.contains(['{', '}', '(', ')', '$'])).then_some((name, value.trim()))
 }
 
-/// Whether a macro of that name stands for something that nobody else may define.
+/// Whether a macro with this name is built in, so that nobody can redefine it.
 pub(super) fn is_built_in(name: &str) -> bool {
     match Macro::parse(name) {
         Ok(Macro::User(_)) => false,
@@ -329,7 +329,7 @@ pub(super) fn is_built_in(name: &str) -> bool {
     }
 }
 
-/// What is wrong in a template, as it is reported.
+/// Converts an error in a template to a diagnostic.
 pub(super) fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> Diagnostic {
     let diagnostic = match &error.fault {
         Fault::Unclosed => Diagnostic::new(&posts::POST_UNCLOSED_MACRO),

@@ -1,4 +1,4 @@
-//! How much a post may write, so that macros that multiply come to an end.
+//! Limits how much a post may write, so that macros that multiply text come to an end.
 
 use super::plan::Plan;
 use crate::arcs::chords;
@@ -6,11 +6,11 @@ use crate::holes;
 use crate::job::Operation;
 use crate::step::Step;
 
-/// Bytes of text whatever the program, and more for each of its moves.
+/// Number of bytes allowed regardless of the program; each move adds more.
 const FUEL: usize = 1 << 20;
 const FUEL_PER_MOVE: usize = 1 << 12;
 
-/// Bytes that a program may come to; every macro counts as one more.
+/// Number of bytes that a program may produce; each macro costs one more.
 pub(super) fn fuel(plan: &Plan<'_>) -> usize {
     let moves = |operation: &Operation| -> usize {
         let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
@@ -20,7 +20,7 @@ pub(super) fn fuel(plan: &Plan<'_>) -> usize {
     FUEL + FUEL_PER_MOVE.saturating_mul(moves)
 }
 
-/// How many moves a step can become.
+/// Maximum number of moves that a step can become.
 fn moves_of(step: &Step, plan: &Plan<'_>) -> usize {
     match step {
         Step::Move(it) => {

@@ -8,28 +8,28 @@ use super::section::Section;
 #[expect(clippy::struct_excessive_bools, reason = "facts that do not depend on each other")]
 pub(super) struct Line {
     pub(super) text: String,
-    /// What did not come from macros of motion codes.
+    /// The text that does not come from macros of motion codes.
     pub(super) rest: String,
-    /// What is added comes from such a macro.
+    /// Whether the text added at the moment comes from such a macro.
     pub(super) is_in_code: bool,
-    /// A register was asked for.
+    /// Whether a register macro was expanded.
     pub(super) asked: bool,
-    /// A register was written.
+    /// Whether a register was written.
     pub(super) answered: bool,
-    /// Registers that were written with the other sign.
+    /// Registers written with reversed sign.
     pub(super) turned: Vec<Register>,
-    /// The motion that a macro stood for.
+    /// The motion of a code macro in this line.
     pub(super) code: Option<Code>,
-    /// The section and the line of the definition's file that begin it.
+    /// Section and line of the definition's file where the line begins.
     pub(super) origin: Option<(Section, u32)>,
-    /// It asks for the number of a tool where the program names none: such a line is not written.
+    /// Whether the line requires a tool number that the program does not have. Such lines are not written.
     pub(super) names_no_tool: bool,
-    /// Something was left out at the end of the text; whether blanks stood before it.
+    /// Set if something was omitted at the end of the text: whether it was preceded by blanks.
     gap: Option<bool>,
 }
 
 impl Line {
-    /// Adds text without line feeds.
+    /// Adds text without line breaks.
     pub(super) fn push(&mut self, text: &str) {
         if text.is_empty() {
             return;
@@ -50,7 +50,7 @@ impl Line {
         }
     }
 
-    /// Leaves something out, with the blanks round it: one stays where both neighbours had one.
+    /// Omits something together with the blanks around it; one blank remains if there were blanks on both sides.
     pub(super) fn leave_out(&mut self) {
         let length = self.text.trim_end_matches([' ', '\t']).len();
         self.gap = Some(length < self.text.len());
@@ -58,7 +58,7 @@ impl Line {
     }
 }
 
-/// One blank where there are several, none at the ends.
+/// Replaces runs of blanks by one blank and removes those at the ends.
 pub(super) fn collapse(text: &str) -> String {
     text.split([' ', '\t', '\r']).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }

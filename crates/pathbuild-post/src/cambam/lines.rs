@@ -1,4 +1,4 @@
-//! The lines of the output: numbers in front, ends behind.
+//! The lines of the output with their numbers and line ends.
 
 use super::options::Options;
 
@@ -15,7 +15,7 @@ impl<'a> Lines<'a> {
         Self { options, text: String::new(), next_number: options.numbering.start.into() }
     }
 
-    /// Adds a line, which is not blank.
+    /// Adds a line, which must not be blank.
     pub(super) fn push(&mut self, line: &str) {
         if self.options.add_line_numbers
             && !line.starts_with(|first| self.options.numbering.skip.contains(first))
@@ -36,12 +36,12 @@ impl<'a> Lines<'a> {
         self.next_number += u64::from(numbering.increment);
     }
 
-    /// How many bytes there are so far.
+    /// Length so far, in bytes.
     pub(super) fn length(&self) -> usize {
         self.text.len()
     }
 
-    /// The whole text.
+    /// Returns the whole text.
     pub(super) fn finish(self) -> String {
         if self.options.upper_case { self.text.to_uppercase() } else { self.text }
     }

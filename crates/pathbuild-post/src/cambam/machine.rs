@@ -1,4 +1,4 @@
-//! The state of the machine as the lines written so far leave it.
+//! The state of the machine after the lines written so far.
 
 use pathbuild_motion::{Coolant, Plane, Turning};
 
@@ -7,19 +7,19 @@ use crate::job::VelocityMode;
 use crate::number::NumberFormat;
 use crate::words::{Word, Words};
 
-/// What is known of the machine. `None` is unknown, as everything is at the beginning.
+/// What is known of the state. `None` means unknown, like everything at the beginning.
 #[derive(Debug, Default)]
 pub(super) struct Machine {
-    /// The last number of each register as text, so that equal means: would be written the same.
+    /// The last number of each register as text, so that equality means that it would be written in the same way.
     registers: [Option<Box<str>>; Register::ALL.len()],
-    /// The motion or cycle in force: ten times the number behind G.
+    /// The active motion or cycle: ten times the number of its G code.
     motion: Option<u32>,
-    /// The tool that was changed to.
+    /// The tool in the spindle, as far as tool changes tell.
     pub(super) tool: Option<u32>,
-    /// The T word that no M6 followed yet.
+    /// The number of a T word that has not yet been followed by M6.
     selected: Option<u32>,
     pub(super) spindle: Option<Turning>,
-    /// The last S.
+    /// The last value of S.
     pub(super) speed: Option<f64>,
     pub(super) coolant: Option<Coolant>,
     pub(super) velocity: Option<VelocityMode>,
@@ -38,30 +38,30 @@ impl Machine {
         self.written(register)?.parse().ok()
     }
 
-    /// Sets a register, or makes it unknown.
+    /// Sets a register, or marks it as unknown.
     pub(super) fn set(&mut self, register: Register, text: Option<String>) {
         self.registers[register as usize] = text.map(Into::into);
     }
 
-    /// Makes registers unknown.
+    /// Marks registers as unknown.
     pub(super) fn forget(&mut self, registers: &[Register]) {
         for &register in registers {
             self.set(register, None);
         }
     }
 
-    /// Whether a motion is in force.
+    /// Whether a motion is active.
     pub(super) fn is_in(&self, code: Code) -> bool {
         self.motion == Some(code.number() * 10)
     }
 
-    /// Another tool is in. Its spindle stands still on one control and turns on the next.
+    /// Records a tool change. Afterwards some controls have stopped the spindle and others have not.
     pub(super) fn change_tool(&mut self, tool: u32) {
         self.tool = Some(tool);
         self.spindle = None;
     }
 
-    /// Takes note of a line. `code` is the motion that a macro stands for in it, however its section spells it.
+    /// Updates the state by a line. `code` is the motion of a macro in that line, whatever text its section has.
     pub(super) fn read(&mut self, line: &Words, code: Option<Code>, format: NumberFormat) {
         if let Some(code) = code {
             self.motion = Some(code.number() * 10);
@@ -131,25 +131,25 @@ impl Machine {
             self.set(register, known.then(|| format.format(word.number)));
         }
         if moved && self.motion.is_some_and(|motion| motion == 730 || (810..=890).contains(&motion)) {
-            // A cycle leaves the tool at R, as far as the post is concerned, wherever the control takes it then.
+            // As far as the post is concerned, a cycle leaves the tool at R, whatever the control does afterwards.
             let retract = self.written(Register::R).map(str::to_owned);
             self.set(Register::Z, retract);
         }
     }
 }
 
-/// What the axis words of a line are.
+/// The meaning of the axis words in a line.
 #[derive(Default)]
 struct Moves {
-    /// No coordinates of the tool at all (G4, G10).
+    /// They are not coordinates of the tool (G4, G10).
     none: bool,
-    /// Coordinates of another system, or relative ones: where the tool is afterwards is not known.
+    /// They are in another coordinate system, or relative, so that the position afterwards is unknown.
     displaced: bool,
-    /// Points on the way to a fixed place (G28, G30).
+    /// They are an intermediate point on the way to a fixed position (G28, G30).
     everywhere: bool,
 }
 
-/// Ten times a word's number; none for numbers that no code has.
+/// Ten times the number of a word, or `None` if no code has such a number.
 fn tenths(word: &Word) -> Option<u32> {
     let tenths = (word.number * 10.0).round();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]

@@ -1,14 +1,14 @@
-//! What the macros of CamBam definitions stand for.
+//! The meaning of the macros in CamBam definitions.
 
 use pathbuild_diagnostic::Text;
 
 use super::registers::{Code, Form, Register};
 use super::section::Section;
 
-/// What a macro stands for.
+/// What a macro expands to.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Macro {
-    /// The text of a section, whatever the state.
+    /// The text of a section, regardless of the state.
     Section(Section),
     /// A number or name of the program, without a letter.
     Value(Value),
@@ -16,43 +16,42 @@ pub(super) enum Macro {
     Register(Register, Form),
     /// `S` with the spindle speed.
     Speed,
-    /// The spindle's direction with its speed, and the time that it takes, when either changes (pathbuild's own).
+    /// The direction of the spindle with its speed, and the time to get there, if either changes (extension of pathbuild).
     SpindleUp,
-    /// The word of a motion or cycle; `modal`: only when it is not the one in force.
+    /// The word of a motion or cycle; if `modal`, only when it is not active already.
     Code {
-        /// Which.
         code: Code,
-        /// `{$_g1}`.
+        /// Whether the macro is of the form `{$_g1}`.
         modal: bool,
     },
-    /// The section that the program's unit or an option of the definition chooses.
+    /// The section selected by the unit of the program or an option of the definition.
     Choice(Choice),
-    /// The state that the operation wants, when the machine is not in it.
+    /// The state required by the operation, if the machine is not in it.
     State(State),
-    /// Whole lines.
+    /// Entire lines.
     Block(Block),
-    /// `{$check(x,y,z)}`: goes there unless the tool is there.
+    /// `{$check(x,y,z)}`: moves there unless the tool is there already.
     Check([Argument; 3]),
-    /// `{$set(x,value)}`: writes nothing; `None` is `NaN`.
+    /// `{$set(x,value)}`: sets a register without writing anything; `None` is `NaN`.
     Set(Register, Option<f64>),
-    /// `{$set(tool)}`: writes nothing; the operation's tool is in, though no M6 says so (pathbuild's own).
+    /// `{$set(tool)}`: assumes the tool of the operation without writing anything, although there is no M6 (extension of pathbuild).
     SetTool,
-    /// A macro that the definition or the configuration defines.
+    /// A macro defined by the definition or the configuration.
     User(Box<str>),
 }
 
-/// A coordinate given to `{$check}`.
+/// A coordinate passed to `{$check}`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Argument {
-    /// Wherever it is.
+    /// Any position will do.
     Any,
-    /// That of the present move.
+    /// The coordinate of the current move.
     Own,
-    /// This, in the program's unit.
+    /// A coordinate in the unit of the program.
     Number(f64),
 }
 
-/// What decides between two sections.
+/// What selects one of two sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
     Units,
@@ -69,20 +68,20 @@ pub(super) enum State {
     Coolant,
 }
 
-/// Macros that stand for lines.
+/// Macros that expand to lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Block {
-    /// Every operation through the MOP section.
+    /// All operations, each through the MOP section.
     Mops,
-    /// The present operation's moves.
+    /// The moves of the current operation.
     Blocks,
-    /// A line for each tool.
+    /// One line per tool.
     ToolTable,
-    /// The change to the operation's tool, unless it is in.
+    /// Changes to the tool of the operation, unless it is in the spindle.
     ToolChange,
-    /// The change to the first operation's tool, unless it is in.
+    /// Changes to the tool of the first operation, unless it is in the spindle.
     FirstToolChange,
-    /// Up to the clearance plane, unless the tool is there.
+    /// Moves up to the clearance plane, unless the tool is there.
     Clearance,
     /// Custom text before the program.
     FileHeader,
@@ -95,7 +94,7 @@ pub(super) enum Block {
 }
 
 impl Value {
-    /// Whether it is no number but a text of the drawing, the configuration or the command line.
+    /// Whether the value is a text from the drawing, the configuration or the command line, not a number.
     pub(super) fn is_text(self) -> bool {
         matches!(
             self,
@@ -113,7 +112,7 @@ impl Value {
 }
 
 impl Value {
-    /// Whether neither drawings nor programs say it, or only in part: the definition or the configuration may.
+    /// Whether drawings and programs do not provide the value, or not always, so that the definition or the configuration may.
     pub(super) fn is_open(self) -> bool {
         matches!(
             self,
@@ -129,7 +128,7 @@ impl Value {
 }
 
 impl Value {
-    /// What it stands for, for the book.
+    /// Description for the book.
     pub(super) fn word(self) -> Text {
         let word = |en, de| Text { en, de };
         match self {
@@ -216,7 +215,7 @@ impl Value {
 }
 
 impl Block {
-    /// What it stands for, for the book.
+    /// Description for the book.
     pub(super) fn word(self) -> Text {
         let word = |en, de| Text { en, de };
         match self {
@@ -258,7 +257,7 @@ impl Block {
 }
 
 impl State {
-    /// What it stands for, for the book.
+    /// Description for the book.
     pub(super) fn word(self) -> Text {
         let word = |en, de| Text { en, de };
         match self {
@@ -280,7 +279,7 @@ impl State {
 }
 
 impl Choice {
-    /// What it stands for, for the book.
+    /// Description for the book.
     pub(super) fn word(self) -> Text {
         let word = |en, de| Text { en, de };
         match self {
@@ -297,7 +296,7 @@ impl Choice {
     }
 }
 
-/// Values that are written bare.
+/// Values written without a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Value {
     FileName,

@@ -1,7 +1,7 @@
 //! CamBam post-processor definitions (.cbpp): named templates with macros, and options. (book: program/posts)
 //!
-//! A [`Definition`] is read once; a `Plan` brings it together with a program and checks every macro; a `Writer` expands the
-//! templates line by line and reads every line back, because what it writes next depends on what the machine knows.
+//! A [`Definition`] is read once. A `Plan` combines it with a program and checks all macros. A `Writer` expands the templates line by line
+//! and reads each line back, because the next line depends on the state of the machine.
 
 mod circular;
 mod command;
@@ -38,7 +38,7 @@ use super::PostOptions;
 use super::job::Job;
 use super::target::Target;
 
-/// Writes a job that has operations.
+/// Writes a job, which must contain operations.
 pub(super) fn write(
     definition: &Definition,
     file: &Utf8Path,
@@ -53,12 +53,12 @@ pub(super) fn write(
     Ok(Written { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
 
-/// What the engine wrote.
+/// The output of the engine.
 pub(super) struct Written {
     pub(super) text: WrittenText,
-    /// The definition's own command.
+    /// The command given in the definition.
     pub(super) post_build: Option<Vec<String>>,
-    /// The program says what the coolant does, and the definition has no macro for that.
+    /// Whether the program sets the coolant, but the definition has no macro for it.
     pub(super) leaves_out_coolant: bool,
 }
 

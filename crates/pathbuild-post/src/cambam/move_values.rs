@@ -1,22 +1,22 @@
-//! The numbers that registers have in a move.
+//! The values of the registers in a move.
 
 use super::registers::Register;
 
-/// The numbers that registers have in a move.
+/// The values of the registers in a move.
 #[derive(Debug, Default)]
 pub(super) struct MoveValues {
     registers: [Option<f64>; Register::ALL.len()],
-    /// The arc that the move is.
+    /// Set if the move is an arc.
     pub(super) arc: Option<ArcValues>,
 }
 
-/// The numbers of an arc: a length in the unit that is written, and degrees.
+/// The values of an arc: lengths in the output unit, angles in degrees.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArcValues {
     pub(super) radius: f64,
     pub(super) start: f64,
     pub(super) end: f64,
-    /// Clockwise is positive.
+    /// Positive if clockwise.
     pub(super) sweep: f64,
 }
 

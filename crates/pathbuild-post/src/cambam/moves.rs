@@ -15,7 +15,7 @@ use crate::job::Entry;
 use crate::step::Step;
 
 impl Writer<'_> {
-    /// The present operation's moves.
+    /// Writes the moves of the current operation.
     pub(super) fn blocks(&mut self) -> Written {
         match self.operation().entry {
             Entry::Clearance => self.clearance()?,
@@ -35,7 +35,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Any step but a canned cycle.
+    /// Writes any step except a canned cycle.
     pub(super) fn step(&mut self, step: &Step) -> Written {
         match step {
             Step::Move(it) => self.move_to(it),
@@ -58,36 +58,36 @@ impl Writer<'_> {
             (None, Pace::Probe { .. }) => {
                 let values = self.with_feed(it.pace.stated_feed());
                 self.go(Section::Probe, it.to.axes(), values)?;
-                // Where it stopped only the machine knows: what follows is written whole.
+                // Only the machine knows where the probe stopped, so the next coordinates are written in full.
                 self.machine.forget(&[Register::X, Register::Y, Register::Z]);
                 Ok(())
             }
         }
     }
 
-    /// A time as the control counts it.
+    /// Converts a time to the unit in which the control counts it.
     pub(super) fn dwell(&self, seconds: f64) -> f64 {
         let has_choice =
             self.plan.target.is_some_and(|target| target.reader.rules().dwell.p == DwellUnit::BySetting);
         if self.plan.options.milliseconds && has_choice { 1000.0 * seconds } else { seconds }
     }
 
-    /// Straight, cutting.
+    /// Writes a straight cut.
     pub(super) fn feed(&mut self, to: [Option<f64>; 3], feed: Option<f64>) -> Written {
         let values = self.with_feed(feed);
         self.go(Section::FeedMove, to, values)
     }
 
-    /// The numbers of a move that has none but a feed.
+    /// The register values of a move that has none besides the feed.
     pub(super) fn with_feed(&self, feed: Option<f64>) -> MoveValues {
         let mut values = MoveValues::default();
         values.set(Register::F, feed.map(|feed| self.scaled(feed)));
         values
     }
 
-    /// A move through a section: sets the numbers of the registers, and writes the texts of cutting's start and end round it.
+    /// Writes a move through a section: sets the register values, and adds the texts for the start and end of cutting.
     ///
-    /// Axes without a target stay where the machine is as far as the lines written so far tell.
+    /// Axes without a target stay at their position, as far as it is known from the lines written so far.
     pub(super) fn go(&mut self, section: Section, to: [Option<f64>; 3], values: MoveValues) -> Written {
         let was_cutting = self.is_cutting;
         if let Some(z) = to[2] {
@@ -105,7 +105,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Sets the numbers of the registers for a move.
+    /// Sets the register values for a move.
     pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> Written {
         self.move_values = values;
         for (axis, target) in to.into_iter().enumerate() {
@@ -115,7 +115,7 @@ impl Writer<'_> {
         self.wrap(to)
     }
 
-    /// Notes where the program has the tool now.
+    /// Records the position of the tool according to the program.
     pub(super) fn remember(&mut self, to: [Option<f64>; 3]) {
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {
@@ -125,8 +125,8 @@ impl Writer<'_> {
         }
     }
 
-    /// Where the tool is, in the unit that is written: by the program's own moves, which a template may write with another sign, unless a
-    /// line of another kind has moved it since.
+    /// The current position of the tool in the output unit. It follows from the moves of the program, which a template may write with
+    /// reversed sign, unless another kind of line has moved the tool since.
     fn present(&self, axis: usize) -> Option<f64> {
         let register = Register::AXES[axis];
         match &self.own[axis] {
@@ -135,7 +135,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the tool is at a coordinate, as it is written.
+    /// Whether the tool is at a coordinate after rounding.
     fn is_at(&self, axis: usize, target: f64) -> bool {
         let rotary = self.plan.definition.options.rotary;
         let register = if rotary.wrap && axis == 1 - rotary.along {
@@ -147,20 +147,20 @@ impl Writer<'_> {
             && self.present(axis).is_some_and(|at| self.number_format().format(at) == self.length(target))
     }
 
-    /// A section on lines of its own.
+    /// Writes a section on lines of its own.
     pub(super) fn lines_of(&mut self, section: Section) -> Written {
         self.section(section)?;
         self.end_line();
         Ok(())
     }
 
-    /// Whether a height is below the stock surface, as written.
+    /// Whether a height is below the stock surface after rounding.
     pub(super) fn is_below_surface(&self, z: f64) -> bool {
         let format = self.number_format();
         format.round(self.scaled(z)) < format.round(self.scaled(self.operation().surface))
     }
 
-    /// Turns the coordinate across a rotary axis into its angle.
+    /// Converts the coordinate across a rotary axis to its angle.
     fn wrap(&mut self, to: [Option<f64>; 3]) -> Written {
         let rotary = self.plan.definition.options.rotary;
         if !rotary.wrap {
@@ -177,14 +177,14 @@ impl Writer<'_> {
             let [least, most] = self.angles.get_or_insert([angle; 2]);
             (*least, *most) = (least.min(angle), most.max(angle));
         }
-        // The angle stands in place of the coordinate.
+        // The angle replaces the coordinate.
         self.move_values.set(Register::AXES[replaced], None);
         let register = ROTARY[rotary.letter];
         self.move_values.set(register, angle.or_else(|| self.machine.number(register)));
         Ok(())
     }
 
-    /// Up to the clearance plane, unless the tool is there.
+    /// Moves up to the clearance plane, unless the tool is there.
     pub(super) fn clearance(&mut self) -> Written {
         let clearance = self.operation().clearance;
         if self.is_at(2, clearance) {
@@ -198,7 +198,7 @@ impl Writer<'_> {
         self.go(Section::Rapid, to, MoveValues::default())
     }
 
-    /// `{$check(x,y,z)}`.
+    /// Expands `{$check(x,y,z)}`.
     pub(super) fn check_macro(&mut self, target: [Argument; 3]) -> Written {
         let unit = self.plan.unit();
         let mut to = [None; 3];
@@ -212,7 +212,7 @@ impl Writer<'_> {
         self.check(to)
     }
 
-    /// Goes somewhere by way of the clearance plane, unless the tool is there.
+    /// Moves to a position by way of the clearance plane, unless the tool is there.
     pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> Written {
         let is_there =
             target.iter().enumerate().all(|(axis, target)| target.is_none_or(|at| self.is_at(axis, at)));

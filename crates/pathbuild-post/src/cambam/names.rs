@@ -8,12 +8,12 @@ use super::section::{Section, coolant_section, spindle_section};
 use crate::suggest::nearest;
 use pathbuild_motion::{Coolant, Turning};
 
-/// A built-in macro without arguments has some, one with arguments lacks them, or they are none that it knows.
+/// An error in the arguments of a built-in macro: unexpected, missing, or not supported.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MacroArguments {
-    /// The call without its frame.
+    /// The call without `{$` and `}`.
     pub(super) call: Box<str>,
-    /// What it takes.
+    /// Permitted arguments.
     pub(super) expected: &'static Text,
 }
 
@@ -25,7 +25,7 @@ impl Value {
 }
 
 impl Macro {
-    /// Reads what stands between `{$` and `}`. A name that is not built in is a user macro's.
+    /// Parses the text between `{$` and `}`. Names that are not built in are user macros.
     pub(super) fn parse(call: &str) -> Result<Self, MacroArguments> {
         let call = call.trim();
         let (name, arguments) = match call.split_once('(') {
@@ -47,7 +47,7 @@ impl Macro {
         }
     }
 
-    /// The built-in name nearest to one that nobody defines.
+    /// The built-in name most similar to an undefined one.
     pub(super) fn nearest(name: &str) -> Option<&'static str> {
         nearest(name, FIXED.iter().map(|(name, _)| *name).chain(WITH.iter().map(|with| with.name)))
     }
@@ -58,7 +58,7 @@ fn without_arguments(name: &str) -> Option<Macro> {
     fixed.or_else(|| code(name)).or_else(|| register(name))
 }
 
-/// `g0`, `_g81`.
+/// Parses `g0`, `_g81`.
 fn code(name: &str) -> Option<Macro> {
     let bare = name.strip_prefix('_').unwrap_or(name);
     let number = bare.strip_prefix('g')?;
@@ -66,7 +66,7 @@ fn code(name: &str) -> Option<Macro> {
     Some(Macro::Code { code, modal: bare.len() < name.len() })
 }
 
-/// `x`, `_x`, `-x`, `+x`.
+/// Parses `x`, `_x`, `-x`, `+x`.
 fn register(name: &str) -> Option<Macro> {
     let mut letters = name.chars();
     let last = letters.next_back().filter(char::is_ascii_lowercase)?;
@@ -80,7 +80,7 @@ fn register(name: &str) -> Option<Macro> {
     Register::of(last).map(|register| Macro::Register(register, form))
 }
 
-/// A macro that takes arguments.
+/// A macro with arguments.
 pub(super) struct With {
     pub(super) name: &'static str,
     pub(super) expected: &'static Text,
@@ -91,7 +91,7 @@ fn with_arguments(name: &str) -> Option<&'static With> {
     WITH.iter().find(|with| with.name == name)
 }
 
-/// The macros that take arguments.
+/// All macros with arguments.
 pub(super) static WITH: &[With] = &[
     With {
         name: "cuttercomp",
@@ -195,7 +195,7 @@ fn finite(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// The macros that take no arguments, but for registers and codes.
+/// All macros without arguments, except registers and codes.
 pub(super) static FIXED: &[(&str, Macro)] = &[
     ("comment", Macro::Section(Section::Comment)),
     ("endcomment", Macro::Section(Section::EndComment)),

@@ -1,10 +1,10 @@
-//! The elements of a CamBam definition that hold a value instead of a template.
+//! The elements of a CamBam definition that contain a value instead of a template.
 
 use pathbuild_diagnostic::Text;
 
 use crate::number::NumberFormat;
 
-/// Every option, with the value that holds when its element is absent.
+/// All options, initially with the defaults for absent elements.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "the file's elements are independent switches")]
 pub(super) struct Options {
@@ -13,28 +13,28 @@ pub(super) struct Options {
     pub(super) upper_case: bool,
     pub(super) add_line_numbers: bool,
     pub(super) numbering: Numbering,
-    /// Arcs are written as lines.
+    /// Whether arcs are written as lines.
     pub(super) arcs_as_lines: bool,
-    /// I and J are absolute.
+    /// Whether I and J are absolute.
     pub(super) absolute_centres: bool,
-    /// Greatest distance of a line from the arc that it stands for, in the program's unit.
+    /// Greatest distance between an arc and the lines that replace it, in the unit of the program.
     pub(super) arc_tolerance: f64,
-    /// A shorter arc becomes a line; in the program's unit.
+    /// Arcs shorter than this are written as lines; in the unit of the program.
     pub(super) least_arc_length: f64,
-    /// An arc with a greater radius becomes a line; in the program's unit.
+    /// Arcs with a greater radius are written as lines; in the unit of the program.
     pub(super) greatest_arc_radius: f64,
-    /// Arcs in G18 turn the other way.
+    /// Whether arcs in G18 have the opposite direction.
     pub(super) invert_arcs: bool,
-    /// The way down to the clearance plane is a rapid.
+    /// Whether the tool descends to the clearance plane by rapid.
     pub(super) rapid_down: bool,
-    /// Nothing is said about lines that are no G-code.
+    /// Whether lines that are not G-code are accepted without warning.
     pub(super) suppress_parser_errors: bool,
     pub(super) rotary: Rotary,
     pub(super) post_build_command: Box<str>,
     pub(super) post_build_arguments: Box<str>,
-    /// The dialect that the output is in (pathbuild's own element).
+    /// Dialect of the output (an element of pathbuild's own).
     pub(super) dialect: Option<Box<str>>,
-    /// Extension of the file that is written, without point (pathbuild's own element).
+    /// Extension of the output file, without the dot (an element of pathbuild's own).
     pub(super) extension: Box<str>,
 }
 
@@ -46,15 +46,15 @@ pub(super) struct Numbering {
     pub(super) prefix: Box<str>,
     pub(super) format: NumberFormat,
     pub(super) space_after: bool,
-    /// Lines that begin with one of these get no number, and are not counted.
+    /// Lines that begin with one of these characters get no number and are not counted.
     pub(super) skip: Box<str>,
 }
 
-/// Paths wrapped round a cylinder.
+/// Settings for paths wrapped around a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rotary {
     pub(super) wrap: bool,
-    /// The axis along the cylinder: 0 is X, 1 is Y.
+    /// The axis parallel to the cylinder: 0 is X, 1 is Y.
     pub(super) along: usize,
     /// The letter of the angle: 0 is A, 2 is C.
     pub(super) letter: usize,
@@ -92,30 +92,30 @@ impl Default for Options {
     }
 }
 
-/// Why an option is not set.
+/// Why an option could not be set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Refusal {
-    /// No option has that name.
+    /// There is no such option.
     Unknown,
     /// The value is not one of these.
     Expected(&'static Text),
 }
 
-/// An element that holds a value.
+/// An element that contains a value.
 #[derive(Debug)]
 pub(super) struct ElementOption {
-    /// The element's name.
+    /// Name of the element.
     pub(super) element: &'static str,
     set: fn(&mut Options, &str) -> Read<()>,
-    /// What holds when the element is absent, as it would be written.
+    /// Default if the element is absent, as it would be written.
     pub(super) default: &'static str,
-    /// Whether CamBam does not know it.
+    /// Whether the element is unknown to CamBam.
     pub(super) is_own: bool,
-    /// What it sets, for the book.
+    /// Meaning of the value, for the book.
     pub(super) about: Text,
 }
 
-/// The elements that hold values.
+/// All elements that contain values.
 pub(super) static OPTIONS: &[ElementOption] = &[
     ElementOption {
         element: "NumberFormat",
@@ -402,9 +402,9 @@ pub(super) static OPTIONS: &[ElementOption] = &[
 ];
 
 impl ElementOption {
-    /// What it takes, if not any text.
+    /// Permitted values, or `None` if any text is permitted.
     pub(super) fn expected(&self) -> Option<&'static Text> {
-        // No element that takes certain values takes this one.
+        // This value is rejected by all elements that restrict their values.
         match (self.set)(&mut Options::default(), "\u{1}") {
             Err(Refusal::Expected(expected)) => Some(expected),
             Ok(()) | Err(Refusal::Unknown) => None,
@@ -413,7 +413,7 @@ impl ElementOption {
 }
 
 impl Options {
-    /// Sets the option that an element holds. Values may be padded with blanks.
+    /// Sets the option of an element. The value may be padded with blanks.
     pub(super) fn set(&mut self, element: &str, text: &str) -> Result<(), Refusal> {
         let option = OPTIONS.iter().find(|option| option.element == element).ok_or(Refusal::Unknown)?;
         (option.set)(self, text)
@@ -427,7 +427,7 @@ fn put<T>(option: &mut T, value: Read<T>) -> Read<()> {
     Ok(())
 }
 
-/// Case and blanks do not count: files spell `Convert To Lines` in several ways.
+/// Compares without regard to case and blanks, because files spell `Convert To Lines` in several ways.
 fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> Read<T> {
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
     let found = choices.iter().find(|(name, _)| plain(name) == plain(value));
@@ -483,7 +483,8 @@ fn positive(value: &str) -> Read<f64> {
         .ok_or(Refusal::Expected(&Text { en: "a number above 0", de: "eine Zahl über 0" }))
 }
 
-/// `\r` and `\n` stand for themselves or for the characters that they name. Signs may stand in front, such as ` *` or `;`, but no words.
+/// Parses a line end. `\r` and `\n` may be escape sequences or the characters themselves. They may be preceded by symbols such as ` *` or
+/// `;`, but not by words.
 fn end_of_line(text: &str) -> Read<Box<str>> {
     let value = text.trim_matches([' ', '\t']).replace("\\r", "\r").replace("\\n", "\n");
     let sign = value.trim_end_matches(['\r', '\n']);
@@ -495,7 +496,7 @@ fn end_of_line(text: &str) -> Read<Box<str>> {
             de: "aus \\r und \\n, davor höchstens Zeichen",
         }));
     }
-    // Blanks in front of a sign belong to it.
+    // Blanks before a symbol are part of it.
     let blanks = if sign.is_empty() { 0 } else { text.len() - text.trim_start_matches([' ', '\t']).len() };
     Ok(format!("{}{value}", " ".repeat(blanks.min(8))).into())
 }

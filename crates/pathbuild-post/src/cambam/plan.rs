@@ -1,4 +1,4 @@
-//! What is written through what: a program, a definition, and the macros that both and the configuration bring, checked together.
+//! Combines a program, a definition and the macros of all sources, and checks them together.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
@@ -13,32 +13,32 @@ use crate::suggest::nearest;
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
-/// Names of macros that an unknown one is compared with at most, so that many unknown ones among many others take no time.
+/// Maximum number of macro names that an undefined one is compared with, so that files with many undefined macros are still fast.
 const MOST_COMPARED: usize = 1000;
 
-/// Everything that a writer reads.
+/// Everything a writer needs to read.
 pub(super) struct Plan<'a> {
     pub(super) file: &'a Utf8Path,
     pub(super) definition: &'a Definition,
     pub(super) job: &'a Job,
     pub(super) target: Option<&'a Target>,
     pub(super) options: &'a PostOptions<'a>,
-    /// The configuration's macros; they win over the definition's.
+    /// The macros of the configuration, which take precedence over those of the definition.
     macros: Vec<(Box<str>, Template)>,
-    /// Custom text of the program.
+    /// Custom texts of the program.
     pub(super) texts: CustomTexts,
-    /// Custom text of each operation.
+    /// Custom texts of each operation.
     pub(super) operation_texts: Vec<CustomTexts>,
 }
 
-/// [`Texts`] as templates.
+/// [`Texts`] parsed as templates.
 pub(super) struct CustomTexts {
     pub(super) header: Template,
     pub(super) footer: Template,
 }
 
 impl<'a> Plan<'a> {
-    /// Brings everything together. Every macro that nobody defines is reported, used or not.
+    /// Combines everything. Every undefined macro is reported, whether it is used or not.
     pub(super) fn new(
         definition: &'a Definition,
         file: &'a Utf8Path,
@@ -68,12 +68,12 @@ impl<'a> Plan<'a> {
         if diagnostics.is_empty() { Ok(plan) } else { Err(diagnostics) }
     }
 
-    /// The unit that is written, in mm.
+    /// The output unit, in mm.
     pub(super) fn unit(&self) -> f64 {
         self.job.units.millimetres()
     }
 
-    /// Greatest distance of a line from the arc that it stands for, in mm.
+    /// Greatest distance between an arc and the lines that replace it, in mm.
     pub(super) fn arc_tolerance(&self) -> f64 {
         self.definition.options.arc_tolerance * self.unit()
     }
@@ -84,7 +84,7 @@ impl<'a> Plan<'a> {
         own.or_else(|| self.definition.macros.get(name))
     }
 
-    /// Every template that may be expanded.
+    /// All templates that may be expanded.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
         let texts = std::iter::once(&self.texts).chain(&self.operation_texts);
         let custom = texts.flat_map(|texts| [&texts.header, &texts.footer]);
@@ -115,14 +115,14 @@ impl<'a> Plan<'a> {
         self.locate(diagnostic.quoting("macro", framed(name)), section, line)
     }
 
-    /// Puts a diagnostic where the definition has what it is about.
+    /// Adds the position in the definition to a diagnostic.
     pub(super) fn locate(&self, diagnostic: Diagnostic, section: Section, line: u32) -> Diagnostic {
         let diagnostic = diagnostic.quoting("section", section.name()).in_file(self.file);
         if line > 0 { diagnostic.at_line(line, None) } else { diagnostic }
     }
 }
 
-/// A macro's name as it is written in a template.
+/// The notation of a macro in a template.
 pub(super) fn framed(name: &str) -> String {
     format!("{{${name}}}")
 }

@@ -8,7 +8,7 @@ use super::options::OPTIONS;
 use super::section::Section;
 use crate::reference::Row;
 
-/// Elements that hold a template: name, whether it is pathbuild's own, what stands in for one that is absent.
+/// Elements that contain a template: name, whether it is an extension of pathbuild, default.
 pub(crate) fn sections(lang: Lang) -> Vec<Row> {
     let own = |section: &Section| if section.is_own() { OWN.in_lang(lang) } else { "" }.to_owned();
     Section::ALL
@@ -17,7 +17,7 @@ pub(crate) fn sections(lang: Lang) -> Vec<Row> {
         .collect()
 }
 
-/// Elements that hold a value: name, what it takes, what holds without it, what it sets.
+/// Elements that contain a value: name, permitted values, default, meaning.
 pub(crate) fn options(lang: Lang) -> Vec<Row> {
     let row = |option: &super::options::ElementOption| {
         let own = if option.is_own { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
@@ -32,12 +32,12 @@ pub(crate) fn options(lang: Lang) -> Vec<Row> {
     OPTIONS.iter().map(row).collect()
 }
 
-/// Macros without arguments: name, what it stands for.
+/// Macros without arguments: name, meaning.
 pub(crate) fn macros(lang: Lang) -> Vec<Row> {
     FIXED.iter().map(|(name, what)| vec![code(&format!("{{${name}}}")), meaning(what, lang)]).collect()
 }
 
-/// Macros with arguments: name, what it takes.
+/// Macros with arguments: name, permitted arguments.
 pub(crate) fn macros_with_arguments(lang: Lang) -> Vec<Row> {
     WITH.iter()
         .map(|with| vec![code(&format!("{{${}(...)}}", with.name)), with.expected.in_lang(lang).to_owned()])
@@ -61,7 +61,7 @@ fn meaning(what: &Macro, lang: Lang) -> String {
         Macro::State(state) => state.word().in_lang(lang).to_owned(),
         Macro::Choice(choice) => choice.word().in_lang(lang).to_owned(),
         Macro::Speed => SPEED.in_lang(lang).to_owned(),
-        // The others are no names of their own: they take arguments, or are letters and codes.
+        // The others have no fixed name: they take arguments, or are registers and codes.
         _ => String::new(),
     }
 }

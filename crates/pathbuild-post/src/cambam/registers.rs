@@ -1,8 +1,8 @@
-//! Letters with numbers, and codes of motions: what a machine remembers.
+//! Registers and motion codes, the modal state of the machine.
 
 use super::section::Section;
 
-/// Letters whose last written number is remembered.
+/// Letters with a number whose last value is remembered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Register {
     X,
@@ -21,7 +21,7 @@ pub(super) enum Register {
 }
 
 impl Register {
-    /// Every register, in the order of the variants.
+    /// All registers, in the order of the variants.
     pub(super) const ALL: [Self; 13] = [
         Self::X,
         Self::Y,
@@ -40,31 +40,31 @@ impl Register {
     /// X, Y, Z.
     pub(super) const AXES: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
-    /// The register of a letter of any case.
+    /// The register of a letter in either case.
     pub(super) fn of(letter: char) -> Option<Self> {
         Self::ALL.into_iter().find(|register| register.letter() == letter.to_ascii_uppercase())
     }
 
-    /// The letter, upper case.
+    /// The letter in upper case.
     pub(super) fn letter(self) -> char {
         char::from(b"XYZABCFIJKPQR"[self as usize])
     }
 }
 
-/// How a register's number is written.
+/// How the number of a register is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// `{$x}`: always.
     Always,
-    /// `{$_x}`: when its text is not the last one written.
+    /// `{$_x}`: only if it differs from the last one written.
     Changed,
-    /// `{$-x}`: with the other sign.
+    /// `{$-x}`: with reversed sign.
     Reversed,
     /// `{$+x}`: without sign.
     Positive,
 }
 
-/// Motions and cycles that have a section of their own.
+/// Motions and cycles that have their own sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Code {
     G0,
@@ -77,11 +77,11 @@ pub(super) enum Code {
 }
 
 impl Code {
-    /// Every code.
+    /// All codes.
     pub(super) const ALL: [Self; 7] =
         [Self::G0, Self::G1, Self::G2, Self::G3, Self::G81, Self::G82, Self::G83];
 
-    /// The section with its word.
+    /// The section that contains the word of the code.
     pub(super) fn section(self) -> Section {
         match self {
             Self::G0 => Section::G0,
@@ -94,7 +94,7 @@ impl Code {
         }
     }
 
-    /// The number behind G.
+    /// The number after G.
     pub(super) fn number(self) -> u32 {
         match self {
             Self::G0 => 0,

@@ -1,24 +1,24 @@
-//! The named texts of a CamBam definition, and what stands in for one that is absent.
+//! The named texts of a CamBam definition, and the defaults for absent ones.
 
 use pathbuild_motion::{Coolant, Turning};
 
 macro_rules! sections {
     ($($variant:ident $name:literal $default:expr;)*) => {
-        /// A section of a definition: an element that holds a template.
+        /// A section of a definition, that is, an element that contains a template.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Section {
             $($variant,)*
-            /// The value of a user macro; no element of its own.
+            /// The value of a user macro, which is not an element of its own.
             UserMacro,
             /// Custom text of the program or of an operation.
             Custom,
         }
 
         impl Section {
-            /// Every section that a definition can hold.
+            /// All sections that a definition can contain.
             pub(super) const ALL: &[Self] = &[$(Self::$variant,)*];
 
-            /// The element's name.
+            /// Name of the element.
             pub(super) fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name,)*
@@ -27,7 +27,7 @@ macro_rules! sections {
                 }
             }
 
-            /// Whether it holds lines, not words of a line.
+            /// Whether the section contains entire lines instead of words of a line.
             pub(super) fn holds_lines(self) -> bool {
                 use Section::{
                     ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, Custom, Drill, DrillDwell, DrillPeck, Dwell,
@@ -42,7 +42,7 @@ macro_rules! sections {
                 )
             }
 
-            /// The text that holds when the element is absent.
+            /// Default text if the element is absent.
             pub(super) fn default_text(self) -> &'static str {
                 match self {
                     $(Self::$variant => $default,)*
@@ -102,7 +102,7 @@ sections! {
     EndComment "EndComment" ")";
     StartCut "StartCut" "";
     EndCut "EndCut" "";
-    // The following are pathbuild's own; CamBam ignores elements that it does not know.
+    // The following are extensions of pathbuild. CamBam ignores unknown elements.
     CoolantFlood "CoolantFlood" "M8";
     CoolantMist "CoolantMist" "M7";
     CoolantOff "CoolantOff" "M9";
@@ -127,13 +127,13 @@ const MOP: &str = "{$comment} {$mop.name} {$endcomment}
 ";
 
 impl Section {
-    /// Whether CamBam does not know the element.
+    /// Whether the element is unknown to CamBam.
     pub(super) fn is_own(self) -> bool {
         matches!(self, Self::CoolantFlood | Self::CoolantMist | Self::CoolantOff | Self::Dwell | Self::Probe)
     }
 }
 
-/// The section with the words for what the spindle does.
+/// The section with the words for a spindle state.
 pub(super) fn spindle_section(spindle: Turning) -> Section {
     match spindle {
         Turning::Clockwise => Section::SpindleCw,
@@ -142,7 +142,7 @@ pub(super) fn spindle_section(spindle: Turning) -> Section {
     }
 }
 
-/// The section with the words for what the coolant does.
+/// The section with the words for a coolant state.
 pub(super) fn coolant_section(coolant: Coolant) -> Section {
     match coolant {
         Coolant { flood: true, .. } => Section::CoolantFlood,

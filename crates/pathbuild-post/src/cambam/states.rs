@@ -1,4 +1,4 @@
-//! Macros whose text depends on the state of the machine: registers, codes, and what is written only when it changes.
+//! Macros that depend on the state of the machine: registers, codes, and words written only on changes.
 
 use pathbuild_motion::{Coolant, Plane, Turning};
 
@@ -37,7 +37,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Switches the spindle on, if it does not turn as the operation wants, and waits until it does.
+    /// Switches the spindle on and waits for it, unless it already turns as the operation requires.
     pub(super) fn spindle_up(&mut self) -> Written {
         let operation = self.operation();
         let Some(spindle) = operation.spindle.filter(|_| !self.plan.options.manual_spindle) else {

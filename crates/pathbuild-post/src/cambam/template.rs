@@ -1,13 +1,13 @@
-//! Templates: literal text with `{$name}` and `{$name(argument, ...)}` in it.
+//! Templates: literal text that contains `{$name}` and `{$name(argument, ...)}`.
 
 use super::macros::Macro;
 use super::names::MacroArguments;
 use super::section::Section;
 
-/// A text with macros, and where its file has it.
+/// A text with macros, and its position in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Template {
-    /// The section it is the text of.
+    /// The section that this is the text of.
     pub(super) section: Section,
     /// Literal text and macros in order.
     pub(super) pieces: Vec<TemplatePart>,
@@ -16,37 +16,34 @@ pub(super) struct Template {
 /// A part of a template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TemplatePart {
-    /// Stands as it is; may hold line feeds.
+    /// Text that is copied as it is, possibly with line breaks.
     Text {
-        /// The text.
         text: Box<str>,
-        /// 1-based line of the definition's file where it begins; 0 as of macros.
+        /// Line of the definition's file where the text begins, counted from 1; 0 for macros.
         line: u32,
     },
-    /// Stands for something.
+    /// A macro to be expanded.
     Macro {
-        /// For what.
         what: Macro,
-        /// 1-based line of the definition's file; 0 in built-in texts and those of the configuration.
+        /// Line of the definition's file, counted from 1; 0 for built-in texts and those of the configuration.
         line: u32,
     },
 }
 
-/// Why a text is no template.
+/// Why a text is not a valid template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TemplateError {
-    /// 1-based line of the definition's file.
+    /// Line of the definition's file, counted from 1.
     pub(super) line: u32,
-    /// What is wrong there.
     pub(super) fault: Fault,
 }
 
-/// What can be wrong in a template.
+/// Errors in a template.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
     /// `{$` without `}`.
     Unclosed,
-    /// The macro and its arguments do not go together.
+    /// Wrong arguments for a macro.
     Arguments(MacroArguments),
 }
 
@@ -60,7 +57,7 @@ impl Template {
         self.pieces.iter().map(literal).collect()
     }
 
-    /// Reads a text that begins in `line` of its file. All that is wrong in it is reported.
+    /// Parses a text that begins in `line` of its file. All errors are reported.
     pub(super) fn parse(section: Section, text: &str, line: u32) -> Result<Self, Vec<TemplateError>> {
         let mut parser = Parser { pieces: Vec::new(), errors: Vec::new(), line };
         parser.run(text);
@@ -68,14 +65,14 @@ impl Template {
         if errors.is_empty() { Ok(Self { section, pieces }) } else { Err(errors) }
     }
 
-    /// Whether nothing at all can come out.
+    /// Whether the template can only produce blanks.
     pub(super) fn is_blank(&self) -> bool {
         self.pieces
             .iter()
             .all(|piece| matches!(piece, TemplatePart::Text { text, .. } if text.trim().is_empty()))
     }
 
-    /// What stands between single braces, with its line: `{units}` is a macro without its `$`.
+    /// The texts in plain braces, with their lines: `{units}` is a macro that lacks its `$`.
     pub(super) fn in_braces(&self) -> impl Iterator<Item = (&str, u32)> {
         let texts = self.pieces.iter().filter_map(|piece| match piece {
             TemplatePart::Text { text, line } => Some((text, *line)),
@@ -89,7 +86,7 @@ impl Template {
         })
     }
 
-    /// The macros in it, with their lines.
+    /// The macros of the template, with their lines.
     pub(super) fn macros(&self) -> impl Iterator<Item = (&Macro, u32)> {
         self.pieces.iter().filter_map(|piece| match piece {
             TemplatePart::Macro { what, line } => Some((what, *line)),
@@ -143,9 +140,10 @@ impl Parser {
     }
 }
 
-/// The text before the next macro, the macro without its frame, and the text after it; no macro when it is not closed.
+/// Splits a text into the text before the next macro, the macro without its delimiters, and the rest. The macro is `None` if it is not
+/// closed.
 ///
-/// CamBam's manual also spells one macro without a frame: `$set(z,5.5)`.
+/// CamBam's manual also contains one macro without delimiters: `$set(z,5.5)`.
 fn next_call(text: &str) -> Option<(&str, Option<&str>, &str)> {
     let (start, inner, close) = text.match_indices('$').find_map(|(at, _)| {
         let framed = text[..at].ends_with('{').then(|| (at - 1, at + 1, '}'));

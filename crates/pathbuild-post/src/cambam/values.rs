@@ -1,4 +1,4 @@
-//! Macros that stand for a number or a name of the program, without a letter.
+//! Macros that expand to a number or a name of the program, without a letter.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
@@ -12,7 +12,7 @@ use crate::job::{Job, Stock};
 use crate::step::{Hole, HoleKind};
 
 impl Writer<'_> {
-    /// The text of a value; `None` where the program has none.
+    /// The text of a value, or `None` if the program does not have it.
     pub(super) fn value(&self, value: Value) -> Option<String> {
         let operation = self.operation();
         let tool = self.tool;
@@ -40,7 +40,7 @@ impl Writer<'_> {
             Value::MopHoleDiameter | Value::ToolDiameter => Some(self.length(tool.diameter)),
             Value::MopPeckDistance => Some(self.length(operation.holes().find_map(peck).unwrap_or(0.0))),
             Value::MopStockSurface => Some(self.length(operation.surface)),
-            // What cuts nothing leaves the surface alone.
+            // Operations that do not cut leave the surface as it is.
             Value::MopTargetDepth => Some(self.length(operation.target_depth.unwrap_or(operation.surface))),
             Value::MopFirst(axis) => operation.first_point().axes()[axis as usize].map(|at| self.length(at)),
             Value::ToolIndex => Some(tool.index.to_string()),
@@ -64,7 +64,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What somebody else says of a value, if that is a number, with the other sign.
+    /// The value given by the definition or the configuration with reversed sign, if it is a number.
     fn own_number(&self, value: Value) -> Option<String> {
         let own = self.plan.user_macro(value.name())?;
         own.literal().trim().parse().ok().map(|number: f64| self.number_format().format(-number))
@@ -82,7 +82,7 @@ impl Writer<'_> {
         self.plan.job.stock.as_ref().map(|stock| self.length(value(stock)))
     }
 
-    /// What becomes of a macro without a value: a date may be left out, anything else would leave a gap in the program.
+    /// Handles a macro without a value: a date may be omitted, anything else would leave a gap in the program.
     pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> Written {
         if value == Value::Date {
             self.line.leave_out();
@@ -97,7 +97,7 @@ impl Writer<'_> {
     }
 }
 
-/// The first number in a name: of 8001.1P it is 8001.
+/// The first number in a name, such as 8001 in 8001.1P.
 fn first_number(name: &str) -> Option<u32> {
     name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
 }

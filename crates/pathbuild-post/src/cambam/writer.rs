@@ -1,4 +1,4 @@
-//! Expanding templates into lines, and reading every line back into the state of the machine.
+//! Expands templates to lines, and reads each line back into the state of the machine.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 
@@ -21,69 +21,69 @@ use crate::origin::LineOrigin;
 use crate::shadow::{Shadow, Unfollowed};
 use crate::words::{CommentMarks, Word, Words, words};
 
-/// Success, or the diagnostic that ends the writing.
+/// Success, or the diagnostic that aborts writing.
 pub(super) type Written = Result<(), Box<Diagnostic>>;
 
-/// What a writer wrote.
+/// The output of a writer.
 pub(crate) struct WrittenText {
     pub(crate) text: String,
-    /// What the text says, in the words of RS274.
+    /// The meaning of the text in RS274 words.
     pub(crate) shadow: String,
-    /// The words of the text that its shadow does not have.
+    /// Words of the text that the shadow cannot express.
     pub(crate) unfollowed: Vec<Unfollowed>,
-    /// Of each line.
+    /// For each line of the text.
     pub(crate) origins: Vec<LineOrigin>,
-    /// What is doubtful in it.
+    /// Doubtful constructs.
     pub(crate) warnings: Vec<Diagnostic>,
 }
 
-/// User macros may contain each other so deep, and sections as well.
+/// Maximum nesting depth of user macros, and also of sections.
 const MOST_DEPTH: usize = 16;
 
-/// Writes one program.
+/// Writes a program.
 pub(super) struct Writer<'a> {
     pub(super) plan: &'a Plan<'a>,
     pub(super) machine: Machine,
-    /// The numbers of the present move, in the unit that is written.
+    /// Register values of the current move, in the output unit.
     pub(super) move_values: MoveValues,
-    /// Index of the present operation; the first in the header, the last in the footer.
+    /// Index of the current operation: the first in the header, the last in the footer.
     operation: usize,
-    /// Of each operation.
+    /// For each operation.
     feeds: Vec<Feeds>,
-    /// The tool that `{$tool.index}` means.
+    /// The tool used by `{$tool.index}`.
     pub(super) tool: &'a Tool,
-    /// The tool is below the stock surface.
+    /// Whether the tool is below the stock surface.
     pub(super) is_cutting: bool,
-    /// A code macro whose section is empty was met since this was last reset.
+    /// Set if a code macro with an empty section was expanded since the last reset.
     pub(super) empty_code: Option<Section>,
     warnings: Vec<Diagnostic>,
     pub(super) line: Line,
     lines: Lines<'a>,
     marks: CommentMarks,
     guard: Guard<'a>,
-    /// What the lines say, in the words of RS274.
+    /// The meaning of the lines in RS274 words.
     shadow: Shadow,
-    /// Whether the definition writes an axis with the other sign, by axis, once it has written it.
+    /// For each axis, whether the definition reverses its sign; `None` until it has been written.
     turned: [Option<bool>; 3],
-    /// Where the program has the tool, in the unit that is written, and the text that was written for it, by axis.
+    /// For each axis, the position according to the program in the output unit, and the text written for it.
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
-    /// The place of the definition that is being written: a section and a line of its file.
+    /// The part of the definition being written: a section and a line of its file.
     place: (Section, u32),
-    /// Of each line that was written.
+    /// For each line written.
     origins: Vec<LineOrigin>,
-    /// The least and the greatest angle of paths that are wrapped round a cylinder, in degrees.
+    /// Least and greatest angle in degrees of paths wrapped around a cylinder.
     pub(super) angles: Option<[f64; 2]>,
-    /// What is wrong with a line that was written.
+    /// Error found in a line already written.
     fault: Option<Box<Diagnostic>>,
-    /// Sections that contain each other at this moment, and user macros.
+    /// Current nesting depth of sections and of user macros.
     depth: [usize; 2],
-    /// `{$mops}` and `{$blocks}`, where they are being written.
+    /// The blocks `{$mops}` and `{$blocks}` that are being expanded.
     open: Vec<Block>,
     fuel: usize,
 }
 
 impl<'a> Writer<'a> {
-    /// A writer at the start of a program that has operations.
+    /// Creates a writer at the start of a program, which must contain operations.
     pub(super) fn new(plan: &'a Plan<'a>) -> Self {
         let mut writer = Self {
             plan,
@@ -122,7 +122,7 @@ impl<'a> Writer<'a> {
         self.plan.definition.section(section).literal().trim().to_owned()
     }
 
-    /// The text of the whole file, its shadow, and what is doubtful in it.
+    /// Writes everything and returns the text, its shadow and the warnings.
     pub(super) fn run(mut self) -> Result<WrittenText, Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
@@ -137,12 +137,12 @@ impl<'a> Writer<'a> {
         Ok(WrittenText { text: self.lines.finish(), shadow, unfollowed, origins, warnings })
     }
 
-    /// The feeds of the present operation.
+    /// The feeds of the current operation.
     pub(super) fn feeds(&self) -> Feeds {
         self.feeds[self.operation]
     }
 
-    /// The present operation.
+    /// The current operation.
     pub(super) fn operation(&self) -> &'a Operation {
         &self.plan.job.operations[self.operation]
     }
@@ -151,12 +151,12 @@ impl<'a> Writer<'a> {
         self.plan.definition.options.number_format
     }
 
-    /// A length or feed in the unit that is written.
+    /// Converts a length or feed to the output unit.
     pub(super) fn scaled(&self, millimetres: f64) -> f64 {
         millimetres / self.plan.unit()
     }
 
-    /// A length as it is written.
+    /// Formats a length.
     pub(super) fn length(&self, millimetres: f64) -> String {
         self.number_format().format(self.scaled(millimetres))
     }
@@ -188,7 +188,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Notes which place of the definition is being written. Words belong to the text that their line stands in.
+    /// Records which part of the definition is being written. Words are attributed to the text that contains their line.
     fn enter(&mut self, section: Section, line: u32) {
         if section.holds_lines() {
             self.place = (section, line);
@@ -236,7 +236,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// All operations, or the moves of one: not within themselves.
+    /// Writes all operations, or the moves of one; neither may occur within itself.
     fn program(&mut self, block: Block, section: Section, line: u32) -> Written {
         if self.open.contains(&block) {
             let name = if block == Block::Mops { "mops" } else { "blocks" };
@@ -299,11 +299,11 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Adds text to the line; a line feed ends it.
+    /// Adds text to the line; a line break ends it.
     pub(super) fn text(&mut self, text: &str) -> Written {
         self.burn(text.len())?;
         let most = self.plan.options.most_bytes;
-        // Blanks of the present line may still be left out.
+        // Blanks of the current line may still be removed.
         if self.lines.length().max(self.line.text.len() + text.len()) > most {
             return Err(too_large(most));
         }
@@ -326,7 +326,7 @@ impl<'a> Writer<'a> {
         self.line.push(text);
     }
 
-    /// Adds a text of a drawing, a file name or an option, so that no control acts on it.
+    /// Adds a text from a drawing, file name or option in such a way that no control acts on it.
     pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> Written {
         let Some(text) = self.guard.put(&self.line.text, text) else {
             let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS)
@@ -337,7 +337,7 @@ impl<'a> Writer<'a> {
         self.text(&text)
     }
 
-    /// A comment on a line of its own.
+    /// Writes a comment on a line of its own.
     pub(super) fn comment(&mut self, text: &str, blank: &str) -> Written {
         self.section(Section::Comment)?;
         self.text(blank)?;
@@ -348,7 +348,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// Writes the line, unless it is blank or a move that moves nothing, and reads it back.
+    /// Ends the line and reads it back, unless it is blank or a move that does not move anything.
     pub(super) fn end_line(&mut self) {
         let line = std::mem::take(&mut self.line);
         let text = collapse(&line.text);
@@ -378,7 +378,7 @@ impl<'a> Writer<'a> {
         self.lines.push(&text);
     }
 
-    /// The axis that an angle stands for must not be moved as well.
+    /// Checks that an axis replaced by an angle is not moved as well.
     fn check_replaced(&mut self, found: &Words, line: &str) {
         let rotary = self.plan.definition.options.rotary;
         let axis = Register::AXES[1 - rotary.along].letter();
@@ -389,8 +389,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A word with the sign and the axis that the program gave it before the template turned it round. An axis is turned in every line, or in
-    /// none: where lines differ, the machine would go to both sides.
+    /// Restores the sign and axis that a word had in the program before the template reversed it. An axis must be reversed in every line or
+    /// in
+    /// none, otherwise the machine would move to both sides.
     fn meant(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;
@@ -406,7 +407,7 @@ impl<'a> Writer<'a> {
         Word { number: if is_turned { -word.number } else { word.number }, ..word }
     }
 
-    /// Whether a line has nothing but words for motions, and a feed that the template itself has.
+    /// Whether a line contains only motion words and a feed written literally in the template.
     fn is_motion_alone(&self, rest: &str) -> bool {
         let found = words(rest, &self.marks);
         !found.has_more
@@ -416,7 +417,7 @@ impl<'a> Writer<'a> {
             })
     }
 
-    /// Says something once.
+    /// Adds a warning, unless it was given before.
     pub(super) fn warn(&mut self, warning: Diagnostic) {
         let warning = warning.in_file(self.plan.file);
         if !self.warnings.contains(&warning) && self.warnings.len() < MOST_WARNINGS {
@@ -424,7 +425,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Pays for text, so that macros that multiply come to an end.
+    /// Consumes fuel for text, so that macros that multiply text come to an end.
     fn burn(&mut self, cost: usize) -> Written {
         match self.fuel.checked_sub(cost) {
             Some(left) => {
@@ -436,11 +437,11 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The letters of angles round X, Y, Z.
+/// The letters of the angles around X, Y and Z.
 pub(super) const ROTARY: [Register; 3] = [Register::A, Register::B, Register::C];
 
-/// Wider paths lie over themselves, in degrees; a ring that closes may exceed a turn by rounding.
+/// Wider paths, in degrees, would overlap themselves. A closed ring may exceed a full turn slightly due to rounding.
 const FULL_TURN: f64 = 360.001;
 
-/// Nobody reads more of them.
+/// Maximum number of warnings reported.
 const MOST_WARNINGS: usize = 50;

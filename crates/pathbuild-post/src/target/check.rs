@@ -1,4 +1,4 @@
-//! The check of a text against the words that its target takes.
+//! Checks a text against the words accepted by its target.
 
 use std::ops::Range;
 
@@ -8,10 +8,10 @@ use super::{LinePart, Target};
 use pathbuild_gcode::dialect::{Acceptance, LineLength};
 use pathbuild_gcode::read::LONGEST_LINE;
 
-/// Nobody reads more errors.
+/// Maximum number of errors reported.
 const MOST_ERRORS: usize = 20;
 
-/// What the target would refuse, by line of the text.
+/// Returns what the target would refuse, by line of the text.
 pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     for (number, line) in (1_u64..).zip(text.split(|&byte| byte == b'\n')) {
@@ -29,7 +29,7 @@ struct Checker<'a> {
     target: &'a Target,
     number: u64,
     line: &'a str,
-    /// The word before was M6.
+    /// Whether the previous word was M6.
     after_change: bool,
     errors: &'a mut Vec<Diagnostic>,
 }
@@ -58,7 +58,7 @@ impl Checker<'_> {
         let (length, longest) = match self.target.longest {
             Some(LineLength::Bare(longest)) => (bare, longest),
             Some(LineLength::Whole(longest)) => (self.line.len(), longest),
-            // What is read back.
+            // The limit for reading it back.
             None => (self.line.len(), LONGEST_LINE),
         };
         if length > longest {
@@ -81,7 +81,7 @@ impl Checker<'_> {
         self.report(Diagnostic::new(&posts::WORD_REJECTED).quoting("word", word), span);
     }
 
-    /// Some bytes act wherever they stand.
+    /// Checks a comment, because some bytes act even there.
     fn comment(&mut self, text: &str, start: usize) {
         let acts = |c: char| !c.is_ascii() || matches!(c, '!' | '?' | '~');
         if let Some((at, c)) = text.char_indices().find(|(_, c)| self.target.has_real_time_bytes && acts(*c))

@@ -1,4 +1,4 @@
-//! The controls that posts write for: what they take, and the check of a text before it is written.
+//! The controls that posts write for: what they accept, and the check of a text before it is written.
 
 mod check;
 mod plain;
@@ -8,38 +8,38 @@ pub(super) use plain::plain;
 
 use pathbuild_gcode::dialect::{Acceptance, Dialect, LineLength, Percent, Style, Words};
 
-/// What a control takes.
+/// What a control accepts.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
 pub(super) struct Target {
-    /// The name of its dialect.
+    /// Name of its dialect.
     pub(super) name: &'static str,
     words: &'static Words,
     comments: Comments,
-    /// `!`, `?`, `~` and bytes above 127 act at once wherever they stand.
+    /// Whether `!`, `?`, `~` and bytes above 127 act immediately, even in comments.
     has_real_time_bytes: bool,
-    /// A line may begin with `%`.
+    /// Whether a line may begin with `%`.
     percent: bool,
-    /// The rest of a line with `%` is the program's name, also behind a block number.
+    /// Whether the rest of a line after `%` is the name of the program, even after a block number.
     titles: bool,
     longest: Option<LineLength>,
-    /// The tool's number stands bare behind M6.
+    /// Whether the tool number follows M6 without a letter.
     bare_tool_number: bool,
-    /// M codes behind which a text for the display stands.
+    /// M codes that are followed by a text for the display.
     message_codes: &'static [u16],
-    /// Lines may begin with N.
+    /// Whether lines may begin with N.
     line_numbers: bool,
-    /// The dialect that reads its moves.
+    /// The dialect in which the output is read back.
     pub(super) reader: Dialect,
 }
 
-/// How a control's comments are spelt.
+/// The comment notations of a control.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
 struct Comments {
     /// `( )`.
     round: bool,
-    /// `(` within a round comment is an ordinary character.
+    /// Whether `(` is an ordinary character within a round comment.
     nested: bool,
     /// `;` to the end of the line.
     semicolon: bool,
@@ -48,12 +48,12 @@ struct Comments {
 }
 
 impl Target {
-    /// The target of a dialect's name.
+    /// Finds the target by the name of its dialect.
     pub(super) fn of(name: &str) -> Option<Self> {
         name.parse().ok().map(Self::of_dialect)
     }
 
-    /// The names of all, for messages.
+    /// The names of all targets, for messages.
     pub(super) fn names() -> Vec<&'static str> {
         Dialect::ALL.iter().map(|dialect| dialect.name()).collect()
     }
@@ -81,22 +81,23 @@ impl Target {
         }
     }
 
-    /// Whether it knows the cycle G81.
+    /// Whether the control supports the cycle G81.
     pub(super) fn has_cycles(&self) -> bool {
         self.words.g(810) == Acceptance::Taken
     }
 
-    /// Whether it knows M3.
+    /// Whether the control supports M3.
     pub(super) fn switches_spindle(&self) -> bool {
         self.words.m(30) == Acceptance::Taken
     }
 
-    /// Only ASCII may be written, whatever the configuration says.
+    /// Whether only ASCII may be written, regardless of the configuration.
     pub(super) fn needs_ascii(&self) -> bool {
         self.has_real_time_bytes
     }
 
-    /// The length of the sign that opens a comment at the beginning of a text, and the sign that closes it, if it is not the line's end.
+    /// Length of the mark that opens a comment at the beginning of a text, and the mark that closes it, unless it extends to the end of the
+    /// line.
     pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {
         let Comments { round, semicolon, slashes, .. } = self.comments;
         let signs = [(round, "(", ")"), (semicolon, ";", ""), (slashes, "//", "")];
@@ -104,14 +105,14 @@ impl Target {
         found.map(|(_, open, close)| (open.len(), close))
     }
 
-    /// The length of the comment at the beginning of a text; `None` if there is none.
+    /// Length of the comment at the beginning of a text, or `None` if there is none.
     fn comment_length(&self, text: &str) -> Option<usize> {
         let (open, close) = self.comment_marks(text)?;
         let end = text[open..].find(close).filter(|_| !close.is_empty());
         Some(end.map_or(text.len(), |end| open + end + close.len()))
     }
 
-    /// How much of the beginning of a line is code: behind M0 or M117 a text for the display stands.
+    /// Length of the code at the beginning of a line. M0 and M117 are followed by a text for the display.
     pub(crate) fn code_length(&self, line: &str) -> usize {
         let digits = line
             .strip_prefix('M')
@@ -120,7 +121,7 @@ impl Target {
         if shows { 1 + digits.len() } else { line.len() }
     }
 
-    /// A line in pieces.
+    /// Splits a line.
     fn pieces<'a>(&self, line: &'a str) -> Vec<LinePart<'a>> {
         let mut pieces = Vec::new();
         let mut begins = 0;
@@ -150,7 +151,7 @@ impl Target {
     }
 }
 
-/// Whether a text is nothing, or a block number.
+/// Whether a text is empty or a block number.
 fn is_block_number(text: &str) -> bool {
     let text = text.trim();
     text.is_empty()

@@ -1,11 +1,11 @@
-//! Characters as the target may have them.
+//! Replaces characters that the target does not allow.
 
 use super::{LinePart, Target};
 use pathbuild_gcode::dialect::ascii;
 use pathbuild_gcode::native::Charset;
 
-/// The text with characters that the target, or the configuration, does not allow written otherwise. In comments, characters that the
-/// target would act on are replaced; in code they are left for the check to find. Lines that are no UTF-8 stay as they are.
+/// Replaces characters that the target or the configuration does not allow. Characters that the target would act on are replaced in
+/// comments; in code they are kept, so that the check reports them. Lines that are not UTF-8 are not changed.
 pub(crate) fn plain(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
     let is_ascii = charset == Charset::Ascii || target.is_some_and(Target::needs_ascii);
     let mut plain = Vec::with_capacity(text.len());

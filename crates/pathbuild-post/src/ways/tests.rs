@@ -1,4 +1,4 @@
-//! Which ways through the air a program may take instead of the job's.
+//! Tests which ways through the air a program may use instead of those of the job.
 
 use pathbuild_gcode::dialect::Dialect::LinuxCnc;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -7,23 +7,23 @@ use pathbuild_motion::Move;
 
 use super::check;
 
-/// Above everything, mm.
+/// Height above everything, in mm.
 const CLEARANCE: f64 = 20.0;
 
-/// The last digit, of which a way may be off by twice its half.
+/// Value of the last digit; a way may deviate by two roundings of it.
 const DIGIT: f64 = 0.001;
 
 fn moves(program: &str) -> Vec<(u32, Move)> {
     interpret(program.as_bytes(), LinuxCnc, &Options::default()).moves()
 }
 
-/// Two cuts of 10 mm at Z0, the second from (X50, Y0), with these ways to the first, to the second, and away.
+/// Two cuts of 10 mm at Z0, the second from (X50, Y0), with the given ways to the first, between them, and away.
 fn program([to, between, away]: [&str; 3]) -> String {
     let line = |words: &str| words.replace(", ", "\n") + "\n";
     format!("G21 G90 G17 G94\n{}G1 Z0 F100\nX10\n{}G1 Z0\nX60\n{}M2\n", line(to), line(between), line(away))
 }
 
-/// From the end of the first cut up to Z10, to X30, up to Z12, to X50, down to Z5; from the second up to Z20, to X80.
+/// After the first cut up to Z10, to X30, up to Z12, to X50, down to Z5; after the second up to Z20, to X80.
 const JOB: [&str; 3] = ["G0 Z20, G0 X0 Y0, G0 Z5", "G0 Z10, G0 X30, G0 Z12, G0 X50, G0 Z5", "G0 Z20, G0 X80"];
 
 #[track_caller]
@@ -35,7 +35,7 @@ fn is_allowed(ways: [&str; 3]) -> bool {
     check(ways)
 }
 
-/// With another way from the first cut to the second.
+/// With a different way from the first cut to the second.
 #[track_caller]
 fn may_go(between: &str) -> bool {
     is_allowed([JOB[0], between, JOB[2]])
@@ -46,7 +46,7 @@ fn a_way_may_be_higher_or_leave_out_steps() {
     assert!(may_go("G0 Z20, G0 X50, G0 Z5"));
     assert!(may_go("G0 Z12, G0 X50, G0 Z5"));
     assert!(may_go("G0 Z12, G0 X20, G0 X45, G0 X50, G0 Z5"));
-    // Above the clearance plane there is nothing.
+    // Above the clearance plane there is no material.
     assert!(may_go("G0 Z20, G0 X20 Y30, G0 X50 Y0, G0 Z5"));
     assert!(!may_go("G0 Z19.9, G0 X20 Y30, G0 X50 Y0, G0 Z5"));
 }
@@ -56,7 +56,7 @@ fn a_way_runs_nowhere_below_the_jobs() {
     let low = 10.0 - DIGIT;
     assert!(may_go(&format!("G0 Z{:.4}, G0 X30, G0 Z12, G0 X50, G0 Z5", low + DIGIT / 10.0)));
     assert!(!may_go(&format!("G0 Z{:.4}, G0 X30, G0 Z12, G0 X50, G0 Z5", low - DIGIT / 10.0)));
-    // Between X30 and X50 the job is at 12.
+    // Between X30 and X50 the job is at Z12.
     assert!(!may_go("G0 Z11.9, G0 X50, G0 Z5"));
     assert!(!may_go("G0 Z10, G0 X50 Z12, G0 Z5"));
     assert!(may_go("G0 Z10, G0 X30 Z12, G0 X50, G0 Z5"));
@@ -67,7 +67,7 @@ fn a_way_runs_nowhere_beside_the_jobs() {
     assert!(!may_go("G0 Z12, G0 X30 Y0.1, G0 X50 Y0, G0 Z5"));
     assert!(may_go(&format!("G0 Z12, G0 X30 Y{:.4}, G0 X50 Y0, G0 Z5", 0.9 * DIGIT)));
     assert!(!may_go("G0 Z12, G0 X55, G0 X50, G0 Z5"));
-    // An arc over a way of the job is beside it.
+    // An arc whose ends are on a way of the job runs beside that way.
     assert!(may_go("G0 Z12, G1 X50 F100, G0 Z5"));
     assert!(!may_go("G0 Z12, G2 X50 I20 J0 F100, G0 Z5"));
     assert!(!may_go("G0 Z12, G0 X5, G0 X50, G0 Z5"));
@@ -78,11 +78,11 @@ fn a_way_down_ends_where_the_job_has_been() {
     assert!(may_go("G0 Z12, G0 X40, G0 Z12, G0 X50, G0 Z5"));
     assert!(!may_go("G0 Z20, G0 X40, G0 Z11.9, G0 Z12, G0 X50, G0 Z5"));
     assert!(!may_go("G0 Z12, G0 X50, G0 Z4.9, G0 Z5"));
-    // By feed instead of by rapid is slower, not dangerous.
+    // A feed instead of a rapid is slower, but not dangerous.
     assert!(may_go("G0 Z12, G0 X50, G1 Z5 F100"));
 }
 
-/// To a place of the machine the tool goes straight up; then it is above everything.
+/// The tool moves straight up to a machine position, and is above everything afterwards.
 #[test]
 fn a_place_of_the_machine_is_above_everything() {
     assert!(is_allowed(["G53 G0 Z0, G0 X0 Y0, G0 Z5", JOB[1], JOB[2]]));
@@ -99,7 +99,7 @@ fn the_tool_ends_as_high_as_in_the_job() {
     assert!(!is_allowed([JOB[0], JOB[1], "G0 Z20, G1 X70"]));
 }
 
-/// From a cut straight up and back again, by rapid.
+/// A rapid straight up from a cut and back again.
 #[test]
 fn the_tool_may_be_lifted_from_a_cut() {
     let lifted = |lift: &str| {

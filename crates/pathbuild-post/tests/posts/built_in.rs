@@ -1,4 +1,4 @@
-//! The posts that come with pathbuild.
+//! Tests of the built-in posts.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -9,7 +9,7 @@ use pathbuild_post::{
 
 use crate::support::{arc, feed, operation, rapid, texts};
 
-/// Two tools; a line, an arc, a helix, a circle, two holes.
+/// A job with two tools, a line, an arc, a helix, a circle and two holes.
 fn sample() -> Job {
     let circle = |to: [f64; 3], from: [f64; 3], clockwise| arc(clockwise, from, [20.0, 0.0], to, Some(250.0));
     let hole = |x: f64, kind| {
@@ -71,7 +71,7 @@ fn programs() {
     }
 }
 
-/// A touch on the material's face, as the native probing run has it.
+/// A probing move onto the face of the material, as in the native probing program.
 fn probing_run() -> Job {
     let text = "G17 G21 G90 G94\nT1\nG0 Z15\nG0 X0 Y0\nG0 X192 Y20\nG0 Z4\nG38.3 Z0 F40\nG4 P4\nG0 Z15\nG0 X268 Y20\nG0 Z4\nG38.3 Z0 F40\nG0 Z15\nM30\n";
     let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;

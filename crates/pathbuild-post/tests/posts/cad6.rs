@@ -1,4 +1,4 @@
-//! Control texts: the manual's examples, and every rule of the language.
+//! Tests of control texts: the examples of the manual, and every rule of the language.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostFiles, PostMacro, Po
 
 use crate::support::{arc, feed, job, operation, rapid, texts, unchecked};
 
-/// The manual's rectangle: 50/100, 100 x 50, clockwise, safety height 100, depth 20.
+/// The rectangle of the manual: 50/100, 100 x 50, clockwise, safety height 100, depth 20.
 const RECTANGLE: &str = r#"
 [post]
 name = "DIN"
@@ -87,7 +87,7 @@ N120 G00 Z+100 M05 M09
 N130 M30
 ";
     assert_eq!(written(RECTANGLE, &rectangle()), expected);
-    // The books show the same.
+    // The books contain the same example.
     for lang in ["en", "de"] {
         let page =
             format!("{}/../../docs/{lang}/src/reference/post-definitions.md", env!("CARGO_MANIFEST_DIR"));
@@ -97,7 +97,7 @@ N130 M30
     }
 }
 
-/// What one text comes to at the start of a program, with variables.
+/// Evaluates a text at the start of a program, with variables.
 fn text_with(text: &str, variables: &[(&str, &str)]) -> Result<Output, Vec<Diagnostic>> {
     let definition =
         format!("[post]\nnumber-lines = false\ndecimals = 2\n[text]\nprogram-start = '''{text}'''");
@@ -416,7 +416,7 @@ fn doubtful_terms_are_warnings() {
     assert_eq!(warnings("{.~ZClearance~} ~PrgName~ {5-~Q1~}"), "");
 }
 
-/// At the brace that is open, or the variable, wherever it stands in its text.
+/// The column is that of the open brace or of the variable, wherever it is in its text.
 #[test]
 fn faults_of_texts_have_their_column() {
     let column = |text: &str| {
@@ -428,7 +428,7 @@ fn faults_of_texts_have_their_column() {
     assert_eq!(columns, [9, 7, 1, 11, 4]);
 }
 
-/// Each of them, and none of another name.
+/// Calls each of them, and one that does not exist.
 #[test]
 fn functions_are_those_of_the_manual_and_some_more() {
     let value = |term: &str| text_with(&format!("{{.{term}}}"), &[]);
@@ -491,7 +491,7 @@ fn files_that_are_missing_or_lie_elsewhere_are_errors() {
     assert!(error(r"\\\~*/etc/passwd*").contains("it does not lie below the post's directory"));
 }
 
-/// A post that says which calls are made.
+/// A post that shows which calls are made.
 const CALLS: &str = "
 [post]
 number-lines = false

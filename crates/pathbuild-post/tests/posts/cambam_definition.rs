@@ -1,4 +1,4 @@
-//! What a CamBam definition may look like, and what is wrong with one.
+//! Tests of reading CamBam definitions, and of the errors in them.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_post::{PostMacro, PostOptions, Step};
@@ -131,7 +131,7 @@ fn what_is_no_definition_is_refused() {
         refused[0].text(Lang::En),
         "the definition is not UTF-8 text: this line has a character in another encoding, such as ANSI"
     );
-    // By its name it is one of CamBam, not a control text without texts.
+    // Its name says that it is a CamBam definition, not one with control texts that lacks them.
     assert_eq!(read("").unwrap_err()[0].code().to_string(), "PB750");
     assert_eq!(read("[post]\n").unwrap_err()[0].code().to_string(), "PB750");
 }
@@ -292,7 +292,7 @@ fn an_empty_program_is_refused() {
     }
 }
 
-/// A post with the macro for it waits until the spindle turns; of another one it is said that it does not.
+/// A post with the macro waits for the spindle; for one without it there is a note.
 #[test]
 fn a_wait_for_the_spindle_that_is_not_written_is_noted() {
     let notes = |elements: &str, spin_up| {

@@ -1,4 +1,4 @@
-//! How CamBam templates become lines, and what the lines that were written mean for the next.
+//! Tests of how CamBam templates become lines, and how each line affects the next.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::{Coolant, Turning};

@@ -1,4 +1,4 @@
-//! Programs that CamBam wrote, read and written again with our engine, come out byte for byte. (../shared/cambam-output)
+//! Programs written by CamBam, parsed and written by our engine, are reproduced byte for byte. (../shared/cambam-output)
 
 use camino::Utf8Path;
 use pathbuild_gcode::dialect::Dialect;
@@ -7,7 +7,7 @@ use pathbuild_post::{Job, Post, PostOptions, Remark, Units, VelocityMode};
 
 use crate::support::shared;
 
-/// A program of CamBam's as a job. What a job knows and a program's moves do not tell (diameters, units, G61) is looked up in the text.
+/// Converts a program of CamBam to a job. Properties that are not in its moves (diameters, units, G61) are taken from its comments.
 fn read(text: &str, name: &str) -> Job {
     let interpretation = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default());
     assert_eq!(interpretation.problems.iter().filter(|problem| problem.is_error()).count(), 0);
@@ -33,18 +33,18 @@ fn read(text: &str, name: &str) -> Job {
     job
 }
 
-/// The text of a line that is a comment.
+/// The text of a comment line.
 fn comment(line: &str) -> Option<&str> {
     line.trim().strip_prefix('(').map(|text| text.trim_end_matches(')').trim())
 }
 
-/// Index and diameter in a remark about a tool.
+/// Index and diameter in a comment about a tool.
 fn tool(text: &str) -> Option<(u32, f64)> {
     let (index, diameter) = text.strip_prefix('T')?.split_once(" : ")?;
     Some((index.parse().ok()?, diameter.parse().ok()?))
 }
 
-/// The program as CamBam wrote it, and as our engine writes it; nothing where ../shared is absent.
+/// The program as written by CamBam and as written by our engine; `None` if ../shared is absent.
 fn both(output: &str, definition: &str, name: &str, date: &str) -> Option<(Vec<String>, Vec<String>)> {
     let original = shared(&format!("cambam-output/{output}"))?;
     let definition = shared(&format!("posts/{definition}"))?;
@@ -100,7 +100,7 @@ fn several_tools_and_exact_stop() {
     else {
         return;
     };
-    // Newer versions have one more line in the header; its macro is not documented.
+    // Newer versions have an additional line in the header, whose macro is not documented.
     assert_eq!(original.remove(2), "( Post processor: Default )");
     assert_same(&original, &written);
 }
@@ -112,7 +112,7 @@ fn grbl_without_tool_change() {
     else {
         return;
     };
-    // The definition that is public is a little older than the one that wrote this file: it says these lines differently.
+    // The published definition is slightly older than the one that produced this file; these lines differ.
     assert_eq!(written[1..3], ["( Grbl Post Processor v 1.1)", "( modified by onekk )"]);
     written.splice(1..3, original[1..3].to_vec());
     assert_same(&original, &written);
@@ -122,7 +122,7 @@ fn grbl_without_tool_change() {
 fn a_definition_with_tool_lengths() {
     let Some(default) = shared("posts/default-reconstructed.cbpp") else { return };
     let Some(original) = shared("cambam-output/g43-custom-two-tools-2012.nc") else { return };
-    // The definition that wrote it is not known. It is Default with tool lengths in the tool change.
+    // The definition that produced it is unknown. It is Default with tool lengths in the tool change.
     let change = "{$clearance}\nG43 H0\n{$comment} T{$tool.index} : {$tool.diameter} {$endcomment}\nT{$tool.index} M6\nG43 H{$tool.index}</ToolChange>";
     let (before, rest) = default.split_once("<ToolChange>").unwrap();
     let (_, after) = rest.split_once("</ToolChange>").unwrap();

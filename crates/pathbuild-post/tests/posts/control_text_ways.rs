@@ -1,11 +1,11 @@
-//! Ways through the air, small arcs and holes in control texts: what a text cannot say is lifted, drawn as a line, or an error.
+//! Tests of rapids, small arcs and holes in control texts: what a text cannot express is retracted, written as a line, or an error.
 
 use pathbuild_motion::Turning;
 use pathbuild_post::{Entry, Hole, HoleKind, Job, Operation, PostOptions, Step, load};
 
 use crate::support::{self, DIN, feed, job, operation, rapid, read_toml, texts};
 
-/// What the manual's form makes of a job, read back in a dialect.
+/// Output of the manual's definition for a job, read back in a dialect.
 #[track_caller]
 fn written(definition: &str, job: &Job) -> Vec<String> {
     let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
@@ -26,7 +26,7 @@ fn high(steps: Vec<Step>) -> Job {
     job
 }
 
-/// The heights to which the tool goes by rapid alone.
+/// The heights of rapids that move only in Z.
 fn lifts(lines: &[String]) -> Vec<&str> {
     lines.iter().filter_map(|line| line.strip_prefix("G00 Z")).collect()
 }
@@ -41,12 +41,12 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps.clone()));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+25", "{lines:?}");
-    // What is higher than the path's own clearance is gone over as the program does.
+    // Anything higher than the clearance of the path is passed at the height used by the program.
     steps[4] = rapid(10.0, 40.0, 30.0);
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
-    // So is what goes beyond its end, or back behind its beginning, in X and in Y.
+    // The same applies beyond its end, and back before its beginning, in X and in Y.
     for (beyond, end) in [
         ([70.0, 0.0], [60.0, 0.0]),
         ([5.0, 0.0], [60.0, 0.0]),
@@ -68,7 +68,7 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
         let over = lines.iter().position(|line| *line == there).expect("the second contour");
         assert_eq!(lines[over - 1], "G00 Z+25", "{beyond:?} {lines:?}");
     }
-    // A straight way at the same height needs no lift.
+    // A straight move at the same height needs no retraction.
     let straight = vec![
         rapid(0.0, 0.0, 2.0),
         feed(0.0, 0.0, -1.0),
@@ -95,7 +95,7 @@ fn hole(x: f64, level: f64, kind: HoleKind) -> Step {
     })
 }
 
-/// With a text for holes.
+/// The definition with a text for holes.
 fn with_point() -> String {
     DIN.replace(
         "contour-end =",
@@ -204,7 +204,7 @@ fn a_tool_is_changed_above_where_the_tool_is() {
     let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
     assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
     assert_eq!(lifts(&lines[..change]).last(), Some(&"+25"), "{lines:?}");
-    // Where the program itself goes down again before, the text still begins where the contour's text ended.
+    // If the program itself descends before, the text still begins where the text of the contour ended.
     let mut job = job;
     job.operations[0].steps.push(rapid(1.0, 0.0, 4.0));
     let lines = written(DIN, &job);
@@ -274,7 +274,7 @@ fn a_program_that_ends_with_the_spindle_turning_is_refused() {
     assert!(texts(&switched_on.expect_err("it is switched on again"))[0].contains("PB770"));
 }
 
-/// The way back from a helix within the material is a feed: at the end as between two cuts.
+/// The way back from a helix within the material is a feed, at the end as well as between two cuts.
 #[test]
 fn a_program_may_end_with_a_helical_hole() {
     let half = |from: [f64; 3], to: [f64; 3]| arc(from, [0.0; 2], to);
@@ -284,7 +284,7 @@ fn a_program_may_end_with_a_helical_hole() {
     steps.extend([rapid(0.0, 0.0, -2.0), rapid(0.0, 0.0, 25.0)]);
     let lines = written(DIN, &high(steps.clone()));
     assert!(lines.contains(&"G01 X+0 Y+0 Z-2 F100".to_owned()), "{lines:?}");
-    // A cut behind the last one is none of the program's.
+    // A cut after the last one is not part of the program.
     let more = DIN.replace("program-end = 'M30'", "program-end = '''\nG01 X+50 F100\nM30'''");
     let found = read_toml(&more)
         .write(&high(steps), &PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() });

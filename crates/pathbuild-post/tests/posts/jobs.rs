@@ -1,4 +1,4 @@
-//! Finished programs as jobs.
+//! Tests of converting finished programs to jobs.
 
 use std::f64::consts::{PI, TAU};
 
@@ -77,7 +77,7 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     );
 }
 
-/// Such arcs stand between support bars that are as far apart as the cutter is wide.
+/// Such arcs are located between support bars whose distance equals the diameter of the cutter.
 #[test]
 fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     let arc = |length: f64| {
@@ -98,7 +98,7 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     assert!(matches!(arc(0.002), Step::Move(it) if it.course().is_some()));
 }
 
-/// The ends of a full circle that was drawn as an arc are numbers of two elements: they may differ by next to nothing.
+/// The ends of a full circle drawn as an arc come from two elements, so they may differ minimally.
 #[test]
 fn a_full_circle_ends_where_it_begins() {
     let arc = |by: f64, length: f64| {

@@ -1,4 +1,4 @@
-//! Post-processors through their public interface.
+//! Tests of post-processors through their public interface.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod built_in;

@@ -1,4 +1,4 @@
-//! What is said of definitions: which text wrote a line, why a value is missing, what is doubtful.
+//! Tests of messages about definitions: which text produced a line, why a value is missing, what is doubtful.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
@@ -7,7 +7,7 @@ use pathbuild_post::{Job, Post, PostOptions};
 
 use crate::support::{DIN, arc, bare, definition, feed, job, rapid, read, read_toml, texts};
 
-/// The notes of findings.
+/// The notes of diagnostics.
 fn notes(found: &[Diagnostic]) -> Vec<String> {
     found.iter().flat_map(|found| found.notes.iter().map(|note| note.text(Lang::En))).collect()
 }
@@ -34,7 +34,7 @@ fn a_finding_names_the_text_that_wrote_the_line() {
     let found = read_toml(&text).write(&milled(), &options).unwrap_err();
     let expected = format!("it is written by line, line {line} of the definition");
     assert!(notes(&found).contains(&expected), "{:?}", notes(&found));
-    // A text that the definition does not have has no line.
+    // A default text has no line.
     let found = read(&definition("<Dialect>grbl</Dialect>"))
         .unwrap()
         .write(&milled(), &PostOptions::default())

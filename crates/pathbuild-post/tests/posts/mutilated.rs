@@ -1,4 +1,4 @@
-//! Each text of each definition removed, emptied and reversed, one at a time: what is written has all moves.
+//! Removes, empties and reverses each text of each definition, one at a time; whatever is written must contain all moves.
 
 use std::io::Write;
 
@@ -52,7 +52,7 @@ pub(crate) fn program() -> Job {
     job
 }
 
-/// Where the cuts of the program end.
+/// End points of the cuts of the program.
 const CUTS: [[f64; 3]; 7] = [
     [0.0, 0.0, -1.0],
     [10.0, 0.0, -1.0],
@@ -155,7 +155,7 @@ const SECTIONS: [&str; 55] = [
     "Dialect",
 ];
 
-/// Each element removed, emptied and its parts in reverse order; those that are absent emptied.
+/// Variants in which one element is removed, emptied or has its parts reversed; absent elements are emptied.
 fn elements_changed(text: &str) -> Vec<String> {
     let mut variants = Vec::new();
     for name in SECTIONS {
@@ -177,7 +177,7 @@ fn elements_changed(text: &str) -> Vec<String> {
     variants
 }
 
-/// The same of control texts.
+/// The same for control texts.
 fn texts_changed(text: &str) -> Vec<String> {
     let mut variants = Vec::new();
     let begin = text.find("[text]").unwrap();
@@ -201,7 +201,7 @@ fn reversed(text: &str) -> String {
     parts.into_iter().rev().flat_map(|part| [part.trim_end(), " "]).collect()
 }
 
-/// Whether the cuts come in order, by a reader that knows G0 to G3, X, Y and Z, and nothing of the program's own.
+/// Whether the cuts come in order, according to a reader that knows only G0 to G3, X, Y and Z and shares no code with the program.
 fn has_all_cuts(text: &str) -> bool {
     let (mut at, mut motion) = ([f64::NAN; 3], 0.0);
     let mut left = CUTS.iter().peekable();

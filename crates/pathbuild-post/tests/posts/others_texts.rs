@@ -1,4 +1,4 @@
-//! Texts of drawings, file names and options in every place of every post: no control acts on any of them.
+//! Inserts texts from drawings, file names and options in every place of every post; no control must act on any of them.
 
 use camino::Utf8Path;
 use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, Step};
@@ -51,7 +51,7 @@ fn no_control_acts_on_a_text_of_others() {
         let is_own = own.iter().any(|(own, _)| own == name);
         let bytes = (0..=255_u8).map(|byte| format!("a{}G1 Z-99", char::from(byte)));
         for hostile in bytes.chain(HOSTILE.map(str::to_owned)) {
-            // Every byte in all places at once, what is known to be dangerous in each.
+            // Each byte in all places at once, and each known dangerous text in every single place.
             let first = if HOSTILE.contains(&hostile.as_str()) { 0 } else { PLACES - 1 };
             for place in first..PLACES {
                 let one = |text: &str| written(&post, place, text, is_own);
@@ -63,7 +63,7 @@ fn no_control_acts_on_a_text_of_others() {
     }
 }
 
-/// Somebody who answers for a definition answers for none of the texts that it puts into comments.
+/// Taking responsibility for a definition does not extend to the texts it puts into comments.
 #[test]
 fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
     let marks = [
@@ -103,7 +103,7 @@ fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
     }
 }
 
-/// How many places a text can have, and one for all of them.
+/// Number of places for a text, plus one for all of them.
 const PLACES: usize = 9;
 
 fn written(post: &Post, place: usize, text: &str, is_own: bool) -> Option<String> {
@@ -163,7 +163,7 @@ fn check(name: &str, place: usize, hostile: &str, found: &str, harmless: &str) {
     }
 }
 
-/// What is left of a line without its comments, of which none is active.
+/// What remains of a line without its comments, none of which must be active.
 fn code_of(line: &str, marks: &[&str], at: &str) -> String {
     let mut code = String::new();
     let mut rest = line;

@@ -1,4 +1,4 @@
-//! Programs that were read as jobs, and built-in posts against the native program.
+//! Tests of parsed programs as jobs, and of built-in posts against the native program.
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect;
@@ -134,7 +134,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
-/// A move that is long enough to be one; nothing else of its length is asked for.
+/// A move of sufficient length; the length is otherwise unused.
 fn go(to: Move) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: Class::Milling, length: 99.0, feed: None } }
 }
@@ -153,7 +153,7 @@ fn program() -> Program {
     let line = |x: f64, y: f64, z| go(Move::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
     let arc = |clockwise, centre: [f64; 2], to: [f64; 2], z, is_spiral| {
         let (centre, to) = (Xy::new(centre[0], centre[1]), Xy::new(to[0], to[1]));
-        // A radian of 10 mm radius, and half circles of 5 mm.
+        // One radian at a radius of 10 mm, and half circles with a radius of 5 mm.
         let length = if is_spiral { 5.0 * std::f64::consts::PI } else { 10.0 };
         let to = Move::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral };
         ProgramStep::Move { to, count: Count { class: Class::Milling, length, feed: None } }
@@ -223,7 +223,7 @@ fn program() -> Program {
     }
 }
 
-/// The dialect that reads a built-in post's moves.
+/// The dialect in which the output of a built-in post is read.
 fn reader(post: &str) -> Dialect {
     match post {
         "grbl" | "marlin" => Dialect::Grbl,
@@ -297,7 +297,7 @@ fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
     }
 }
 
-/// What a built-in post makes of a program in a dialect.
+/// Output of a built-in post for a program in a dialect.
 fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<String>> {
     let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
     let mut job =
@@ -309,7 +309,7 @@ fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<S
     Ok(String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect())
 }
 
-/// The lines behind the second change of tools.
+/// The lines after the second tool change.
 fn after_change(lines: &[String]) -> &[String] {
     let change = lines.iter().rposition(|line| line.starts_with("M3 ")).expect("the spindle starts again");
     &lines[change + 1..]
@@ -336,7 +336,7 @@ fn a_new_tool_never_goes_down_where_the_old_one_ended() {
             "{deep}: {found:?}"
         );
     }
-    // At the surface nothing is met; to another depth the program itself goes by rapid.
+    // At the surface nothing is hit; to a different depth the program itself moves by rapid.
     for fine in ["G0 X20 Z0\nG1 Z-3", "G0 Z5\nG0 X20\nG1 Z-3", "G0 X20 Z-1\nG1 Z-3"] {
         let lines = errors(fine).unwrap_or_else(|errors| panic!("{fine}: {errors:?}"));
         assert!(!after_change(&lines).iter().any(|line| line.contains("Z-2.0")), "{fine}: {lines:?}");
@@ -374,7 +374,7 @@ fn a_program_that_names_no_tool_is_written_without_a_change() {
         let is_change = |line: &&String| line.contains("T0") || line.contains("M6") || line.contains("H0");
         assert_eq!(lines.iter().find(is_change), None, "{post}");
     }
-    // M6 alone in the head changes nothing; later it would hide a change by hand.
+    // M6 alone in the head changes nothing; later it would hide a manual change.
     assert!(posted(&text.replace("S1000", "M6\nS1000"), Dialect::LinuxCnc, "grbl").is_ok());
     let by_hand = posted(&text.replace("G1 X10", "M6\nG1 X10"), Dialect::LinuxCnc, "grbl").unwrap_err();
     assert!(by_hand[0].contains("PB765 the tool is changed here"), "{by_hand:?}");

@@ -5,14 +5,14 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
 use pathbuild_post::{Entry, Job, Operation, Output, Post, PostOptions, Step, Tool};
 
-/// A file of `../shared` beside the project; `None` where that is absent, which is a skip.
+/// A file of `../shared` next to the project. `None` if that is absent; the test is then skipped.
 pub(crate) fn shared(name: &str) -> Option<String> {
     let path = pathbuild_testkit::shared(name)?;
     #[expect(clippy::disallowed_methods, reason = "a test's own files")]
     Some(std::fs::read_to_string(path).expect("a test's own file can be read"))
 }
 
-/// The manual's form of control texts: contours have a start and an end, and rapids no text of their own.
+/// Control texts as in the manual: contours have a start and an end, and there is no text for rapids.
 pub(crate) const DIN: &str = r"[post]
 number-lines = false
 [text]
@@ -32,7 +32,7 @@ contour-end = 'G00 Z{+~ZClearance~}'
 program-end = 'M30'
 ";
 
-/// Real definitions with their names, where ../shared has them.
+/// Real definitions with their names, if ../shared contains them.
 pub(crate) fn real_definitions() -> Vec<(String, String)> {
     let names = [
         "default-reconstructed.cbpp",
@@ -50,7 +50,7 @@ pub(crate) fn definition(elements: &str) -> String {
     format!("<?xml version=\"1.0\"?>\n<PostProcessor Version=\"0.9.8.0\">\n{elements}\n</PostProcessor>")
 }
 
-/// A CamBam definition that writes nothing but the moves.
+/// A CamBam definition that writes only the moves.
 pub(crate) fn bare(elements: &str) -> String {
     definition(&format!(
         "<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP><EndOfLine>\\n</EndOfLine>{elements}"
@@ -61,13 +61,13 @@ pub(crate) fn read(text: &str) -> Result<Post, Vec<Diagnostic>> {
     Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))
 }
 
-/// A definition of control texts.
+/// Parses a definition with control texts.
 pub(crate) fn read_toml(text: &str) -> Post {
     Post::read(text.as_bytes(), Utf8Path::new("test.toml"))
         .unwrap_or_else(|errors| panic!("{:?}", texts(&errors)))
 }
 
-/// What a definition makes of a job.
+/// Output of a definition for a job.
 pub(crate) fn output(
     definition: &str,
     job: &Job,
@@ -76,7 +76,7 @@ pub(crate) fn output(
     unchecked(&read(definition)?, job, options)
 }
 
-/// What a definition makes of a job, read back only if somebody names its dialect: rules of text are not about whole programs.
+/// Output for a job that is read back only if a dialect is declared, for tests of texts that are not entire programs.
 pub(crate) fn unchecked(
     post: &Post,
     job: &Job,
@@ -86,7 +86,7 @@ pub(crate) fn unchecked(
     post.write(job, &PostOptions { unchecked, ..options.clone() })
 }
 
-/// The lines that a definition makes of a job.
+/// The lines that a definition produces for a job.
 #[track_caller]
 pub(crate) fn lines(definition: &str, job: &Job) -> Vec<String> {
     lines_with(definition, job, &PostOptions::default())
@@ -100,7 +100,7 @@ pub(crate) fn lines_with(definition: &str, job: &Job, options: &PostOptions<'_>)
     }
 }
 
-/// The errors that a definition makes of a job: `line: code text (help)`.
+/// The errors that a definition produces for a job: `line: code text (help)`.
 #[track_caller]
 pub(crate) fn errors(definition: &str, job: &Job) -> Vec<String> {
     texts(&output(definition, job, &PostOptions::default()).expect_err("the post must fail"))
@@ -116,7 +116,7 @@ pub(crate) fn texts(diagnostics: &[Diagnostic]) -> Vec<String> {
     diagnostics.iter().map(text).collect()
 }
 
-/// A job of one operation that begins at (0, 0, 5), the clearance plane; the material's face is at 0.
+/// A job with one operation that begins at (0, 0, 5), on the clearance plane; the upper face of the material is at 0.
 pub(crate) fn job(steps: Vec<Step>) -> Job {
     Job { name: "part".into(), operations: vec![operation("mill", 1, steps)], ..Job::default() }
 }

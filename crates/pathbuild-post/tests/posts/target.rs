@@ -1,4 +1,4 @@
-//! What the target of a post takes, and what is done about what it does not.
+//! Tests of what the target of a post accepts, and what happens otherwise.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
@@ -9,12 +9,12 @@ use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
 
 use crate::support::{definition, feed, job, rapid, read, texts};
 
-/// A text written as it is, for a target.
+/// Writes a text literally, for a target.
 fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
     let text = definition(&format!(
         "<PostFile>{text}</PostFile><EndOfLine>\\n</EndOfLine><SuppressParserErrors>true</SuppressParserErrors>{target}"
     ));
-    // What it writes is no program.
+    // The output is not a complete program.
     let options = PostOptions { unchecked: true, ..options.clone() };
     Post::read(text.as_bytes(), Utf8Path::new("test.cbpp"))?.write(&job(vec![]), &options)
 }
@@ -42,7 +42,7 @@ fn rejected(line: u32, target: &str, word: &str) -> String {
     format!("line {line} of the output: {target} does not take \"{word}\"")
 }
 
-/// Nobody reads more, of one line or of many: each keeps a piece of its line.
+/// The number of errors is limited, within one line and over several, because each contains part of its line.
 #[test]
 fn so_many_errors_are_told() {
     for (text, count) in
@@ -227,7 +227,7 @@ fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
     assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
 }
 
-/// Writes unchecked, when anything may be written, and for a dialect, in which the text is read back.
+/// Writes unchecked, if anything may be written, and for a dialect in which the text is read back.
 fn read_back(elements: &str, steps: Vec<Step>) -> Result<(), Vec<String>> {
     let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
     let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
@@ -258,7 +258,7 @@ fn what_moves_otherwise_than_the_program_is_not_written() {
     );
 }
 
-/// Writes a cut to X10 at a tool's speed, with these texts before and behind it, for LinuxCNC on a machine.
+/// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(
         "<PostFile>{{$mops}}{behind}</PostFile><MOP>{before}\n{{$blocks}}</MOP><Dialect>linuxcnc</Dialect>"
@@ -315,7 +315,7 @@ fn what_the_reader_refuses_is_not_written() {
     assert!(errors[0].contains("a cutting move without a feed"), "{errors:?}");
 }
 
-/// Real definitions name no dialect: what they write is followed as far as all controls agree.
+/// Real definitions declare no dialect; their output is followed as far as all controls agree.
 #[test]
 fn without_a_dialect_words_and_spindle_are_followed_too() {
     let mut job =
@@ -355,7 +355,7 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
             doubts(words)
         );
     }
-    // Switched by hand, no word is asked for; and whoever answers for the output is believed.
+    // No spindle word is required if the operator switches it, or if the user takes responsibility for the output.
     for options in [
         PostOptions { manual_spindle: true, ..PostOptions::default() },
         PostOptions { unchecked: true, ..PostOptions::default() },

@@ -1,7 +1,8 @@
-//! The height of the material between probes. (book: language/probes)
+//! Models the height of the material between probes. (book: language/probes)
 //!
-//! What is modelled is the correction: how much higher than drawn the material lies. At any point it is a linear combination of the
-//! corrections at the probes, so a [`Surface`] knows the probes' places only, and a program made with it holds until they move.
+//! The models describe the correction, that is, by how much the material is higher than drawn. At each point it is a linear combination of
+//! the
+//! corrections at the probes. Therefore a [`Surface`] depends only on their positions, and a program made with it is valid until they move.
 
 mod nearest;
 mod odd;
@@ -17,19 +18,23 @@ pub(crate) use tin::Tin;
 
 pub use odd::{OddProbe, odd_probes};
 
-/// How heights between probes are found.
+/// How heights between probes are interpolated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ZModel {
-    /// The four nearest probes, weighted by the inverse of their distance. Bends a plane, and jumps where the four change.
+    /// The four nearest probes, weighted by the inverse of their distance. It distorts planes, and it is discontinuous where the selection
+    /// changes.
     #[default]
     Idw4,
-    /// The plane that fits best (least squares). One probe: as high everywhere. Two, or all on a line: no slope across the line.
+    /// The best-fitting plane (least squares). One probe gives a constant height; two probes, or probes on a line, give no slope across the
+    /// line.
     Plane,
-    /// Triangles between the probes (Delaunay); outside of them as on the nearest edge. Probes on a line: as on the nearest point of it.
+    /// Triangles between the probes (Delaunay); outside of them the value at the nearest edge. For probes on a line, the value at its
+    /// nearest
+    /// point.
     Tin,
 }
 
-/// A model over the places of probes.
+/// A model for probes at given positions.
 #[derive(Clone, Debug)]
 pub struct Surface {
     model: Model,
@@ -43,7 +48,7 @@ enum Model {
 }
 
 impl Surface {
-    /// Fits a model to probes at these places.
+    /// Creates a model for probes at these positions.
     pub fn new(model: ZModel, places: &[Xy]) -> Self {
         let model = match model {
             ZModel::Idw4 => Model::Nearest(Nearest::new(places)),
@@ -53,8 +58,9 @@ impl Surface {
         Self { model }
     }
 
-    /// How much each probe counts at a point: numbers of probes with weights that sum to 1. Probes that do not count may be left out.
-    /// Empty where there are no probes.
+    /// The weight of each probe at a point: indices of probes with weights whose sum is 1. Probes with weight 0 may be omitted. Empty if
+    /// there
+    /// are no probes.
     pub fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         match &self.model {
             Model::Nearest(nearest) => nearest.weights(at),

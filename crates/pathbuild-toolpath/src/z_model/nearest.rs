@@ -4,16 +4,16 @@ use pathbuild_path::Xy;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-/// How many probes count at a point.
+/// Number of probes used for a point.
 const HEAVIEST: usize = 4;
 
-/// Weights that differ by less than this part are not told apart by how near places are found: their own order decides.
+/// Weights with a smaller relative difference are considered equal by the tree and ordered by index.
 const ROUNDING: f64 = 1e-12;
 
-/// The compatible model. (book: language/probes)
+/// The model of the original tool. (book: language/probes)
 #[derive(Clone, Debug)]
 pub(super) struct Nearest {
-    /// Places with the numbers of their probes. Only the first few of one place can count.
+    /// Positions with the indices of their probes. Only the first few at the same position can be used.
     places: RTree<GeomWithData<[f64; 2], Vec<usize>>>,
 }
 
@@ -31,12 +31,12 @@ impl Nearest {
         Self { places: RTree::bulk_load(places.into_values().collect()) }
     }
 
-    /// The heaviest probes in falling order, in order of number where equal.
+    /// The probes with the greatest weights in descending order; equal weights are ordered by index.
     pub(super) fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         let mut weights: Vec<(usize, f64)> = Vec::new();
         for place in self.places.nearest_neighbor_iter([at.x, at.y]) {
             let weight = 1.0 / ((Xy::from(*place.geom()) - at).norm() + 0.001);
-            // Those behind it are no heavier.
+            // All further probes have lower weights.
             if weights.get(HEAVIEST - 1).is_some_and(|(_, least)| weight < least * (1.0 - ROUNDING)) {
                 break;
             }

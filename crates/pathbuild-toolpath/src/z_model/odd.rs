@@ -1,34 +1,34 @@
-//! Probes that do not fit their neighbours. (PB607)
+//! Finds probes that do not fit their neighbours. (PB607)
 //!
-//! Each probe is held against the plane through all the others. It is odd when it lies more than [`LEAST`] from that plane, and more
-//! than [`FACTOR`] times as far as the others scatter about it (the externally studentized residual): a bent sheet, where all scatter,
-//! has no odd probes, and one slip of the pen stands out. That takes five probes, because three others always lie on a plane, and then
-//! nobody can say which one is wrong.
+//! Each probe is compared with the plane through all the others. It is odd if its distance from that plane exceeds [`LEAST`] and also
+//! [`FACTOR`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on which all probes
+//! scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
+//! so that with four it is impossible to tell which one is wrong.
 
 use nalgebra::Matrix2;
 use pathbuild_path::Xy;
 
 use super::scatter::Scatter;
 
-/// What a probe may be off in mm, however well the others fit.
+/// Distance in mm below which a probe is never odd, however well the others fit.
 const LEAST: f64 = 0.1;
 
-/// How much farther off than the others scatter.
+/// Minimum ratio of the distance to the scatter of the others.
 const FACTOR: f64 = 4.0;
 
-/// A plane has so many degrees of freedom.
+/// Degrees of freedom of a plane.
 const FREEDOM: f64 = 3.0;
 
-/// A probe that does not fit.
+/// A probe that does not fit its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OddProbe {
-    /// Its number in the order in which the probes were given.
+    /// Index of the probe, in the given order.
     pub probe: usize,
-    /// How much higher it is than the plane through the others, in mm.
+    /// Height above the plane through the others, in mm.
     pub off: f64,
 }
 
-/// The odd ones among probes, in order. Each is its place and how much higher than drawn it was measured, in mm.
+/// Returns the odd probes in order. Each probe is given by its position and by how much higher than drawn it was measured, in mm.
 pub fn odd_probes(probes: &[(Xy, f64)]) -> Vec<OddProbe> {
     if probes.len() < 5 {
         return Vec::new();
@@ -41,13 +41,13 @@ pub fn odd_probes(probes: &[(Xy, f64)]) -> Vec<OddProbe> {
     odd.collect()
 }
 
-/// The plane through all probes, and how they scatter about it.
+/// The plane through all probes, and their scatter around it.
 struct Fit {
     scatter: Scatter,
     inverse: Matrix2<f64>,
     mean: f64,
     slope: nalgebra::Vector2<f64>,
-    /// Sum of squares, mm².
+    /// Sum of squared distances, in mm².
     residue: f64,
 }
 
@@ -71,8 +71,9 @@ impl Fit {
         off - self.mean - self.slope.dot(&(place - self.scatter.middle))
     }
 
-    /// How far a probe is from the plane through the others, where that is odd. The plane through the others need not be fitted: what a
-    /// probe contributes to the plane through all says how far it has drawn that plane towards itself.
+    /// The distance of a probe from the plane through the others, if it is odd. That plane need not be fitted: the influence of a probe on
+    /// the
+    /// plane through all of them tells how far it has pulled that plane.
     fn odd(&self, probe: (Xy, f64)) -> Option<f64> {
         let place = probe.0 - self.scatter.middle;
         if !self.scatter.without(probe.0).is_wide() {

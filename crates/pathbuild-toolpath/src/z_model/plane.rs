@@ -3,12 +3,12 @@ use pathbuild_path::Xy;
 
 use super::scatter::Scatter;
 
-/// The plane of least squares.
+/// The least-squares plane.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     middle: Xy,
     inverse: Matrix2<f64>,
-    /// Places of the probes from their middle.
+    /// Positions of the probes relative to their mean.
     offsets: Vec<Vector2<f64>>,
 }
 

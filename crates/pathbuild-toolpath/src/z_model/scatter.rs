@@ -1,14 +1,14 @@
 use nalgebra::{Matrix2, Vector2};
 use pathbuild_path::Xy;
 
-/// Points whose extent across their line is less than this part of their extent along it count as lying on the line: what is measured
-/// there says nothing about the slope across it.
+/// If the extent of points across their main direction is less than this fraction of their extent along it, they are treated as collinear,
+/// because they say nothing reliable about the slope across.
 const FLAT: f64 = 0.01;
 
-/// Points nearer than this to their middle, on the average, in mm, count as one point.
+/// Points whose average distance from their mean is less than this, in mm, are treated as a single point.
 const NOTHING: f64 = 0.001;
 
-/// How points lie about their middle: the matrix of second moments, in mm².
+/// The distribution of points around their mean, as a matrix of second moments in mm².
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scatter {
     pub(super) count: f64,
@@ -17,7 +17,7 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
-    /// Of one point or more.
+    /// Computes it for one or more points.
     pub(super) fn new(points: &[Xy]) -> Self {
         let count = points.len() as f64;
         let sum = points.iter().fold(Vector2::zeros(), |sum, point| sum + point.coords);
@@ -26,7 +26,7 @@ impl Scatter {
         Self { count, middle, moments }
     }
 
-    /// That of all the points but one of them.
+    /// The distribution without one of the points.
     pub(super) fn without(&self, point: Xy) -> Self {
         let (d, count) = (point - self.middle, self.count - 1.0);
         let moments = self.moments - d * d.transpose() * (self.count / count);
@@ -39,8 +39,9 @@ impl Scatter {
         short > FLAT * FLAT * long && !self.is_point()
     }
 
-    /// What turns a place into the slope that each point has a part in: the inverse of the moments; only along the line where all lie on
-    /// one, and zero where all are at one point.
+    /// The matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
+    /// it
+    /// only has a component along the line, and for a single point it is zero.
     pub(super) fn inverse(&self) -> Matrix2<f64> {
         if self.is_point() {
             return Matrix2::zeros();
@@ -56,7 +57,7 @@ impl Scatter {
         self.moments.trace() <= self.count * NOTHING * NOTHING
     }
 
-    /// The moments along the points' line and across it.
+    /// The moments along the main direction and across it.
     fn principal(&self) -> (f64, f64) {
         let half = self.moments.trace() / 2.0;
         let long = half + self.eccentricity();
@@ -72,10 +73,10 @@ impl Scatter {
         (self.moments.m11 - self.moments.m22) / 2.0
     }
 
-    /// The direction in which the points extend farthest.
+    /// The main direction.
     fn direction(&self) -> Vector2<f64> {
         let (difference, eccentricity) = (self.difference(), self.eccentricity());
-        // Of the two forms of the eigenvector the one that does not cancel.
+        // Of the two forms of the eigenvector, use the one without cancellation.
         let along = if difference >= 0.0 {
             Vector2::new(eccentricity + difference, self.moments.m12)
         } else {

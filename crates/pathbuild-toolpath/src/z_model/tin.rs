@@ -5,30 +5,30 @@ use pathbuild_path::Xy;
 use rstar::primitives::{GeomWithData, Line, Rectangle};
 use rstar::{AABB, RTree};
 
-/// Triangles between the probes.
+/// A triangulation of the probes.
 #[derive(Clone, Debug)]
 pub(crate) struct Tin {
     places: Vec<ProbedPoint>,
     triangles: Vec<[usize; 3]>,
-    /// The edges of the hull; the pieces of the line where all probes lie on one.
+    /// The edges of the hull, or the segments of the line if all probes are collinear.
     border: Vec<[usize; 2]>,
-    /// Where the triangles lie, by number.
+    /// Bounding boxes of the triangles, with their indices.
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
-    /// Where the edges lie, by number.
+    /// The edges with their indices.
     edges: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
 }
 
-/// One or more probes at one place.
+/// One or more probes at the same position.
 #[derive(Clone, Debug)]
 struct ProbedPoint {
     at: Xy,
     probes: Vec<usize>,
 }
 
-/// How far outside a triangle a point may seem to be, as a part of the triangle, and still be taken for inside.
+/// How far outside a triangle, as a fraction of it, a point is still considered to be inside.
 const ROUNDING: f64 = 1e-9;
 
-/// Edges whose distances in mm² differ by less are as near as each other for the tree; their own distances decide.
+/// Edges whose squared distances in mm² differ by less are considered equal by the tree and compared exactly.
 const AS_NEAR: f64 = 1e-12;
 
 impl Tin {
@@ -55,7 +55,7 @@ impl Tin {
         }
     }
 
-    /// How far a point is from the triangles (or from the line, or the one probe), in mm; 0 inside.
+    /// Distance in mm from the triangles (or from the line or the single probe); 0 inside.
     pub(crate) fn distance(&self, at: Xy) -> f64 {
         if self.around(at).is_some() {
             return 0.0;
@@ -66,21 +66,21 @@ impl Tin {
         }
     }
 
-    /// The triangle around a point, the first of several, and the parts that its corners have in the point.
+    /// The first triangle that contains a point, with the barycentric coordinates of the point.
     fn around(&self, at: Xy) -> Option<(usize, [f64; 3])> {
         let near = self.boxes.locate_in_envelope_intersecting(AABB::from_point([at.x, at.y]));
         let around = near.filter_map(|it| Some((it.data, self.inside(self.triangles[it.data], at)?)));
         around.min_by_key(|(number, _)| *number)
     }
 
-    /// The parts that a triangle's corners have in a point inside it.
+    /// Barycentric coordinates of a point with respect to a triangle, if the point is inside.
     fn inside(&self, corners: [usize; 3], at: Xy) -> Option<[f64; 3]> {
         let [a, b, c] = corners.map(|corner| self.places[corner].at);
         let (ab, ac, ap) = (b - a, c - a, at - a);
         let area = ab.perp(&ac);
         let (of_b, of_c) = (ap.perp(&ac) / area, ab.perp(&ap) / area);
         let parts = [1.0 - of_b - of_c, of_b, of_c];
-        // A triangle without area has parts that are no numbers, and nothing inside.
+        // The coordinates are NaN for a triangle without area, so that nothing is inside.
         parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
     }
 
@@ -91,7 +91,7 @@ impl Tin {
         }
     }
 
-    /// The nearest edge, the part of it at which its nearest point lies, and the distance; the first of several.
+    /// The nearest edge (the first if there are several), the fraction along it of its nearest point, and the distance.
     fn nearest(&self, at: Xy) -> Option<([usize; 2], f64, f64)> {
         let mut near = self.edges.nearest_neighbor_iter_with_distance_2([at.x, at.y]).peekable();
         let (_, least) = *near.peek()?;
@@ -102,7 +102,7 @@ impl Tin {
         first.map(|((along, distance), edge)| (self.border[edge], along, distance))
     }
 
-    /// The part of an edge at which its nearest point lies, and how far that is.
+    /// The fraction along an edge of its point nearest to `at`, and the distance.
     fn along(&self, edge: usize, at: Xy) -> (f64, f64) {
         let [start, end] = self.border[edge].map(|place| self.places[place].at);
         let way = end - start;
@@ -110,7 +110,7 @@ impl Tin {
         (along, (start + way * along - at).norm())
     }
 
-    /// Probes at one place share its part.
+    /// Divides the weight of a position among its probes.
     fn shared(&self, parts: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
         let mut weights = Vec::new();
         for (place, part) in parts {
@@ -122,19 +122,19 @@ impl Tin {
     }
 }
 
-/// So much wider than what lies in it that no point is missed that seems to be inside.
+/// Enlarges a rectangle so that no point considered to be inside is missed.
 fn wide(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
     let (lower, upper) = (tight.lower(), tight.upper());
     let margin = 4.0 * ROUNDING * (upper[0] - lower[0]).max(upper[1] - lower[1]);
     Rectangle::from_corners(lower.map(|it| it - margin), upper.map(|it| it + margin))
 }
 
-/// Shapes by where they lie, each with its number.
+/// Builds a tree of shapes with their indices.
 fn numbered<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<GeomWithData<T, usize>> {
     RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
 }
 
-/// The places of probes. Probes whose places a program would write alike are at one.
+/// The positions of probes. Probes whose positions would be written identically in a program are at the same position.
 fn places(probes: &[Xy]) -> Vec<ProbedPoint> {
     let mut places: Vec<ProbedPoint> = Vec::new();
     let mut known = BTreeMap::new();

@@ -1,11 +1,11 @@
-//! Support bars. ("Support bars")
+//! Tests of support bars. ("Support bars")
 
 use crate::support::{COMPATIBLE, estimate, moves, path, program_with, shown};
 
 /// 40 mm with four bars of 2 mm: 2.5 mm on a bar, 1 mm down, 3 mm between, 1 mm up, 5 mm on a bar, and so on.
 const FOUR: &str = "T5 O3 D2 B0 P2 U8";
 
-/// The points along a line of 40 mm, up to the first that repeats.
+/// The points along a line of 40 mm, up to the first repetition.
 fn milled(parameters: &str) -> Vec<String> {
     moves(&path(parameters, "bars 0,0 40,0\nend 40,0"))
 }
@@ -38,7 +38,7 @@ fn gaps_and_bars_follow_each_other() {
     assert_eq!(milled[19..], ["L 10"]);
 }
 
-/// As in [`SECTIONS`], and a move down, for each of six passes.
+/// The moves in [`SECTIONS`] and a move down, for each of six passes.
 #[test]
 fn moves_over_bars_are_estimated() {
     assert_eq!(estimate(&path(&format!("{FOUR} I1"), "bars 0,0 40,0\nend 40,0")), 6 * (17 + 1));
@@ -48,7 +48,7 @@ fn moves_over_bars_are_estimated() {
 fn bars_matter_only_below_their_top() {
     let milled = milled(&format!("{FOUR} I1"));
     assert_eq!(milled[..7], ["L 5", "D 4", "M 40,0 4", "D 3", "M 0,0 3", "D 2", "M 40,0 2"]);
-    // Backwards from here: it begins with a bar as well, where the tool is already.
+    // Backwards from here. It also begins with a bar, at the height of the tool.
     assert_eq!(milled[7..11], ["M 37.5,0 2", "M 36.5,0 1", "M 33.5,0 1", "M 32.5,0 2"]);
     let last = milled.len();
     assert_eq!(milled[last - 5..], ["M 33.5,0 0", "M 36.5,0 0", "M 37.5,0 2", "M 40,0 2", "L 10"]);
@@ -67,7 +67,7 @@ fn the_number_of_bars_is_what_has_room() {
     assert_eq!(gaps("40", "P2 U38.001"), 0);
 }
 
-/// Without a gap the segment stays at the bars' height.
+/// Without gaps, the segment remains at the height of the bars.
 #[test]
 fn without_room_for_a_gap_nothing_below_d_is_milled() {
     assert_eq!(
@@ -76,7 +76,7 @@ fn without_room_for_a_gap_nothing_below_d_is_milled() {
     );
 }
 
-/// As long as half a bar at most, and as short as the room between the bars.
+/// At most as long as half a bar, and limited by the room between the bars.
 #[test]
 fn slopes_are_as_long_as_there_is_room() {
     let slope = |parameters: &str| {
@@ -88,11 +88,11 @@ fn slopes_are_as_long_as_there_is_room() {
     assert_eq!(slope("D0.5 B0 P2 U8"), (step("M 2.5,0 0.5"), step("M 3,0 0")));
     // P / 2.
     assert_eq!(slope("D3 B0 P2 U8"), (step("M 2.5,0 3"), step("M 3.5,0 0")));
-    // (L / n - P - O) / 2: six bars of 3 mm, with 3.667 mm between them.
+    // (L / n - P - O) / 2: six bars of 3 mm with 3.667 mm between them.
     assert_eq!(slope("D3 B0 P3 U3.6"), (step("M 3,0 3"), step("M 3.333,0 0")));
 }
 
-/// The cutter just fits: no slope, nothing between.
+/// The cutter just fits, so there is no slope and nothing between.
 #[test]
 fn bars_may_be_a_cutters_diameter_apart() {
     let milled = milled("T5 O3 I5 D2 B0 P2 U3");
@@ -101,14 +101,14 @@ fn bars_may_be_a_cutters_diameter_apart() {
 
 #[test]
 fn bars_stand_on_arcs_too() {
-    // A half circle of 31.416 mm: three bars, every 60 degrees.
+    // A half circle of 31.416 mm has three bars, one every 60 degrees.
     let arc = moves(&path("T5 O3 I5 D2 B0 P2 U8", "bars arc centre 10,0 r 10 from 180 to 0\nend 20,0"));
     assert_eq!(arc[..3], ["L 5", "D 2", "A 0.311,-2.474 2"]);
     assert_eq!(arc.iter().filter(|step| step.starts_with('A')).count(), 13);
     assert_eq!(arc[arc.len() - 2..], ["A 20,0 2", "L 10"]);
 }
 
-/// Bars are counted in the path's own drawing and raised with it.
+/// Bars are calculated in the path's own drawing and raised with it.
 #[test]
 fn bars_are_raised_by_h() {
     let drawing = format!(
@@ -129,7 +129,7 @@ fn the_original_tool_drills_into_the_bar_where_a_segment_begins() {
     assert_eq!(sweepless[3..6], ["D 0", "L 2", "M 2.5,0 2"]);
 }
 
-/// In the groove, too, a run begins and ends with a bar.
+/// Sweepless runs also begin and end with a bar.
 #[test]
 fn sweepless_runs_spare_bars() {
     let drawing = path("T5 O3 D2 B0 P2 U38 I5 W5", "bars 0,0 40,0\nend 40,0");

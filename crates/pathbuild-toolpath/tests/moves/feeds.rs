@@ -1,11 +1,11 @@
-//! The feeds of plunges, and of probing. ("Elementary moves"; book: language/letters, Z)
+//! Tests of the feeds of plunges and of probing. ("Elementary moves"; book: language/letters, Z)
 
 use pathbuild_path::PathOptions;
 use pathbuild_toolpath::{Class, Move, Program, Step};
 
 use crate::support::{COMPATIBLE, OPTIONS, path, program, program_with};
 
-/// The feed that each plunge runs at, and that it is counted with.
+/// For each plunge, its feed and the feed used for statistics.
 fn plunges(program: &Program) -> Vec<(f64, f64)> {
     let plunge = |step: &Step| match step {
         Step::Move { to: Move::Drill { feed, .. }, count } => Some((*feed, count.feed.unwrap_or(0.0))),
@@ -14,7 +14,7 @@ fn plunges(program: &Program) -> Vec<(f64, f64)> {
     program.steps.iter().filter_map(plunge).collect()
 }
 
-/// `feeds of the plunges, by default`, and as the original tool has them: at the feed last set, but counted with another.
+/// Checks the feeds of plunges by default, and in compatible programs, which plunge at the previous feed but count with another one.
 #[track_caller]
 fn expect(drawing: &str, default: &[f64], original: &[(f64, f64)]) {
     let default: Vec<(f64, f64)> = default.iter().map(|feed| (*feed, *feed)).collect();
@@ -26,7 +26,7 @@ fn expect(drawing: &str, default: &[f64], original: &[(f64, f64)]) {
 fn a_hole_is_drilled_at_its_own_feed() {
     let hole = "mill 0,0 20,0 \"F1000\"\nsweep 20,0 30,0\ncircle 30,0 d 3 \"F40\"\nsweep 30,0 40,0\nend 40,0";
     expect(&path("T5 O3 I5 B0 F80", hole), &[80.0, 40.0], &[(150.0, 80.0), (1000.0, 40.0)]);
-    // Without one at the path's, without that at --feed.
+    // Without a feed of its own it uses that of the path, and without that --feed.
     let plain = "circle 0,0 d 3\nsweep 0,0 40,0\nend 40,0";
     expect(&path("T5 O3 B0 F80", plain), &[80.0], &[(150.0, 80.0)]);
     expect(&path("T5 O3 B0", plain), &[100.0], &[(150.0, 100.0)]);
@@ -42,7 +42,7 @@ fn a_chains_plunge_has_the_lower_feed_of_path_and_segment() {
     expect(&groove, &[30.0, 30.0], &[(150.0, 80.0), (30.0, 80.0)]);
 }
 
-/// Between a segment at B4 and one at B3 the tool goes down within the chain.
+/// Between a segment at B4 and one at B3 the tool descends within the chain.
 #[test]
 fn a_plunge_between_edges_is_the_next_segments() {
     let drawing = path("T5 O3 I5 F80", "mill 0,0 20,0 \"B4 F20\"\nmill 20,0 40,0 \"B3 F60\"\nend 40,0");
@@ -51,7 +51,7 @@ fn a_plunge_between_edges_is_the_next_segments() {
 
 #[test]
 fn plunges_into_a_bar_run_at_the_segments_feed() {
-    // A drop onto bars of a whole edge above D has the chain's feed, slopes are lines.
+    // A plunge onto the bars of an edge above D has the feed of the chain; slopes are lines.
     let bars = path("T5 O3 D2 B0 P2 U38 I5 F80", "bars 0,0 40,0 \"F30\"\nend 40,0");
     assert_eq!(plunges(&program(&bars)), [(30.0, 30.0)]);
     let counted = |step: &&Step| matches!(step, Step::Move { count, .. } if count.class == Class::Drilling);

@@ -1,4 +1,4 @@
-//! Helical circles. ("Helical circle")
+//! Tests of helical circles. ("Helical circle")
 
 use pathbuild_path::PathOptions;
 use pathbuild_toolpath::{Move, Step};
@@ -8,7 +8,7 @@ use crate::support::{
     shown,
 };
 
-/// A sweep to a helical circle, and on.
+/// A sweep to a helical circle, and a sweep away from it.
 fn helix(circle: &str) -> String {
     format!("sweep 0,0 20,0\n{circle}\nsweep 20,0 40,0\nend 40,0")
 }
@@ -34,7 +34,7 @@ fn half_circles_go_down_by_half_an_infeed_each() {
     );
 }
 
-/// The last full circle runs at the bottom, also where the bottom is no whole number of infeeds down.
+/// The last full circle is at the bottom, even if the depth is not a multiple of the infeed.
 #[test]
 fn the_last_circle_runs_at_the_bottom() {
     let heights = |parameters: &str| {
@@ -55,14 +55,14 @@ fn a_helical_mark_ends_at_d() {
     assert_eq!(mark[4..8], ["C 20,2.5 4", "C 20,-2.5 3", "C 20,2.5 3", "C 20,-2.5 3"]);
 }
 
-/// There is room for the cutter at the centre of a small circle: it is not raised.
+/// The cutter has room at the centre of a small circle, so it is not raised.
 #[test]
 fn a_circle_with_a_core_is_left_at_sweep_height() {
     let after = |diameter: &str| {
         moves(&path("T5 O3 I9 B1", &helix(&format!("circle 20,0 d {diameter}"))))[8..].to_vec()
     };
     assert_eq!(after("6"), ["S 20,0", "L 10", "S 40,0"]);
-    // Both sweeps at one height are one.
+    // Two sweeps at the same height are merged.
     assert_eq!(after("6.1"), ["L 10", "S 40,0"]);
     let ends = moves(&path("T5 O3 I9 B1", "sweep 0,0 20,0\ncircle 20,0 d 6.1\nend 20,0"));
     assert_eq!(ends[8..], ["L 10", "S 20,0"]);
@@ -74,14 +74,14 @@ fn a_comment_stands_after_the_retraction() {
     assert_eq!(moves[2..5], ["L 8", "Q x", "S 20,-2.5"]);
 }
 
-/// Where a circle follows a hole, the tool is raised out of it.
+/// If a circle follows a hole, the tool is raised from the hole.
 #[test]
 fn the_tool_is_raised_from_a_hole() {
     let both = path("T5 O3 I9 B1", &helix("circle 20,0 d 3\ncircle 20,0 d 8"));
     assert_eq!(moves(&both)[2..6], ["L 5", "D 1", "L 8", "S 20,-2.5"]);
 }
 
-/// J is the radius of the cutter's centre, I is zero.
+/// J is the radius at the cutter's centre, I is zero.
 #[test]
 fn centres_are_straight_above_and_below() {
     let program = program(&path("T5 O3 I9 B1", &helix("circle 20,0 d 8")));
@@ -100,7 +100,7 @@ fn centres_are_straight_above_and_below() {
 
 #[test]
 fn what_a_helical_circle_counts() {
-    // The lift is counted from where the last full circle began, which is the bottom.
+    // The lift is counted from the start of the last full circle, which is at the bottom.
     assert_eq!(
         counts(&path("T5 O3 I2 B1", &helix("circle 20,0 d 8 \"F300\"")))[2..],
         [
@@ -118,7 +118,7 @@ fn what_a_helical_circle_counts() {
     );
 }
 
-/// Heights on the way down are corrected for the centre, with the core's lift as well.
+/// Heights on the way down are corrected for the centre, including the lift because of the core.
 #[test]
 fn heights_name_the_centre() {
     let program = program(&path("T5 O3 I9 B1", &helix("circle 20,0 d 8")));
@@ -134,13 +134,13 @@ fn heights_name_the_centre() {
     assert_eq!(points, [(20.0, 0.0); 5]);
 }
 
-/// O3, d 11: the cutter's centre runs on a circle of 8 mm, 25.133 mm long: two bars of 2 mm.
+/// O3, d 11: the cutter's centre follows a circle with a diameter of 8 mm, which is 25.133 mm long, so there are two bars of 2 mm.
 const BARS: &str = "circle BORDER 20,0 d 11";
 
 #[test]
 fn below_d_full_circles_leave_bars() {
     let milled = moves(&path("T5 O3 I2 B0 D2 P2 U9", &helix(BARS)));
-    // Down to D as always.
+    // First down to D as usual.
     assert_eq!(milled[4..10], ["C 20,4 4", "C 20,-4 3", "C 20,4 2", "C 20,-4 2", "C 20,4 2", "C 20,-4 2"]);
     // Then a full circle at B: bar, down, between, up, bar, down, between, up, bar.
     let circle = &milled[10..19];
@@ -151,7 +151,7 @@ fn below_d_full_circles_leave_bars() {
     assert_eq!(milled[19..], ["L 10", "S 40,0"]);
 }
 
-/// From D down in steps of I, the last at B.
+/// From D in steps of I, the last at B.
 #[test]
 fn circles_with_bars_go_down_by_infeeds() {
     let lowest = |parameters: &str, options: PathOptions| {
@@ -168,18 +168,18 @@ fn circles_with_bars_go_down_by_infeeds() {
     assert_eq!(of_default("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
     assert_eq!(of_default("T5 O3 I0.4 B1 D2 P2 U21"), "1.6 1.2 1");
     assert_eq!(of_default("T5 O3 I5 B1 D2 P2 U21"), "1");
-    // A remainder that is only rounding is no pass of its own.
+    // A remainder caused by rounding is not a separate pass.
     assert_eq!(of_default("T5 O3 I0.3333333333 B1 D2 P2 U21"), "1.667 1.333 1");
-    // The original tool counts the spiral's infeeds on, 4.3 to 1.5, although it does not go below D.
+    // The original tool continues the infeeds of the spiral, 4.3 to 1.5, although the spiral stops at D.
     let of_original = |parameters: &str| lowest(parameters, COMPATIBLE);
     assert_eq!(of_original("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
     assert_eq!(of_original("T5 O3 I0.4 B1 D2 P2 U21"), "1.4 1");
     assert_eq!(of_original("T5 O3 I0.7 B1 D2 P2 U21"), "1");
-    // They are beyond B: the ring between D and B stays.
+    // They are below B, so the ring between D and B remains.
     assert_eq!(of_original("T5 O3 I5 B1 D2 P2 U21"), "");
 }
 
-/// By the circle on which the cutter's centre runs, 25.133 mm and not 28: two sweeps, 6 moves down to D, two passes of two bars.
+/// Bars depend on the circle of the cutter's centre, 25.133 mm and not 28: two sweeps, 6 moves down to D, two passes with two bars.
 #[test]
 fn bars_of_a_circle_are_estimated_by_where_the_centre_runs() {
     assert_eq!(estimate(&path("T5 O3 I2 B0 D2 P2 U7", &helix(BARS))), 2 * 4 + 6 + 2 * 9);
@@ -191,7 +191,7 @@ fn without_room_for_a_bar_nothing_below_d_is_milled() {
     assert_eq!(milled[4..], ["C 20,4 2.5", "C 20,-4 2", "C 20,4 2", "C 20,-4 2", "L 10", "S 40,0"]);
 }
 
-/// However the embedding turns the path, circles begin below their centre, where the half circles end.
+/// Regardless of how the embedding rotates the path, circles begin below their centre, where the half circles end.
 #[test]
 fn circles_begin_below_the_centre_however_the_path_is_turned() {
     let drawing = |circle: &str| {

@@ -1,6 +1,6 @@
-//! Every move of a program, in which order, with which numbers. (book: program/gcode)
+//! Tests of all moves of a program, with their order and numbers. (book: program/gcode)
 //!
-//! Moves are written in short: `S x,y` sweeps (G00 X Y), `L z` lifts (G00 Z), `D z` drills (G01 Z), `M x,y z` mills a line (G01),
+//! Moves are abbreviated: `S x,y` sweeps (G00 X Y), `L z` lifts (G00 Z), `D z` drills (G01 Z), `M x,y z` mills a line (G01),
 //! `A x,y z` and `C x,y z` mill an arc counterclockwise or clockwise (G03, G02).
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its drawing has failed")]
 

@@ -1,4 +1,4 @@
-//! Sweeps that follow each other. ("Merging sweeps")
+//! Tests of merging consecutive sweeps. ("Merging sweeps")
 
 use crate::support::{COMPATIBLE, counts, moves, moves_and_comments, path, program_with, shown};
 
@@ -9,7 +9,7 @@ fn of_sweeps_that_follow_each_other_the_last_is_kept() {
     assert_eq!(moves(&path(P, "sweep 0,0 10,0 20,0 20,30\nend 20,30")), ["L 10", "S 20,30"]);
 }
 
-/// The others neither move nor count: the length is that of the last alone.
+/// Omitted sweeps are not counted: the length is that of the last one alone.
 #[test]
 fn what_is_left_out_does_not_count() {
     assert_eq!(counts(&path(P, "sweep 0,0 10,0 20,0 20,30\nend 20,30")), ["Sweep 0", "Sweep 30"]);
@@ -27,7 +27,7 @@ fn milling_keeps_them_apart() {
     assert_eq!(moves(&path(P, lines)), ["L 10", "S 10,0", "L 5", "D 0", "M 20,0 0", "L 10", "S 30,0"]);
 }
 
-/// A comment stays where it stands.
+/// Comments keep their position.
 #[test]
 fn comments_do_not_keep_them_apart() {
     let drawing = "layer 8001.1P\nstart 0,0 \"T9 O3 S8\"\nsweep 0,0 10,0\nsubpath 10,0 20,0 \">1234.1P T5\"\nend 20,0\n\
@@ -38,7 +38,7 @@ fn comments_do_not_keep_them_apart() {
     );
 }
 
-/// Below the emitted path's S something may be in the way: rapid moves go where they were drawn.
+/// Below the S of the emitted path there may be obstacles, so rapid moves follow the drawing.
 #[test]
 fn only_sweeps_at_or_above_s_are_merged() {
     let around = |s: &str| {
@@ -50,13 +50,13 @@ fn only_sweeps_at_or_above_s_are_merged() {
     let low = ["L 11.9", "S 0,20", "S 40,20", "S 40,0"];
     assert_eq!(moves(&around("11.9")), low);
     assert_eq!(moves(&around("12")), ["L 12", "S 40,0"]);
-    // Equal, as far as numbers are compared.
+    // Equal within the tolerance for numbers.
     assert_eq!(moves(&around("11.999999")), ["L 12", "S 40,0"]);
     assert_eq!(moves(&around("12.5")), ["L 12.5", "S 40,0"]);
     assert_eq!(shown(&program_with(&around("11.9"), COMPATIBLE), false), ["L 11.9", "S 40,0"]);
 }
 
-/// An embedded path sweeps at its own S, mostly T + O: what is clear there is only clear above the S of the path that is emitted.
+/// Embedded paths sweep at their own S, usually T + O. Only above the S of the emitted path is everything known to be clear.
 #[test]
 fn what_embedded_paths_sweep_below_s_stays() {
     let component = path("T5 O3 I5 B0 S10", "sweep 0,0 10,0\nmill 10,0 20,0\nsweep 20,0 40,0\nend 40,0");

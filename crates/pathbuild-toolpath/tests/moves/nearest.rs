@@ -1,4 +1,4 @@
-//! Long chains: which edge is next, held against a scan over all of them. (book: program/gcode)
+//! Tests the choice of the next edge in long chains against a scan over all edges. (book: program/gcode)
 
 use pathbuild_path::approx::above;
 
@@ -6,17 +6,17 @@ use crate::support::{moves, path, short};
 
 type Point = (f64, f64);
 
-/// An edge that is left: its ends in walking order, and its height.
+/// A remaining edge: its ends in walking order, and its height.
 struct Edge {
     start: Point,
     end: Point,
     z: f64,
-    /// The edge above it, by its number.
+    /// Index of the edge above it.
     above: Option<usize>,
     is_done: bool,
 }
 
-/// Steps on a grid, so that ties are many, and now and then somewhere else: the same in every run.
+/// Reproducible random steps, mostly on a grid to get many ties.
 fn wander(steps: usize, scale: f64) -> Vec<Point> {
     let mut state = 0x9e37_79b9_u32;
     let mut random = |below: u32| {
@@ -37,7 +37,7 @@ fn wander(steps: usize, scale: f64) -> Vec<Point> {
     points
 }
 
-/// The moves of the scan: from the nearer end of the nearest edge to its other end, and on from there.
+/// The moves found by a scan: from the nearer end of the nearest edge to its other end, and so on.
 fn scanned(points: &[Point], depths: &[f64]) -> Vec<String> {
     let pairs = points.windows(2);
     let mut edges: Vec<Edge> = pairs
@@ -88,9 +88,9 @@ fn assert_scanned(scale: f64, points: &[Point]) {
 
 #[test]
 fn the_nearest_edge_of_a_long_chain_is_that_of_a_scan() {
-    // Apart from each other by much more, as much, and less than the infeed.
+    // Distances much greater than, equal to, and less than the infeed.
     for scale in [10.0, 2.0, 0.5] {
-        // Each point once, so that the walk is the drawing.
+        // Each point occurs once, so that the walk follows the drawing.
         let mut points = wander(400, scale);
         let mut seen = Vec::new();
         points.retain(|point| {

@@ -1,4 +1,4 @@
-//! Z-probes: their order, places and heights. (book: language/probes)
+//! Tests of Z-probes: order, positions and heights. (book: language/probes)
 
 use pathbuild_toolpath::ProbePoint;
 
@@ -6,7 +6,7 @@ use crate::support::{path, program, short};
 
 const LINE: &str = "mill 0,0 40,0\nend 40,0";
 
-/// The probes in order, as place and height.
+/// The probes in order, with position and height.
 fn probes(drawing: &str) -> Vec<String> {
     let show =
         |probe: &ProbePoint| format!("{},{} {}", short(probe.at.x), short(probe.at.y), short(probe.height));
@@ -31,7 +31,7 @@ fn a_probes_height_is_t_and_h() {
     assert_eq!(probes(&path("T5 O3 I5 B0", &statements)), ["20,20 6.5", "60,20 6"]);
 }
 
-/// Every embedding of a path brings its own copies, moved and raised with it.
+/// Each embedding of a path has its own copies of the probes, moved and raised with it.
 #[test]
 fn embedded_paths_bring_their_probes() {
     let component = path("T5 O3 I5 B0", &format!("{LINE}\nprobe 20,10 \"Lx Z30\""));

@@ -1,10 +1,10 @@
-//! The reference's lengths and times.
+//! Tests of the lengths and times counted by the original tool.
 
 use pathbuild_toolpath::{Class, Count, Height, Move, Program, Statistics, Step, Total, Xy};
 
 use crate::support::{counts, path, program};
 
-/// Feeds: the segment's for milling, the path's for coming down to an edge.
+/// Milling counts with the feed of the segment, descending to an edge with that of the path.
 #[test]
 fn milling_counts_with_the_segments_feed_and_coming_down_with_the_paths() {
     let line = "mill 0,0 40,0 \"F300\"\nend 40,0";
@@ -12,9 +12,9 @@ fn milling_counts_with_the_segments_feed_and_coming_down_with_the_paths() {
         counts(&path("T5 O3 I5 B0 F200", line)),
         ["Sweep 5", "Drilling 5 200", "Milling 40 300", "Sweep 10"]
     );
-    // --feed where the path has none.
+    // With --feed if the path has none.
     assert_eq!(counts(&path("T5 O3 I5 B0", line))[1], "Drilling 5 100");
-    // Without a sweep likewise, down to W first.
+    // The same for sweepless milling, with a descent to W first.
     assert_eq!(counts(&path("T5 O3 I5 B0 F200 W1", line))[1..3], ["Drilling 4 200", "Milling 40 300"]);
 }
 
@@ -27,11 +27,11 @@ fn slopes_count_with_their_length_in_the_plane() {
     );
 }
 
-/// A sweep counts with the distance in space to where it leads, whose own height is meant to be included.
+/// A sweep counts with the distance in space to its target, with the height of the target.
 #[test]
 fn a_sweep_counts_with_the_height_of_its_aim() {
     assert_eq!(counts(&path("T5 O3 I5 B0", "sweep 0,0 40,0\nend 40,0"))[1], "Sweep 40");
-    // At 10 mm from (80, 0) over to (40, 0), where the next edge lies at 3 mm.
+    // At a height of 10 mm from (80, 0) to (40, 0), where the next edge is at 3 mm.
     let travel = "mill 0,0 40,0\nmill 40,0 80,0 \"B4\"\nmill 80,0 120,0\nend 120,0";
     let found = counts(&path("T5 O3 I1 B3", travel));
     assert!(found.contains(&"Sweep 40.608".to_owned()), "{found:?}");
@@ -74,14 +74,14 @@ fn every_move_counts_once() {
     assert_eq!(Statistics::of_reference(&program(&drawing), 1000.0).commands, 7 + 1);
 }
 
-/// A little more than S, so that the first sweep writes its Z.
+/// Slightly above S, so that the first sweep writes its Z.
 #[test]
 fn the_start_is_a_little_above_the_sweep_height() {
     let program = Program { sweep_height: 10.0, ..Program::default() };
     assert_eq!(program.start_height(), 10.0 * (1.0 + 0.000_002));
 }
 
-/// 1.4 times the pure time, up to whole minutes, after rounding to 0.0000001 s.
+/// 1.4 times the calculated time, rounded up to whole minutes after rounding to 0.0000001 s.
 #[test]
 fn minutes_are_rounded_up() {
     let minutes = |time: f64| Total { length: 0.0, time }.minutes();
@@ -92,7 +92,7 @@ fn minutes_are_rounded_up() {
     assert_eq!(minutes(5.0 / 1.4 + 1e-8), 6.0);
 }
 
-/// The sum's minutes are those of the summed time, not the sum of the minutes.
+/// The minutes of the sum are calculated from the total time, not by adding minutes.
 #[test]
 fn the_sum_is_rounded_once() {
     let total = |time| Total { length: 0.0, time };

@@ -1,4 +1,4 @@
-//! Drawings in text form to programs.
+//! Converts drawings in text form to programs.
 
 use pathbuild_dxf::Options;
 use pathbuild_path::{
@@ -32,7 +32,7 @@ impl Parts for Drawn {
 pub(crate) const OPTIONS: PathOptions =
     PathOptions { feed: Some(100.0), sweep_height: Some(10.0), probe_feed: None, compatible: false };
 
-/// The same for programs as the original tool writes them.
+/// Options for compatible programs.
 pub(crate) const COMPATIBLE: PathOptions = PathOptions { compatible: true, ..OPTIONS };
 
 /// The program of the first path of a drawing.
@@ -46,7 +46,7 @@ pub(crate) fn program_with(drawing: &str, options: PathOptions) -> Program {
     fold(&drawn(drawing), 0, "1234.1P.dxf", options, 0)
 }
 
-/// How many moves the first path of a drawing is taken for.
+/// Estimated number of moves of the first path of a drawing.
 #[track_caller]
 pub(crate) fn estimate(drawing: &str) -> u64 {
     let Drawn(paths) = drawn(drawing);
@@ -84,7 +84,7 @@ fn drawn(drawing: &str) -> Drawn {
     Drawn(file.paths.iter().map(|(raw, _)| walked(raw)).collect())
 }
 
-/// A drawing of one path with the text of its start at (0, 0).
+/// A drawing of a path with these parameters and its start at (0, 0).
 pub(crate) fn path(parameters: &str, statements: &str) -> String {
     format!("layer 1234.1P\nstart 0,0 \"{parameters}\"\n{statements}")
 }
@@ -95,7 +95,7 @@ pub(crate) fn moves(drawing: &str) -> Vec<String> {
     shown(&program(drawing), false)
 }
 
-/// Moves, with Q comments and marks of subpaths between.
+/// Moves, with Q comments and the comments of subpaths.
 #[track_caller]
 pub(crate) fn moves_and_comments(drawing: &str) -> Vec<String> {
     shown(&program(drawing), true)
@@ -132,14 +132,14 @@ fn motion(motion: &Move) -> String {
     }
 }
 
-/// A number with as many of its first three decimals as it needs.
+/// Formats a number with up to three decimals.
 pub(crate) fn short(number: f64) -> String {
     let number = format!("{number:.3}");
     let number = number.trim_end_matches('0').trim_end_matches('.');
     if number == "-0" { "0".to_owned() } else { number.to_owned() }
 }
 
-/// What each move counts as: class, length, and feed where it is not the rapid one.
+/// How each move is counted: class, length, and feed unless it is the rapid one.
 #[track_caller]
 pub(crate) fn counts(drawing: &str) -> Vec<String> {
     let count = |count: &Count| {

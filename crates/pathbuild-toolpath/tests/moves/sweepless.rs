@@ -1,4 +1,4 @@
-//! Sweepless milling. ("Chains, sweepless milling (W given)")
+//! Tests of sweepless milling. ("Chains, sweepless milling (W given)")
 
 use crate::support::{moves, path};
 
@@ -30,7 +30,7 @@ fn a_closed_chain_is_run_round() {
     );
 }
 
-/// A segment with fewer edges gives its deepest again.
+/// A segment with fewer edges repeats its deepest one.
 #[test]
 fn every_run_goes_over_all_segments() {
     let lines = "mill 0,0 20,0\nmark 20,0 40,0\nend 40,0";
@@ -43,14 +43,14 @@ fn every_run_goes_over_all_segments() {
     );
 }
 
-/// Whatever way a segment is drawn, it is run from where the tool is.
+/// Segments are run from the position of the tool, regardless of their direction in the drawing.
 #[test]
 fn segments_are_run_from_where_the_tool_is() {
     let lines = "mill 20,0 0,0\nmill 20,0 40,0\nend 40,0";
     assert_eq!(moves(&path("T5 O3 I9 B3 W3", lines)), ["L 5", "D 3", "M 20,0 3", "M 40,0 3"]);
 }
 
-/// What follows retracts the tool.
+/// The next element retracts the tool.
 #[test]
 fn what_follows_retracts() {
     let lines = "mill 0,0 20,0 \"W3\"\nsweep 20,0 40,0\nmill 40,0 60,0 \"W3\"\nend 60,0";

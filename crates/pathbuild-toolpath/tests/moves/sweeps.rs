@@ -1,4 +1,4 @@
-//! Sweeps, and coming down: travel and plunge. ("Elementary moves", "Sweeps")
+//! Tests of sweeps, travel and plunges. ("Elementary moves", "Sweeps")
 
 use crate::support::{counts, moves, path};
 
@@ -11,7 +11,7 @@ fn a_sweep_is_at_its_own_height_or_the_paths() {
     assert_eq!(moves(&path(P, "sweep 0,0 40,0 \"S20\"\nend 40,0")), ["L 20", "S 40,0"]);
 }
 
-/// S0 is a little more than S, so that the first sweep always writes its Z.
+/// S0 is slightly above S, so that the first sweep always writes its Z.
 #[test]
 fn the_first_sweep_writes_its_height() {
     assert_eq!(moves(&path(P, "sweep 0,0 40,0\nend 40,0"))[0], "L 10");
@@ -23,7 +23,7 @@ fn a_drawn_arc_is_swept_straight() {
     assert_eq!(moves(&path(P, "sweep arc 0,0 40,0 r 30\nend 40,0")), ["L 10", "S 40,0"]);
 }
 
-/// Points that coincide in the plane are not swept between: only the height changes.
+/// Between points that coincide in the plane there is no sweep, only a change of height.
 #[test]
 fn nothing_is_swept_between_points_that_coincide() {
     let gap = |end: &str| moves(&path(P, &format!("mill 0,0 20,0\nmill {end} 40,0\nend 40,0")));
@@ -33,22 +33,22 @@ fn nothing_is_swept_between_points_that_coincide() {
 
 #[test]
 fn above_the_surface_the_tool_comes_down_fast() {
-    // To the surface and not below it: no drilling.
+    // To the surface, but not below it: no drilling.
     assert_eq!(moves(&path("T5 O3 I1 B4 W5", "mill 0,0 40,0\nend 40,0"))[..2], ["L 5", "M 40,0 5"]);
-    // Below it: fast to the surface, then drilling.
+    // Below the surface: rapidly to the surface, then drilling.
     assert_eq!(moves(&path(P, "mill 0,0 40,0\nend 40,0"))[..2], ["L 5", "D 0"]);
-    // From below the surface only drilling.
+    // Starting below the surface: only drilling.
     assert_eq!(moves(&path("T5 O3 I1 B3", "mill 0,0 40,0\nend 40,0"))[3], "D 3");
 }
 
-/// Upwards is always fast, also below the surface.
+/// Upward moves are always rapid, even below the surface.
 #[test]
 fn upwards_the_tool_is_fast() {
     let holes = "circle 0,0 d 3 \"B1\"\ncircle DIVIDE 0,0 d 3 \"D3\"\nsweep 0,0 40,0\nend 40,0";
     assert_eq!(moves(&path(P, holes)), ["L 5", "D 1", "L 3", "L 10", "S 40,0"]);
 }
 
-/// Heights that are near are the same: 1e-6 of them.
+/// Heights with a relative difference of 1e-6 are equal.
 #[test]
 fn heights_that_are_near_are_the_same() {
     let holes = |depth: &str| {
@@ -61,7 +61,7 @@ fn heights_that_are_near_are_the_same() {
     assert_eq!(holes("0.9999"), ["L 5", "D 1", "D 1", "L 10", "S 40,0"]);
 }
 
-/// The distance in space, the difference of heights before the sweep included.
+/// The distance in space, including the height difference before the sweep.
 #[test]
 fn what_a_plunge_counts() {
     assert_eq!(

@@ -1,8 +1,10 @@
-//! The way that rapid moves go between two cuts.
+//! Checks the rapid moves between two cuts.
 //!
-//! It is the way that the drawing says, point for point: whoever changed a program may have changed any of them. (What posts write is held
-//! against what a way may touch, since a definition may lift the tool higher: `ways` in pathbuild-post.) Only on the way to where that begins, and once all is milled, a program may go to
-//! places of the machine; there the tool is at S0 or above, where nothing is in the way.
+//! They must equal those of the drawing point by point, since whoever changed a program may have changed any of them. (The output of posts
+//! is
+//! compared less strictly, because a definition may retract the tool higher: see `ways` in pathbuild-post.) Only before the first of these
+//! moves and after
+//! the last cut, a program may go to machine positions, where the tool is at S0 or above and there are no obstacles.
 
 use pathbuild_motion::{Axes, Move, Path, Position};
 
@@ -13,19 +15,19 @@ type Numbered = (u32, Move);
 #[derive(Debug)]
 pub(super) struct Chain {
     moves: Vec<Numbered>,
-    /// It begins the program.
+    /// Whether it begins the program.
     is_head: bool,
 }
 
-/// What is expected between two cuts.
+/// The expected moves between two cuts.
 #[derive(Debug)]
 pub(super) struct Way<'w> {
-    /// Where it begins.
+    /// Start of the moves.
     pub(super) start: Position,
     pub(super) expected: &'w [Numbered],
-    /// It ends the program.
+    /// Whether it ends the program.
     pub(super) is_foot: bool,
-    /// Whether the program may go to places of the machine: the native one names none.
+    /// Whether the program may go to machine positions, which the native one does not.
     pub(super) may_go_home: bool,
     /// S0.
     pub(super) clearance: f64,
@@ -33,12 +35,12 @@ pub(super) struct Way<'w> {
 }
 
 impl Chain {
-    /// The one that begins a program.
+    /// The chain at the beginning of a program.
     pub(super) fn new() -> Self {
         Self { moves: Vec::new(), is_head: true }
     }
 
-    /// One behind a cut.
+    /// The chain after a cut.
     pub(super) fn behind() -> Self {
         Self { moves: Vec::new(), is_head: false }
     }
@@ -47,7 +49,7 @@ impl Chain {
         self.moves.push((line, *it));
     }
 
-    /// Whether it goes as expected; where not, the move that goes elsewhere.
+    /// Checks the chain against the expected moves. The error is the first move that deviates.
     pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<Numbered>> {
         let rest = if self.is_head { self.arrived(way)? } else { &self.moves };
         let mut found = rest.iter().filter(|(_, it)| !way.stands(it));
@@ -64,7 +66,7 @@ impl Chain {
         }
     }
 
-    /// The moves behind the place where the way begins; those before it are harmless.
+    /// The moves after the start of the expected ones, provided that those before are harmless.
     fn arrived(&self, way: &Way<'_>) -> Result<&[Numbered], Option<Numbered>> {
         let begins = |(_, it): &Numbered| it.to.known == Axes::ALL && way.is_near(&it.to, &way.start);
         let Some(arrival) = self.moves.iter().position(begins) else {
@@ -74,7 +76,7 @@ impl Chain {
         let mut is_parked = false;
         for (line, it) in head {
             is_parked |= it.named.is_some();
-            // Where the tool is at first nobody knows: it is raised before it goes anywhere.
+            // The position at the beginning is unknown, so the tool must be raised before it moves anywhere.
             let is_raised = it.from.known.has(Axes::Z) || it.to.known.has(Axes::Z) || is_parked;
             if !is_raised || !way.is_harmless(it) {
                 return Err(Some((*line, *it)));
@@ -85,7 +87,7 @@ impl Chain {
 }
 
 impl Way<'_> {
-    /// On the way to the start, and behind the end: at S0 over the way's own places, or to places of the machine.
+    /// Whether a move before the start or after the end is harmless: at S0 over positions of the expected moves, or to a machine position.
     fn is_harmless(&self, it: &Move) -> bool {
         let is_raised = !it.from.known.has(Axes::Z) || self.is_clear(it.from.z());
         let stays = it.to.known.has(Axes::XY) && it.from.known.has(Axes::XY) && self.is_at(&it.from, &it.to);
@@ -97,7 +99,7 @@ impl Way<'_> {
         matches!(it.path, Path::Line) && (is_raised || stays) && is_height && is_place
     }
 
-    /// Whether a move is nothing but rounding.
+    /// Whether a move is only due to rounding.
     fn stands(&self, it: &Move) -> bool {
         it.from.known.and(it.to.known) == Axes::ALL && self.is_near(&it.from, &it.to)
     }
@@ -115,7 +117,7 @@ impl Way<'_> {
         z >= self.clearance - self.slack
     }
 
-    /// In the plane.
+    /// Compares positions in the plane.
     fn is_at(&self, a: &Position, b: &Position) -> bool {
         libm::fabs(a.x() - b.x()) <= self.slack && libm::fabs(a.y() - b.y()) <= self.slack
     }

@@ -1,4 +1,4 @@
-//! Whether a program comes into the clamps of its drawing. (book: language/keep-outs)
+//! Checks whether a program hits the clamps of its drawing. (book: language/keep-outs)
 
 use pathbuild_diagnostic::messages::walk as say;
 use pathbuild_diagnostic::{Diagnostic, Point, Text, words};
@@ -9,7 +9,7 @@ use super::cuts::{CHORD, PLACE};
 use crate::dialect::Dialect;
 use crate::read::Problems;
 
-/// Clamps in a program's coordinates, and the tool that must stay out of them.
+/// Clamps in program coordinates, and the tool that must not hit them.
 #[derive(Debug)]
 pub struct Clamps {
     all: Vec<KeepOut>,
@@ -17,17 +17,17 @@ pub struct Clamps {
     radius: f64,
 }
 
-/// Holds a program's steps against clamps; give it every step, then [`finish`](Self::finish) it.
+/// Compares the steps of a program with clamps: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct PastClamps<'c> {
     clamps: &'c Clamps,
-    /// What rounding makes of a way, in mm: one that touches a clamp may be written so.
+    /// The effect of rounding in mm. A move that touches a clamp in the drawing may be written slightly inside it.
     slack: f64,
     problems: Problems,
 }
 
 impl Clamps {
-    /// Clamps where they stand, with a cutter of that diameter in mm.
+    /// Creates clamps at their positions, for a cutter with the given diameter in mm.
     pub fn new(clamps: Vec<KeepOut>, cutter: f64) -> Self {
         let map = KeepOutMap::new(clamps.iter().map(|clamp| (clamp.height, &*clamp.outline)));
         Self { all: clamps, map, radius: cutter / 2.0 }
@@ -35,13 +35,13 @@ impl Clamps {
 }
 
 impl<'c> PastClamps<'c> {
-    /// At the beginning of a program of this dialect.
+    /// Starts at the beginning of a program in this dialect.
     pub fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
         let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
         Self { clamps, slack: PLACE + chord, problems: Problems::default() }
     }
 
-    /// The next step of the program.
+    /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let Action::Move(it) = &step.action else { return };
         let Some(way) = way(it) else { return };
@@ -60,13 +60,13 @@ impl<'c> PastClamps<'c> {
         }
     }
 
-    /// What was found, by line.
+    /// Returns the collisions found, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         self.problems.into_diagnostics()
     }
 }
 
-/// The way of a move, as far as it is known: of one from an unknown place its end. `None` where that is not known either.
+/// The movement of a move, as far as it is known. If only its end is known, that point; `None` if even that is unknown.
 fn way(it: &Move) -> Option<Way> {
     let [from, to] = [it.from, it.to].map(|end| Xy::new(end.x(), end.y()));
     if !it.to.known.has(Axes::ALL) {
@@ -81,7 +81,7 @@ fn way(it: &Move) -> Option<Way> {
     let Path::Arc(arc) = it.path else { return Some(Way { curve: straight, from_z, to_z }) };
     let radius = arc.radius(&it.from);
     if arc.plane != Plane::Xy {
-        // Seen from above it goes straight. It is below none of its points.
+        // Seen from above the arc is a straight line. Use its lowest point for all of it.
         let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
         return Some(Way { curve: straight, from_z: lowest, to_z: lowest });
     }
@@ -89,7 +89,7 @@ fn way(it: &Move) -> Option<Way> {
     let centre = Xy::new(arc.centre[0], arc.centre[1]);
     let curve = Curve::Arc(Arc { centre, radius, start: from, end: to, clockwise: arc.clockwise, degrees });
     let lowest = from_z.min(to_z);
-    // Turn upon turn it comes to each place at several heights.
+    // An arc with several turns reaches each point at several heights.
     let (from_z, to_z) = if arc.extra_turns > 0 { (lowest, lowest) } else { (from_z, to_z) };
     Some(Way { curve, from_z, to_z })
 }

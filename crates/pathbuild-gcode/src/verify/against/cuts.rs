@@ -1,4 +1,4 @@
-//! Cuts are compared move for move; the rapid moves between two of them as one way.
+//! Compares cuts move by move, and the rapid moves between two cuts as a whole.
 
 use std::iter::Peekable;
 
@@ -11,34 +11,34 @@ use crate::verify::compare::{Difference, DifferenceKind, Ends, Tolerance, check_
 use crate::verify::is_near;
 use crate::verify::walk::Stretch;
 
-/// Two roundings to the third decimal, and a unit by which an arc may be written longer lest it be a full circle.
+/// Two roundings to the third decimal, and the unit by which an arc may be extended to keep it from becoming a full circle.
 pub(super) const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
 
 /// One unit of the last printed digit.
 const FEED: f64 = 0.001 * (1.0 + 1e-6);
 
-/// A centre is the sum of two rounded numbers, and the beginning of its arc is where the one before ended.
+/// A centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
 const CENTRE: f64 = 3.0 * PLACE;
 
-/// How far chords may leave their arc, in mm, for a control that takes no helices; on steep ones roundings in the plane change the height.
+/// Distance in mm between chords and their arc, for controls without helices. On steep arcs, rounding in the plane affects the height.
 pub(super) const CHORD: f64 = 0.03;
 
 #[derive(Debug)]
 pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     expected: Peekable<M>,
-    /// The share of the next expected move that is behind us.
+    /// The fraction of the next expected move that has been done.
     done: f64,
-    /// Where the expected tool is before that.
+    /// The expected position before that move.
     at: Position,
     chain: Chain,
     clearance: f64,
     tolerance: Tolerance,
     difference: Option<Difference>,
-    /// How many of the expected moves the program has.
+    /// Number of expected moves found so far.
     equal: usize,
-    /// Lines may be cut into pieces: heights that probes correct are, piece by piece.
+    /// Whether lines may be split, as those corrected by probes are.
     may_split: bool,
-    /// The program may go to places of the machine before its first and after its last cut.
+    /// Whether the program may go to machine positions before its first and after its last cut.
     may_go_home: bool,
 }
 
@@ -59,7 +59,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// The next move of the program.
+    /// Passes the next move of the program.
     pub(super) fn take(&mut self, line: u32, it: &Move) {
         if self.difference.is_some() {
             return;
@@ -71,7 +71,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// What differs first, and how many of the expected moves the program has before that.
+    /// Returns the first difference, and the number of expected moves found before it.
     pub(super) fn finish(mut self) -> (Option<Diagnostic>, usize) {
         if self.difference.is_none() {
             self.difference = self.rapids(None).err().map(|difference| *difference);
@@ -87,7 +87,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         (difference.map(|difference| difference.against_drawing()), self.equal)
     }
 
-    /// Compares the rapid moves before this cut, or at the end, with those that are expected there.
+    /// Compares the rapid moves before this cut, or at the end, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
         let chain = std::mem::replace(&mut self.chain, Chain::behind());
         let start = self.at;
@@ -125,8 +125,9 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    /// How far heights within the next expected move may differ: its place is found in the plane, where a rounding is a height on a
-    /// steep arc.
+    /// Permitted difference in height within the next expected move. Its position is determined in the plane, where a rounding error on a
+    /// steep arc
+    /// means a difference in height.
     fn slack_of_height(&mut self) -> f64 {
         let within = self.expected.peek().filter(|_| self.done > 0.0);
         let steepness =
@@ -134,7 +135,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         2.0 * self.tolerance.place * (1.0 + steepness)
     }
 
-    /// Where the expected tool is.
+    /// The expected position of the tool.
     fn place(&mut self) -> Position {
         match self.expected.peek() {
             Some((_, it)) if self.done > 0.0 => {
@@ -180,7 +181,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 self.pass(&expected);
                 continue;
             }
-            // Pieces of one move are of its kind; only chords stand for a helix. An arc that goes on into a line is another one.
+            // The parts of a move are of the same kind, except for chords of a helix. An arc that continues in a line is a different one.
             let is_helix = theirs.is_arc() && expected.from.z() != expected.to.z();
             let is_chord = is_helix && self.tolerance.chord > 0.0 && !ours.is_arc();
             if ours.is_arc() != theirs.is_arc() && !is_chord {
@@ -210,7 +211,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
     }
 }
 
-/// Two arcs turn round one centre: of a short one the places between its ends hardly tell.
+/// Two arcs must have the same centre, because the points of a short one hardly determine it.
 fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     let (Path::Arc(ours), Path::Arc(theirs)) = (found.path, expected.path) else { return Ok(()) };
     let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE);

@@ -1,7 +1,8 @@
-//! Whether a program does what a drawing says, from its first line to its last. (book: program/reading, `verify --against`)
+//! Checks whether a program does what a drawing says, from its first line to its last. (book: program/reading, `verify --against`)
 //!
-//! The drawing's program says where the tool goes, in one coordinate system and in XY, with one tool at one spindle speed. Whatever else a
-//! program says that could change where, how deep or how fast the tool cuts is a difference. What its header claims counts for nothing.
+//! The program of the drawing defines where the tool goes, in one coordinate system, in the plane XY, with one tool at one spindle speed.
+//! Anything else in a
+//! program that could change where, how deep or how fast the tool cuts is a difference. The claims in its header are ignored.
 
 mod chain;
 mod clamps;
@@ -19,42 +20,42 @@ pub use clamps::{Clamps, PastClamps};
 use cuts::Cuts;
 use setup::Setup;
 
-/// What a drawing and the configuration say of a program.
+/// What a drawing and the configuration specify about a program.
 #[derive(Debug)]
 pub struct Drawn<M> {
-    /// The moves that are expected, from above the path's zero at the height `clearance` on.
+    /// The expected moves, beginning above the path's origin at the height `clearance`.
     pub moves: M,
-    /// S0: the height in mm at and above which nothing is in the way.
+    /// S0, the height in mm above which there are no obstacles.
     pub clearance: f64,
-    /// The cutter as the machine knows it.
+    /// The cutter as known to the machine.
     pub tool: ToolUse,
-    /// Seconds that the spindle is given before it cuts.
+    /// Time in seconds for the spindle to reach its speed before cutting.
     pub spin_up: f64,
 }
 
-/// How a drawing's cutter is used; what is not known is not compared.
+/// How the cutter of a drawing is used. Unknown properties are not compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToolUse {
-    /// T.
+    /// Tool number (T).
     pub number: Option<u32>,
-    /// What the spindle does while cutting; [`Turning::Unstated`] where the program leaves it alone.
+    /// State of the spindle while cutting; [`Turning::Unstated`] if the program does not control it.
     pub turning: Option<Turning>,
-    /// Turns a minute.
+    /// Spindle speed in 1/min.
     pub speed: Option<f64>,
-    /// The coolant while cutting.
+    /// State of the coolant while cutting.
     pub coolant: Option<Coolant>,
 }
 
-/// How far a program does what a drawing says.
+/// How far a program agrees with a drawing.
 #[derive(Clone, Debug)]
 pub struct Agreement {
-    /// Every difference that was found, by line; of the moves the first one.
+    /// All differences, ordered by line; for the moves only the first one.
     pub differences: Vec<Diagnostic>,
-    /// How many of the drawing's moves the program has, before the first that differs.
+    /// Number of the drawing's moves that the program contains before the first difference.
     pub equal: usize,
 }
 
-/// Compares a program's steps with what the drawing says; give it every step, then [`finish`](Self::finish) it.
+/// Compares the steps of a program with a drawing: pass every step, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
     setup: Setup<'w>,
@@ -64,7 +65,7 @@ pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
 }
 
 impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
-    /// A comparison at the beginning of a program of this dialect, whose post writes these words.
+    /// Starts a comparison for a program in this dialect, whose post writes these words.
     pub fn new(drawn: Drawn<M>, dialect: Dialect, words: &'w PostWords) -> Self {
         Self {
             setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
@@ -74,7 +75,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
         }
     }
 
-    /// The next step of the program.
+    /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.words.step(step);
         self.setup.step(step, &mut self.problems);
@@ -83,7 +84,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
         }
     }
 
-    /// What came of it.
+    /// Returns the result.
     pub fn finish(mut self) -> Agreement {
         self.setup.finish(&mut self.problems);
         let mut differences = self.problems.into_diagnostics();

@@ -1,4 +1,4 @@
-//! Everything that is no move: the head's modes, tool and its length, spindle, coolant, corners, dwells.
+//! Checks everything besides the moves: modes in the head, tool and tool length, spindle, coolant, corners, dwells.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ use crate::interpret::code_name;
 use crate::read::Problems;
 use crate::verify::words::PostWords;
 
-/// Corners may be rounded by so many mm: that of the built-in posts.
+/// Maximum rounding of corners in mm, as in the built-in posts.
 const CORNERS: f64 = 0.01 * (1.0 + 1e-6);
 
-/// Heights that differ by less, in mm, are one.
+/// Heights are equal if they differ by less than this, in mm.
 const SAME_HEIGHT: f64 = 0.002;
 
-/// Speeds that differ by less are one.
+/// Speeds are equal if they differ by less than this.
 const SAME_SPEED: f64 = 0.01;
 
 #[derive(Debug)]
@@ -32,27 +32,27 @@ pub(super) struct Setup<'w> {
     expected: ToolUse,
     spin_up: f64,
     at: Position,
-    /// What the post states before the first move, and the program has not yet.
+    /// Words that the post writes before the first move and that the program has not contained yet.
     missing: BTreeMap<Group, u16>,
-    /// The tool that T chose.
+    /// The tool selected by T.
     selected: Option<u32>,
     coolant: Coolant,
     coolant_line: u32,
-    /// How near the tool keeps to corners, where the program says it.
+    /// The behaviour at corners, if the program has specified it.
     corners: Option<Corners>,
-    /// The tool that M6 put in.
+    /// The tool inserted by M6.
     inserted: Option<u32>,
-    /// The length that counts, and its line.
+    /// The active tool length, and the line that set it.
     length: Option<(ToolLength, u32)>,
     spindle: Spindle,
     spindle_line: u32,
-    /// Seconds that passed since the spindle was switched on.
+    /// Seconds since the spindle was switched on.
     running: f64,
-    /// What has been said of the state that holds.
+    /// What has been reported about the current state.
     said: Said,
 }
 
-/// Each is said once, until the state changes.
+/// Each problem is reported once, until the state changes.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 struct Said {
@@ -72,7 +72,7 @@ impl<'w> Setup<'w> {
         spin_up: f64,
     ) -> Self {
         let expected = if dialect == Dialect::Native {
-            // The native program names T1 and leaves the spindle to the machine's operator.
+            // The native program contains T1 and leaves the spindle to the operator.
             ToolUse { number: Some(1), turning: Some(Turning::Unstated), speed: None, coolant: None }
         } else {
             tool
@@ -151,7 +151,7 @@ impl<'w> Setup<'w> {
             Change::Corners(corners) => {
                 self.corners = Some(corners);
                 match corners {
-                    // P0 is no limit: it is the same as none.
+                    // P0 is no limit, as if there were no P.
                     Corners::Rounded(Some(most)) if !(most > 0.0 && most <= CORNERS) => {
                         extra(line, "G64 P".to_owned(), problems);
                     }
@@ -174,7 +174,7 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether a length is that of the tool that M6 put in.
+    /// Whether a length is that of the tool inserted by M6.
     fn is_inserted(&self, entry: Option<u32>) -> bool {
         self.inserted.is_some_and(|tool| entry.is_none_or(|entry| entry == tool))
     }
@@ -200,7 +200,7 @@ impl<'w> Setup<'w> {
             self.running = 0.0;
             self.said.spindle = false;
         }
-        // A program whose drawing leaves the spindle alone does not name it at all: S0 would stop one that runs.
+        // If the drawing leaves the spindle alone, the program must not mention it at all: S0 would stop a running spindle.
         let is_left_alone = self.expected.turning == Some(Turning::Unstated);
         let is_foot =
             self.dialect != Dialect::Native && spindle.turning == Turning::Unstated && spindle.speed == 0.0;
@@ -231,23 +231,23 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether a post is known that writes such programs.
+    /// Whether there is a post that writes such programs.
     fn has_post(&self) -> bool {
         !self.words.lead().is_empty()
     }
 
-    /// What the post states before the first move is stated there.
+    /// Checks that what the post writes before the first move is present.
     fn head(&mut self, line: u32, problems: &mut Problems) {
         for code in std::mem::take(&mut self.missing).into_values() {
             problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
         }
     }
 
-    /// Where programs choose their tool, or the layer that they mill, it is the drawing's.
+    /// Checks that the selected tool or layer is that of the drawing.
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
         let chosen = self.inserted.or(self.selected);
         let is_chosen = if self.dialect.rules().layers {
-            // Moves before M6 are on the first layer.
+            // Moves before M6 belong to the first layer.
             self.expected.number.is_none_or(|expected| expected == chosen.unwrap_or(1))
         } else {
             chosen.is_some()
@@ -273,7 +273,7 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// A control keeps the corners of the program before, unless a program says otherwise.
+    /// Checks the behaviour at corners, because a control keeps that of the previous program unless it is specified.
     fn cutting_corners(&mut self, line: u32, problems: &mut Problems) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
         if !is_stated && !std::mem::replace(&mut self.said.corners, true) {
@@ -301,7 +301,7 @@ impl<'w> Setup<'w> {
     }
 
     fn turns_otherwise(&self) -> bool {
-        // XpertMILL ties the spindle to its own events; the speed belongs to the layer.
+        // XpertMILL switches the spindle by its own events, and the speed belongs to the layer.
         let is_tied = self.dialect == Dialect::Xpertmill;
         let turning = self.expected.turning.filter(|_| !is_tied);
         let differs = turning.is_some_and(|turning| turning != self.spindle.turning);
@@ -318,10 +318,10 @@ impl<'w> Setup<'w> {
         });
     }
 
-    /// Where M6 puts tools in, the length that counts is that of the tool in the spindle. The native program and others count none.
+    /// Checks that the active length is that of the tool in the spindle if M6 inserts tools. The native program and others apply no length.
     fn cutting_length(&mut self, line: u32, problems: &mut Problems) {
         if self.length.is_none() && self.keeps_lengths() {
-            // Said once: from here on it is as if it stood there.
+            // After the report, continue as if the word were present.
             self.length = Some((ToolLength::Off, line));
             problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
                 let d = d.quoting("words", "G49").quoting("taken", "G49");
@@ -341,12 +341,12 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Controls on which the length of the program before still counts, unless a program says otherwise.
+    /// Whether the control keeps the tool length of the previous program unless it is specified.
     fn keeps_lengths(&self) -> bool {
         matches!(self.dialect, Dialect::Native | Dialect::Rs274 | Dialect::LinuxCnc | Dialect::Grbl)
     }
 
-    /// Where the post counts the length of the tool that M6 puts in, a program has to do so.
+    /// Whether the program must apply the length of the tool inserted by M6, because the post does.
     fn must_count(&self) -> bool {
         self.words.has('G', 430)
     }

@@ -1,8 +1,8 @@
-//! Which cells a cutter covers on its way.
+//! Tests which cells a cutter covers along a move.
 
 use super::{Capsule, Shape};
 
-/// How far a place is from a segment.
+/// Distance of a point from a segment.
 fn distance([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> f64 {
     let along = [to[0] - from[0], to[1] - from[1]];
     let square = along[0] * along[0] + along[1] * along[1];
@@ -11,7 +11,7 @@ fn distance([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> f64 {
     libm::hypot(x - from[0] - share * along[0], y - from[1] - share * along[1])
 }
 
-/// Both ends of each row are a radius away from the segment, and places outside of them farther, whichever way it runs.
+/// Both ends of each row are at a distance of one radius from the segment and points beyond them are farther, in all directions.
 #[test]
 fn rows_of_a_capsule_reach_as_far_as_its_radius() {
     const RADIUS: f64 = 1.5;

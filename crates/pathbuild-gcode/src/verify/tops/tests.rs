@@ -1,10 +1,10 @@
-//! The grid is never lower than what stands in the way.
+//! Tests that the grid is never lower than the obstacles.
 
 use pathbuild_motion::{Move, Pace, Path, Position};
 
 use super::{SIDE, Tops};
 
-/// A post of a millimetre, 9 mm high, in a field that is far from zero.
+/// A post of 1 mm, 9 mm high, far from the origin.
 const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
 
 fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
@@ -12,7 +12,7 @@ fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
     Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None }
 }
 
-/// Whichever way it runs, and on whichever side it passes.
+/// In all directions, and passing on either side.
 #[test]
 fn what_stands_within_the_radius_of_a_move_is_seen() {
     let mut tops =
