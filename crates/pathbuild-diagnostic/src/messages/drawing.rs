@@ -4,14 +4,14 @@ messages! {
     /// A path without a start marker.
     MISSING_START: MissingStart {
         en: "path {name} has no start marker",
-        de: "Pfad {name} hat keine Startmarke",
+        de: "Pfad {name} hat keine Anfangsmarke",
         help_en: "draw a PHANTOM circle of 1 mm diameter on layer {layer}, with the path's parameters as text (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
         help_de: "auf Layer {layer} einen PHANTOM-Kreis von 1 mm Durchmesser zeichnen, mit den Parametern des Pfads als Text (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
     }
     /// Note: a start marker on a layer without a path.
     START_ON_OTHER_LAYER: MissingStart {
         en: "on layer {layer}, which is no path layer, there is a start marker at {point}: is it on the wrong layer?",
-        de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Startmarke: liegt sie auf dem falschen Layer?",
+        de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Anfangsmarke: liegt sie auf dem falschen Layer?",
     }
     /// Note: an end marker on a layer without a path.
     END_MARKER_ON_OTHER_LAYER: MissingEnd {
@@ -21,7 +21,7 @@ messages! {
     /// Note: a circle with the text of a start.
     MEANT_AS_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm: meant as the start? Draw it with 1 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm: als Startmarke gemeint? Mit 1 mm zeichnen",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm: als Anfangsmarke gemeint? Mit 1 mm zeichnen",
     }
     /// A path without an end marker.
     MISSING_END: MissingEnd {
@@ -38,7 +38,7 @@ messages! {
     /// A second start marker.
     TWO_STARTS: TwoStarts {
         en: "path {name} has a second start marker; the first is at {first}",
-        de: "Pfad {name} hat eine zweite Startmarke; die erste ist bei {first}",
+        de: "Pfad {name} hat eine zweite Anfangsmarke; die erste ist bei {first}",
         help_en: "remove one, or put it on another path's layer",
         help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }

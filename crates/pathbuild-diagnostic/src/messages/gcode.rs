@@ -132,7 +132,7 @@ messages! {
     /// `verify --against`: another move of a probing program.
     PROBING_NOT_DRAWN: MovesDiffer {
         en: "the drawing's probing run has `{expected}` here",
-        de: "der Messlauf der Zeichnung hat hier `{expected}`",
+        de: "das Antastprogramm der Zeichnung hat hier `{expected}`",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }

@@ -6,14 +6,14 @@ messages! {
         en: "{letter} missing",
         de: "{letter} fehlt",
         help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
-        help_de: "{element} braucht {letter}: ans Element schreiben oder an die Startmarke des Pfads",
+        help_de: "{element} braucht {letter}: ans Element schreiben oder an die Anfangsmarke des Pfads",
     }
     /// A path without O or T.
     MISSING_AT_START: MissingParameter {
         en: "{letter} missing at the path's start",
         de: "{letter} fehlt am Pfadanfang",
         help_en: "every path needs O (cutter diameter) and T (thickness of the material) in the text of its start marker",
-        help_de: "jeder Pfad braucht O (Fräserdurchmesser) und T (Materialdicke) im Text seiner Startmarke",
+        help_de: "jeder Pfad braucht O (Fräserdurchmesser) und T (Materialdicke) im Text seiner Anfangsmarke",
     }
     /// A missing M where a path is embedded.
     MISSING_MATERIAL: MissingParameter {
@@ -242,9 +242,9 @@ messages! {
     /// A start marker without a text.
     NO_PATH_PARAMETERS: MissingPathParameters {
         en: "the start marker has no text",
-        de: "die Startmarke hat keinen Text",
+        de: "die Anfangsmarke hat keinen Text",
         help_en: "put a text over the start marker with at least O and T: \"O2 T5 I1 B0\"",
-        help_de: "einen Text mit mindestens O und T über die Startmarke legen: \"O2 T5 I1 B0\"",
+        help_de: "einen Text mit mindestens O und T über die Anfangsmarke legen: \"O2 T5 I1 B0\"",
     }
     /// @ together with other letters.
     AT_WITH_OTHERS: InvalidAtReference {
@@ -307,6 +307,6 @@ messages! {
         en: "{letter} has no effect here: the first segment's {letter} applies to the whole chain",
         de: "{letter} hat hier keine Wirkung: für die ganze Fräskette gilt der Wert des ersten Segments",
         help_en: "write it on the chain's first segment, or on the path's start marker",
-        help_de: "ans erste Segment der Kette schreiben oder an die Startmarke des Pfads",
+        help_de: "ans erste Segment der Kette schreiben oder an die Anfangsmarke des Pfads",
     }
 }

@@ -48,7 +48,7 @@ messages! {
         en: "there is no variable \"{variable}\" in this path",
         de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
         help_en: "the path's start marker defines {known}; a reference is = and one character",
-        help_de: "die Startmarke des Pfads legt {known} fest; ein Verweis ist = und ein Zeichen",
+        help_de: "die Anfangsmarke des Pfads legt {known} fest; ein Verweis ist = und ein Zeichen",
     }
     /// An equals sign after a letter: B=2 instead of B2.
     EQUALS_SIGN: UnknownVariable {

@@ -29,9 +29,9 @@ pub fn template() -> String {
 }
 
 const HEAD: &str = "\
-# Configuration of pathbuild. Names of files are relative to this one. Options of the command line win over it.
-# Lines that begin with # and no blank are the defaults, or examples where there is none: remove the # and change them.
-# `pathbuild config show` prints what holds.
+# Configuration of pathbuild. File names are relative to this file. Command-line options take precedence over it.
+# Lines that begin with # and no blank are the defaults, or examples if there is no default: remove the # and change them.
+# `pathbuild config show` prints the values in force.
 
 ";
 

@@ -31,7 +31,7 @@ pub struct CheckArgs {
     /// Show at most N errors; the last lines count all of them
     #[arg(long, value_name = "N")]
     pub max_errors: Option<usize>,
-    /// Write a picture of each finding into this directory: a cut-out of the drawing, the place circled
+    /// Write a picture of each finding into this directory: a detail of the drawing with the place circled
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<Utf8PathBuf>,
 }

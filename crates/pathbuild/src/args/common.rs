@@ -46,13 +46,13 @@ pub struct CommonArgs {
     /// Number of threads
     #[arg(short, long, global = true, value_name = "N", value_parser = jobs)]
     pub jobs: Option<u16>,
-    /// Do not trust the tree: read no file outside of it, run no command that it names
+    /// Do not trust the tree: read no file outside of it, and run no command that it names
     #[arg(long, global = true)]
     pub untrusted: bool,
-    /// Use no kept results and keep none
+    /// Use no cached results and cache none
     #[arg(long, global = true)]
     pub no_cache: bool,
-    /// Directory for kept results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)
+    /// Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)
     #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
     pub cache_dir: Option<Utf8PathBuf>,
 }

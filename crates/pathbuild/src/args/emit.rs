@@ -11,7 +11,7 @@ pub struct EmitArgs {
     /// What to write.
     #[command(flatten)]
     pub inputs: InputArgs,
-    /// Write nothing; report the files on disk that are not current
+    /// Write nothing; report the files on disk that are out of date
     #[arg(long)]
     pub check: bool,
     /// With --check: compare only the moves
@@ -36,7 +36,7 @@ pub struct EmitArgs {
     /// Remove programs that pathbuild wrote earlier and would not write any more
     #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
-    /// G-code dialect for checking the post's output, where the post names none
+    /// G-code dialect for checking the post's output, if the post names none
     #[arg(long, value_name = "DIALECT", add = completion::dialects())]
     pub dialect: Option<String>,
     /// Date for posts that write one

@@ -54,16 +54,16 @@ pub struct VerifyArgs {
     /// G-code programs
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<Utf8PathBuf>,
-    /// Compare with the drawing of this path, which also says cutter and material
+    /// Compare with the drawing of this path, which also gives the cutter and the material
     #[arg(long, value_name = "PATH", add = completion::paths())]
     pub against: Option<String>,
     /// Diameter of the cutter; without it from T and `[tool.NAME]`
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub cutter: Option<String>,
-    /// Height of the material's upper face; pathbuild's own programs say it themselves
+    /// Height of the material's upper face; programs by pathbuild contain it
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
-    /// Post-processor that wrote the programs: its words are known, and its dialect is read
+    /// Post-processor that wrote the programs: sets the known words and the dialect
     #[arg(long, value_name = "POST", add = completion::posts())]
     pub post: Option<String>,
     /// How they are read.
@@ -96,10 +96,10 @@ pub struct PostArgs {
     /// File to write; without it standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
-    /// Height of the material's upper face, for posts that need it; pathbuild's own programs say it themselves
+    /// Height of the material's upper face, for posts that need it; programs by pathbuild contain it
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
-    /// G-code dialect for checking the post's output, where the post names none
+    /// G-code dialect for checking the post's output, if the post names none
     #[arg(long, value_name = "DIALECT", add = completion::dialects())]
     pub target: Option<String>,
     /// Date for posts that write one

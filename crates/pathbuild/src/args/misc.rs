@@ -11,7 +11,7 @@ pub struct TextsArgs {
     /// Which drawings.
     #[command(flatten)]
     pub inputs: InputArgs,
-    /// Only texts that match
+    /// Show only texts that match
     #[arg(long = "match", value_name = "REGEX")]
     pub pattern: Option<String>,
 }
@@ -64,7 +64,7 @@ pub struct DiffArgs {
 /// `pathbuild q-project`
 #[derive(Clone, Debug, Args)]
 pub struct QProjectArgs {
-    /// Drawing that is to be embedded
+    /// Drawing to embed
     #[arg(value_name = "DRAWING")]
     pub drawing: Utf8PathBuf,
     /// Name of the Q-project's path; without it the drawing's first number with .0Q
@@ -86,15 +86,15 @@ pub struct CacheArgs {
 /// What can be done with the cache.
 #[derive(Clone, Debug, Subcommand)]
 pub enum CacheCommand {
-    /// Print the directory of the kept results
+    /// Print the directory of the cached results
     Dir,
-    /// Print the size of the kept results
+    /// Print the size of the cached results
     Size,
-    /// Remove kept results that are no longer used
+    /// Remove cached results that are no longer used
     Prune,
-    /// Remove all kept results
+    /// Remove all cached results
     Clean,
-    /// Check every kept result for damage
+    /// Check every cached result for damage
     Verify,
 }
 

@@ -64,7 +64,7 @@ pub enum Command {
     Texts(Deferred<TextsArgs>),
     /// Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON
     View(Deferred<ViewArgs>),
-    /// Make a path's sheet for who stands at the machine: PDF, HTML or SVG, or in the browser
+    /// Make a path's setup sheet for the machine operator: PDF, HTML or SVG, or in the browser
     Sheet(Deferred<SheetArgs>),
     /// Show how changed drawings change the moves: between directories, Git revisions, or a program and a path
     Diff(Deferred<DiffArgs>),
@@ -90,7 +90,7 @@ pub enum Command {
     Why(Deferred<GraphArgs>),
     /// Write a Q-project: a drawing that embeds every path of another
     QProject(Deferred<QProjectArgs>),
-    /// Manage the results that are kept between runs
+    /// Manage the results cached between runs
     Cache(Deferred<CacheArgs>),
     /// Explain the codes of messages; without a code list all of them
     Explain(Deferred<ExplainArgs>),

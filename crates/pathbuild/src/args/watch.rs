@@ -23,7 +23,7 @@ pub struct WatchArgs {
 /// Options of the page that `pathbuild watch` serves.
 #[derive(Clone, Debug, Default, Args)]
 pub struct ServeArgs {
-    /// Show the library as a page that is live: on this machine, at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)
+    /// Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)
     #[arg(long, value_name = "ADDR", num_args = 0..=1, default_missing_value = "127.0.0.1", value_parser = Address::parse)]
     pub serve: Option<Address>,
     /// With --serve: show the page in the browser

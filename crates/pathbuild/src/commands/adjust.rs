@@ -45,7 +45,7 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     if args.log.is_some() && jobs.len() > 1 {
         return context.usage(context.choose(
             "--log is of one probing run: name one program with it",
-            "--log gehört zu einem Messlauf: dazu ein Programm nennen",
+            "--log gehört zu einem Antastprogramm: dazu ein Programm nennen",
         ));
     }
     for job in &jobs {

@@ -18,7 +18,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ),
     (
         "Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`",
-        "Setzt gemessene Höhen ein: aus `ZEICHNUNG_Clean.gcode` und `ZEICHNUNG_Z.txt` wird `ZEICHNUNG_Milling.gcode`",
+        "Setzt gemessene Höhen in ein Programm ein: aus `ZEICHNUNG_Clean.gcode` und `ZEICHNUNG_Z.txt` wird `ZEICHNUNG_Milling.gcode`",
     ),
     ("Check again whenever a drawing changes", "Prüft erneut, sobald sich eine Zeichnung ändert"),
     (
@@ -30,8 +30,8 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Zeigt einen Pfad, eine Zeichnung oder ein Programm: im Browser oder als SVG, PNG, PDF, HTML oder JSON",
     ),
     (
-        "Make a path's sheet for who stands at the machine: PDF, HTML or SVG, or in the browser",
-        "Macht das Blatt eines Pfads für den, der an der Maschine steht: PDF, HTML oder SVG, oder im Browser",
+        "Make a path's setup sheet for the machine operator: PDF, HTML or SVG, or in the browser",
+        "Erstellt das Einrichteblatt eines Pfads für die Maschine: PDF, HTML oder SVG, oder im Browser",
     ),
     (
         "Show how changed drawings change the moves: between directories, Git revisions, or a program and a path",
@@ -65,18 +65,15 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Write a Q-project: a drawing that embeds every path of another",
         "Schreibt ein Q-Projekt: eine Zeichnung, die jeden Pfad einer anderen einbettet",
     ),
+    ("Manage the results cached between runs", "Verwaltet die zwischen Läufen aufgehobenen Ergebnisse"),
+    ("Print the directory of the cached results", "Gibt das Verzeichnis der aufgehobenen Ergebnisse aus"),
+    ("Print the size of the cached results", "Gibt die Größe der aufgehobenen Ergebnisse aus"),
     (
-        "Manage the results that are kept between runs",
-        "Verwaltet die Ergebnisse, die von Lauf zu Lauf aufgehoben werden",
-    ),
-    ("Print the directory of the kept results", "Gibt das Verzeichnis der aufgehobenen Ergebnisse aus"),
-    ("Print the size of the kept results", "Gibt die Größe der aufgehobenen Ergebnisse aus"),
-    (
-        "Remove kept results that are no longer used",
+        "Remove cached results that are no longer used",
         "Löscht aufgehobene Ergebnisse, die nicht mehr gebraucht werden",
     ),
-    ("Remove all kept results", "Löscht alle aufgehobenen Ergebnisse"),
-    ("Check every kept result for damage", "Prüft jedes aufgehobene Ergebnis auf Schäden"),
+    ("Remove all cached results", "Löscht alle aufgehobenen Ergebnisse"),
+    ("Check every cached result for damage", "Prüft jedes aufgehobene Ergebnis auf Schäden"),
     (
         "Explain the codes of messages; without a code list all of them",
         "Erklärt die Codes der Meldungen; ohne Code werden alle aufgelistet",
@@ -131,7 +128,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ("G-code programs", "G-Code-Programme"),
     ("G-code program", "G-Code-Programm"),
     ("Name of a built-in post", "Name eines eingebauten Postprozessors"),
-    ("Drawing that is to be embedded", "Zeichnung, die eingebettet werden soll"),
+    ("Drawing to embed", "Zeichnung zum Einbetten"),
     (
         "Code or name of a message: PB203, parameter-out-of-range",
         "Code oder Name einer Meldung: PB203, parameter-out-of-range",
@@ -165,12 +162,12 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Zeigt höchstens N Fehler; die letzten Zeilen zählen alle",
     ),
     (
-        "Write a picture of each finding into this directory: a cut-out of the drawing, the place circled",
-        "Schreibt zu jeder Meldung ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung, die Stelle eingekreist",
+        "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
+        "Schreibt zu jeder Meldung ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle",
     ),
     // Options of emit and post.
     (
-        "Write nothing; report the files on disk that are not current",
+        "Write nothing; report the files on disk that are out of date",
         "Schreibt nichts; meldet Dateien auf der Platte, die nicht aktuell sind",
     ),
     ("With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen"),
@@ -193,7 +190,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde",
     ),
     (
-        "G-code dialect for checking the post's output, where the post names none",
+        "G-code dialect for checking the post's output, if the post names none",
         "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt",
     ),
     ("Date for posts that write one", "Datum für Postprozessoren, die eines schreiben"),
@@ -204,7 +201,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ("Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei"),
     ("File to write; without it standard output", "Zieldatei; sonst die Standardausgabe"),
     (
-        "Height of the material's upper face, for posts that need it; pathbuild's own programs say it themselves",
+        "Height of the material's upper face, for posts that need it; programs by pathbuild contain it",
         "Höhe der Materialoberfläche, für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie",
     ),
     // Options of adjust.
@@ -227,7 +224,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Sucht in festen Abständen nach Änderungen (für Netzlaufwerke)",
     ),
     (
-        "Show the library as a page that is live: on this machine, at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)",
+        "Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)",
         "Zeigt die Bibliothek als Seite, die sich selbst aktualisiert: auf diesem Rechner an Port 8347 oder an ADRESSE (PORT, IP, IP:PORT oder NAME:PORT)",
     ),
     ("With --serve: show the page in the browser", "Mit --serve: zeigt die Seite im Browser"),
@@ -235,7 +232,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "With --serve: end when the page has been closed",
         "Mit --serve: endet, wenn die Seite geschlossen worden ist",
     ),
-    ("Only texts that match", "Nur Texte, die passen"),
+    ("Show only texts that match", "Zeigt nur Texte, die passen"),
     (
         "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
         "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild",
@@ -245,7 +242,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Schreibt auch eine Datei: .html (mit Bildern) oder .md (für einen Pull-Request)",
     ),
     (
-        "Compare with the drawing of this path, which also says cutter and material",
+        "Compare with the drawing of this path, which also gives the cutter and the material",
         "Vergleicht mit der Zeichnung dieses Pfads, die auch Fräser und Material angibt",
     ),
     (
@@ -253,7 +250,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]`",
     ),
     (
-        "Height of the material's upper face; pathbuild's own programs say it themselves",
+        "Height of the material's upper face; programs by pathbuild contain it",
         "Höhe der Materialoberfläche; in Programmen von pathbuild steht sie",
     ),
     (
@@ -276,8 +273,8 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ),
     // How programs are read.
     (
-        "Post-processor that wrote the programs: its words are known, and its dialect is read",
-        "Postprozessor, der die Programme geschrieben hat: seine Wörter sind bekannt, und sein Dialekt wird gelesen",
+        "Post-processor that wrote the programs: sets the known words and the dialect",
+        "Postprozessor, der die Programme geschrieben hat: legt die bekannten Wörter und den Dialekt fest",
     ),
     (
         "G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses",
@@ -315,12 +312,12 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ("Print more", "Gibt mehr aus"),
     ("Number of threads", "Anzahl der Threads"),
     (
-        "Do not trust the tree: read no file outside of it, run no command that it names",
+        "Do not trust the tree: read no file outside of it, and run no command that it names",
         "Dem Verzeichnisbaum nicht trauen: keine Datei außerhalb lesen, keinen dort genannten Befehl ausführen",
     ),
-    ("Use no kept results and keep none", "Verwendet keine aufgehobenen Ergebnisse und hebt keine auf"),
+    ("Use no cached results and cache none", "Verwendet keine aufgehobenen Ergebnisse und hebt keine auf"),
     (
-        "Directory for kept results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
+        "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
         "Verzeichnis für aufgehobene Ergebnisse, auch für Kopien des Verzeichnisbaums (auch: `PATHBUILD_CACHE_DIR`)",
     ),
     ("Print help", "Gibt die Hilfe aus"),

@@ -26,16 +26,19 @@ pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     if let Some(values) = &sheet.values {
         checks.push(words.either(
             format!(
-                "Probing run is done, the heights are in {values}, pathbuild adjust has run without errors"
+                "Probing program has run, the heights are in {values}, pathbuild adjust has run without errors"
             ),
             format!(
-                "Abtastlauf ist gemacht, die Höhen stehen in {values}, pathbuild adjust lief ohne Fehler"
+                "Antastprogramm ist gelaufen, die Höhen stehen in {values}, pathbuild adjust lief ohne Fehler"
             ),
         ));
     }
     checks.push(
         words
-            .either("Air run is done, with Z0 set higher", "Luftfahrt ist gemacht, mit höher gesetztem Z0")
+            .either(
+                "Air run is done, with Z0 set higher",
+                "Probelauf in der Luft ist gemacht, mit höher gesetztem Z0",
+            )
             .into(),
     );
     checks.extend(sheet.left_out.iter().map(|line| {

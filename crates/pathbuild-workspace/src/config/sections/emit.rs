@@ -12,8 +12,8 @@ use crate::config::show::ShownSetting;
 use crate::config::types::{Pattern, SheetFormat};
 
 section! {
-    /// globs of path names: what `emit` without arguments and `watch --emit` write
+    /// globs of path names: the paths that `emit` without arguments and `watch --emit` write
     targets: Vec<Pattern> = "targets", PATTERNS, Vec::new(), "[]", Neither;
-    /// none | pdf | html | svg: a sheet for who stands at the machine, written beside each program
+    /// none | pdf | html | svg: a setup sheet for the machine operator, written beside each program
     sheet: SheetFormat = "sheet", choice::<SheetFormat>(), SheetFormat::No, r#""none""#, Emit;
 }

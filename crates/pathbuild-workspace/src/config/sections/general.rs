@@ -59,67 +59,67 @@ macro_rules! overridable {
 }
 
 overridable! {
-    /// mm/min: F where no path gives one; needed to emit, not to check
+    /// mm/min: F of paths that give none; needed to emit, not to check
     feed: Option<f64> = "feed", POSITIVE, None, "150", Check,
-        option 0: GivenOption::positive, Text("MM/MIN"), "Milling feed where a path gives none", "Fräsvorschub, wo ein Pfad keinen angibt";
-    /// mm/min: for times; needed to emit
+        option 0: GivenOption::positive, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
+    /// mm/min: speed of rapid moves, for times; needed to emit
     rapid: Option<f64> = "rapid", POSITIVE, None, "1000", Emit,
         option 1: GivenOption::positive, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
-    /// mm: S of an emitted path without S; needed to emit
+    /// mm: S of an emitted path that gives none; needed to emit
     sweep_height: Option<f64> = "sweep-height", POSITIVE, None, "20", Check,
         option 2: GivenOption::positive, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
-    /// mm/min: Z where no probe gives one; else as feed
+    /// mm/min: Z of probes that give none; without it, like feed
     probe_feed: Option<f64> = "probe-feed", POSITIVE, None, "40", Emit,
-        option 3: GivenOption::positive, Text("MM/MIN"), "Probing feed where a path gives none", "Messvorschub, wo ein Pfad keinen angibt";
-    /// what `check` and `emit` without arguments mean, and where path names are found;
-    /// directories are walked below, .gitignore and .ignore respected
+        option 3: GivenOption::positive, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
+    /// directories that `check` and `emit` use without arguments, and in which paths are found by name;
+    /// includes subdirectories, respects .gitignore and .ignore
     library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;
-    /// further directories for embedded paths, in order, flat
+    /// further directories in which embedded paths are looked for, in this order, without subdirectories
     search: Directories = "search", DIRECTORIES, Vec::new(), "[]", Check,
         option 5: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
         "Sucht eingebettete Pfade auch in diesem Verzeichnis (wiederholbar)";
-    /// what a path name is
+    /// which names are path names
     path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check,
         option 6: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
-    /// what path names in a file name are
+    /// which parts of a file name are path names
     file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check,
         option 7: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
         "Regulärer Ausdruck für Pfadnamen in Dateinamen";
-    /// layers with clamps, by their whole names: no move may come into their outlines below the height
-    /// that a text such as Z25 says (PB407)
+    /// layers with clamps, by their whole names: no move may enter their outlines below the height
+    /// that a text such as Z25 gives (PB407)
     keep_out: Option<Box<str>> = "keep-out", OPTIONAL_REGEX, None, "'Clamps.*'", Check;
-    /// PARENT:CHILD, split at the first colon: what may embed what, such as "^8:P$"
+    /// PARENT:CHILD, split at the first colon: which paths may embed which, such as "^8:P$"
     restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check,
         option 8: GivenOption::restrictions, Texts("PARENT:CHILD"),
         "A path whose name matches PARENT may embed only paths whose names match CHILD; both are regular expressions (repeatable)",
         "Ein Pfad, auf dessen Namen AUSSEN passt, darf nur Pfade einbetten, auf deren Namen INNEN passt; beides sind reguläre Ausdrücke (wiederholbar)";
-    /// en | de: of messages; --lang, PATHBUILD_LANG and your own config.toml come first
+    /// en | de: language of messages; --lang, PATHBUILD_LANG and your own config.toml take precedence
     lang: Lang = "lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
-    /// en | de: of comments in programs; without it `lang` of this file, and no option
+    /// en | de: language of comments in programs; without it, `lang` of this file; no option changes it
     comment_lang: Lang = "comment-lang", choice::<Lang>(), Lang::En, r#""en""#, Emit;
-    /// header (mm or none, else PB113) | drawing (converted) | mm (the header is not believed)
+    /// header (mm or none, otherwise PB113) | drawing (convert) | mm (ignore the drawing's header)
     units: Units = "units", choice::<Units>(), Units::Header, r#""header""#, Check;
-    /// ascii (umlauts transliterated) | utf-8, for what is written
+    /// ascii (umlauts transliterated) | utf-8, for written programs
     charset: Charset = "charset", choice::<Charset>(), Charset::Ascii, r#""ascii""#, Emit;
-    /// mm: tolerance for ELLIPSE and SPLINE on path layers; 0: PB111, they are no part of the path
+    /// mm: tolerance for ELLIPSE and SPLINE on path layers; with 0 they are not part of the path (PB111)
     approximate_curves: f64 = "approximate-curves", NOT_NEGATIVE, 0.0, "0", Check;
-    /// mm: ends this near count as joined, with a warning (PB115) each
+    /// mm: ends at most this far apart count as joined, with a warning for each (PB115)
     join_tolerance: f64 = "join-tolerance", NOT_NEGATIVE, 0.0, "0", Check;
-    /// true: programs exactly as PathDxf2GCode writes them, also where that deviates from its manuals
+    /// true: programs exactly as PathDxf2GCode writes them, even where it deviates from its manuals
     compatible: bool = "compatible", SWITCH, false, "false", Check,
         option 4: |_| Ok(true), Switch, "Write programs exactly as `PathDxf2GCode` does", "Schreibt Programme genau so wie `PathDxf2GCode`";
-    /// idw4 | plane | tin: how heights between probes are found
+    /// idw4 | plane | tin: how heights between probes are calculated
     z_model: ZModel = "z-model", choice::<ZModel>(), ZModel::Idw4, r#""idw4""#, Emit;
-    /// mm: longest piece that is corrected as one; 0: never split; without it 0 for idw4, else 20
+    /// mm: longest move that is corrected as a whole; 0: never split; without it 0 for idw4, otherwise 20
     z_split: Option<f64> = "z-split", PIECE, None, "0", Emit;
-    /// a built-in post-processor or a file; with more to say { name = "...", unchecked = true, program-number = 8001 }
-    /// (unchecked: write also what cannot be read back; its owner answers for it)
+    /// a built-in post-processor or a file; with further settings { name = "...", unchecked = true, program-number = 8001 }
+    /// (unchecked: also write moves that cannot be read back, at your own risk)
     post: PostChoice = "post", POST, "native".into(), r#""native""#, Emit;
-    /// tool (the tools' speeds, else PB754) | manual (posts neither start nor stop the spindle)
+    /// tool (the tools' speeds, otherwise PB754) | manual (posts neither start nor stop the spindle)
     spindle: SpindleControl = "spindle", choice::<SpindleControl>(), SpindleControl::Tool, r#""tool""#, Emit;
-    /// whether holes become canned cycles where the post has them
+    /// whether holes become canned cycles if the post has them
     cycles: bool = "cycles", SWITCH, false, "false", Emit;
-    /// where files are written; empty: beside the drawing
+    /// directory for written files; empty: beside the drawing
     out_dir: Option<Utf8PathBuf> = "out-dir", DIRECTORY, None, r#""""#, Emit,
         option 10: |option| Ok(Some(option.directory())), Directory, "Write into this directory instead of beside the drawing",
         "Schreibt in dieses Verzeichnis statt neben die Zeichnung";

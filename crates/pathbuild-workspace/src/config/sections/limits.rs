@@ -36,25 +36,25 @@ macro_rules! limits {
 limits! {
     /// largest drawing
     file_size: u64 = "file-size", SIZE, 256 << 20, r#""256 MiB""#, Check;
-    /// most entities in a drawing
+    /// largest number of entities in a drawing
     entities: u64 = "entities", COUNT, 2_000_000, "2_000_000", Check;
-    /// most moves of a program, with everything that it embeds
+    /// largest number of moves of a program, with everything that it embeds
     embedding_moves: u64 = "embedding-moves", COUNT, 50_000_000, "50_000_000", Check;
     /// memory that the moves of one program may take
     program_memory: u64 = "program-memory", SIZE, 1 << 30, r#""1 GiB""#, Check;
     /// largest program that is written
     output_size: u64 = "output-size", SIZE, 256 << 20, r#""256 MiB""#, Emit;
-    /// most cells of the material's map that `verify` visits
+    /// largest number of cells of the material map that `verify` visits
     verify_cells: u64 = "verify-cells", COUNT, 1_000_000_000, "1_000_000_000", Neither;
-    /// most pieces that `verify` cuts arcs and slopes into, to follow the material
+    /// largest number of pieces into which `verify` divides arcs and slopes, to follow the material
     verify_pieces: u64 = "verify-pieces", COUNT, 5_000_000, "5_000_000", Neither;
-    /// most different paths, each with its values, in a program
+    /// largest number of different paths, each with its values, in a program
     embedded_paths: u64 = "embedded-paths", COUNT, 100_000, "100_000", Check;
-    /// most files and directories below one that is searched, and in a Git revision
+    /// largest number of files and directories below a searched directory, and in a Git revision
     library_entries: u64 = "library-entries", COUNT, 200_000, "200_000", Neither;
     /// largest .gitignore or .ignore file
     ignore_file_size: u64 = "ignore-file-size", SIZE, 64 << 10, r#""64 KiB""#, Neither;
-    /// characters: longest parameter text
+    /// largest number of characters in a parameter text
     text_length: u64 = "text-length", COUNT, 65_536, "65_536", Check;
     /// longest time for one path
     seconds_per_path: Duration = "seconds-per-path", SECONDS, Duration::from_mins(1), "60", Check;

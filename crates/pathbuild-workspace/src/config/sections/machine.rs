@@ -12,11 +12,11 @@ use crate::config::show::ShownSetting;
 use crate::config::types::{DwellTime, Extent};
 
 section! {
-    /// s: how long the spindle takes to reach its speed; posts wait as long after M3
+    /// s: how long the spindle takes to reach its speed; posts wait this long after M3
     spin_up: f64 = "spin-up", NOT_NEGATIVE, 0.0, "0", Emit;
-    /// what P of G4 counts on a control that can be set either way (Mach3: Config > Logic): "seconds" or "milliseconds"
+    /// unit of P in G4 on a controller where it can be set (Mach3: Config > Logic): "seconds" or "milliseconds"
     dwell: DwellTime = "dwell", choice::<DwellTime>(), DwellTime::Seconds, r#""seconds""#, Emit;
-    /// mm: from where to where the X axis goes, in the program's coordinates; without it any X is right
+    /// mm: smallest and largest X, in the program's coordinates; without it, X is not limited
     x: Option<Extent> = "x", EXTENT, None, "[0, 300]", Emit;
     /// mm: the same for the Y axis
     y: Option<Extent> = "y", EXTENT, None, "[0, 200]", Emit;
@@ -24,14 +24,14 @@ section! {
     z: Option<Extent> = "z", EXTENT, None, "[0, 60]", Emit;
     /// mm/min: largest feed
     max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
-    /// mm: how far X, Y and Z go, wherever the part is clamped; x, y and z say more
+    /// mm: travel of X, Y and Z, wherever the part is clamped; x, y and z are more specific
     travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;
     /// 1/min: the spindle's slowest and fastest speed
     spindle_speeds: Option<Extent> = "spindle-speeds", EXTENT, None, "[3000, 24000]", Emit;
-    /// mm/min: the fastest that X, Y and Z go; with accelerations, times are those of the machine
+    /// mm/min: highest speeds of X, Y and Z; with accelerations, times are those of the machine
     rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]", Neither;
-    /// mm/s²: the most that X, Y and Z gain in speed
+    /// mm/s²: largest accelerations of X, Y and Z
     accelerations: Option<[f64; 3]> = "accelerations", AXES, None, "[200, 200, 50]", Neither;
-    /// mm: how far a corner could be cut for the speed at which it is taken (GRBL's $11); 0: full stop
+    /// mm: how far the controller may cut a corner (GRBL's $11); 0: full stop
     junction_deviation: f64 = "junction-deviation", NOT_NEGATIVE, 0.01, "0.01", Neither;
 }

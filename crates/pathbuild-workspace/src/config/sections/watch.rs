@@ -11,8 +11,8 @@ use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;
 
 section! {
-    /// how long nothing must change before drawings are read again
+    /// how long no file may change before drawings are read again
     debounce: Duration = "debounce", DURATION, Duration::from_millis(50), r#""50 ms""#, Neither;
-    /// look for changes from time to time (network drives)
+    /// look for changes at intervals (network drives)
     poll: bool = "poll", SWITCH, false, "false", Neither;
 }
