@@ -58,7 +58,7 @@ fn a_path_of_another_directory_is_told_with_its_drawing() {
     let elsewhere = place.run("list components 8001.1P");
     assert_eq!(elsewhere.status, Some(1), "{elsewhere}");
     assert!(elsewhere.stderr.contains("note: the library defines it in projects/8001.dxf"), "{elsewhere}");
-    let nowhere = place.run("list components 8009.1P");
+    let nowhere = place.run("list components 801.1P");
     assert_eq!(nowhere.status, Some(1), "{nowhere}");
     assert!(!nowhere.stderr.contains("defines it"), "{nowhere}");
     assert!(nowhere.stderr.contains("note: did you mean 8001.1P?"), "{nowhere}");
@@ -94,6 +94,32 @@ fn a_pattern_that_nothing_matches_is_an_error() {
 }
 
 #[test]
+fn a_pattern_names_paths_for_every_command() {
+    let place = Place::of(LIBRARY);
+    let emitted = place.run("emit 12*.?P");
+    assert_eq!(emitted.status, Some(0), "{emitted}");
+    for name in ["1234.1P", "1234.2P"] {
+        assert!(emitted.stderr.contains(&format!("{name}_Milling.gcode: written")), "{emitted}");
+    }
+    let faulty = place.run("emit 8*.1P");
+    for code in ["PB201", "PB503"] {
+        assert!(faulty.stderr.contains(code), "{faulty}");
+    }
+    let checked = |what: &str| place.run(&format!("check {what} --format concise"));
+    assert!(checked("123?.1P").stderr.starts_with("1 path in 1 drawing"), "{}", checked("123?.1P"));
+    assert!(
+        checked("123[4].[12]p").stderr.starts_with("2 paths in 1 drawing"),
+        "{}",
+        checked("123[4].[12]p")
+    );
+    for (lang, text) in [("en", "no path matches 7*"), ("de", "kein Pfad entspricht 7*")] {
+        let none = place.run(&format!("emit 7* --lang {lang}"));
+        assert_eq!(none.status, Some(1), "{none}");
+        assert!(none.stderr.contains(text) && !none.stderr.contains("there is no path"), "{none}");
+    }
+}
+
+#[test]
 fn names_that_are_nearly_right_are_named() {
     let place = Place::of(LIBRARY);
     let lines = [
@@ -105,6 +131,7 @@ fn names_that_are_nearly_right_are_named() {
         "check conponents",
         "check somewhere/else",
         "list 8002.1P",
+        "list 801.1P",
     ];
     assert_snapshot!(runs(&place, lines));
 }

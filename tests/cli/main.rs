@@ -35,6 +35,7 @@ mod hostile_projects;
 mod keep_outs;
 mod kills;
 mod language;
+mod left_out;
 mod library;
 mod licences;
 mod limits;

@@ -242,13 +242,26 @@ fn without_times(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The intended path is often in the searched drawing.
+/// The intended path is often in the searched drawing. A misspelling is suggested; for another number, the note lists what there is.
 #[test]
 fn names_like_one_that_is_not_found_are_named() {
     let place = Place::of(LIBRARY).file("projects/8009.dxf", {
-        let drawn = "layer 8009.1P\nstart 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.9P\"\nend 40,0";
+        let drawn = "layer 8009.1P\nstart 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.9P\"\n\
+                     subpath 40,0 80,0 \">1234.1Q\"\nend 80,0";
         pathbuild_testkit::sheet(drawn).unwrap().to_dxf()
     });
     let run = place.run("check 8009.1P");
-    assert!(run.stderr.contains("similar names: 1234.1P, 1234.2P"), "{run}");
+    for note in
+        ["paths in the drawings that may hold it by their names: 1234.1P, 1234.2P", "similar names: 1234.1P"]
+    {
+        assert!(run.stderr.lines().any(|line| line.ends_with(note)), "{note} in {run}");
+    }
+    // Every command that looks for a path says the same.
+    for command in ["view", "texts", "sheet", "where", "emit", "check", "deps"] {
+        let run = place.run(&format!("{command} 1234.1Q"));
+        assert!(
+            run.stderr.contains("similar names: 1234.1P\n") && !run.stderr.contains("did you mean"),
+            "{run}"
+        );
+    }
 }

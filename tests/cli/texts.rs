@@ -15,6 +15,31 @@ fn place(configuration: &str) -> Place {
     Place::new().file("1234.dxf", drawing.to_dxf()).file("pathbuild.toml", configuration)
 }
 
+/// An option is told as one, a line of the configuration as that: in both languages, on the screen and in what the page shows.
+#[test]
+fn a_value_says_whether_an_option_or_the_configuration_gives_it() {
+    let place = place("rapid = 1000\nsweep-height = 20\n");
+    let run = |lang: &str| place.run(&format!("texts 1234.dxf --probe-feed 40 --lang {lang}")).stdout;
+    let (en, de) = (run("en"), run("de"));
+    for (shown, source) in [
+        (&en, "option --probe-feed"),
+        (&en, "`sweep-height` in pathbuild.toml, line 2"),
+        (&de, "Option --probe-feed"),
+        (&de, "`sweep-height` in pathbuild.toml, Zeile 2"),
+    ] {
+        assert!(shown.lines().any(|line| line.ends_with(&format!(" {source}"))), "{source} in {shown}");
+    }
+    place.run("view 1234.1P --probe-feed 40 -o scene.json");
+    let scene: Json = serde_json::from_str(&place.read("scene.json")).unwrap();
+    let elements = scene["paths"][0]["elements"].as_array().unwrap().iter();
+    let parameters = elements.flat_map(|element| element["parameters"].as_array().into_iter().flatten());
+    let lines: Vec<_> = parameters
+        .filter(|parameter| parameter["from"] == "option")
+        .map(|parameter| (parameter["which"].as_str().unwrap(), parameter["line"].as_u64()))
+        .collect();
+    assert!(lines.contains(&("sweep-height", Some(2))) && lines.contains(&("probe-feed", None)), "{lines:?}");
+}
+
 /// The effective parameters of the element at a place: letter, value and origin.
 fn in_force(place: &Place, at: [f64; 2], element: &str) -> Vec<String> {
     let run = place.run("texts 1234.dxf --format json");

@@ -68,6 +68,7 @@ codes! {
     118 NearlyDrilled "nearly-drilled" Warning "PB118: a circle hardly larger than the cutter";
     119 TextOnOtherLayer "text-on-other-layer" Warning "PB119: a parameter text on a layer that is no path";
     120 NearlyPathLayer "nearly-path-layer" Warning "PB120: a layer that is nearly a path layer";
+    121 LeftoverElement "leftover-element" Warning "PB121: a line without length, or a circle on another one";
     201 MissingParameter "missing-parameter" Error "PB201: needed, neither given nor inherited";
     202 UnknownParameter "unknown-parameter" Error "PB202: letter not known for this element";
     203 ParameterOutOfRange "parameter-out-of-range" Error "PB203: a value against its limits";
@@ -167,7 +168,7 @@ codes! {
     749 ToolChangeAtDepth "tool-change-at-depth" Error "PB749: a tool change with the cutter in the material";
     750 InvalidPost "invalid-post" Error "PB750: a post-processor definition is broken, or an option in it is wrong";
     751 UnknownMacro "unknown-macro" Error "PB751: a macro or variable that nobody defines";
-    752 DoubtfulPost "doubtful-post" Warning "PB752: an element or line of a definition that is not understood and left out";
+    752 DoubtfulPost "doubtful-post" Warning "PB752: a definition, or what it writes, is doubtful";
     753 EndlessMacro "endless-macro" Error "PB753: macros that contain each other, or come to too much text";
     754 MissingPostValue "missing-post-value" Error "PB754: a post asks for a value that the program does not have";
     755 LostDrilling "lost-drilling" Error "PB755: a hole that the post would not drill";

@@ -142,6 +142,13 @@ impl Value {
         }
     }
 
+    fn point(&self) -> Option<Point> {
+        match self {
+            Self::Point(point) => Some(*point),
+            _ => None,
+        }
+    }
+
     /// Renders the value for a message: on one line, with special characters escaped.
     pub fn render(&self, lang: Lang) -> String {
         match self {
@@ -223,6 +230,10 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
                 // A number directly after a letter is a parameter or a word of G-code, for example `O2.5`.
                 let is_word = filled.ends_with(|before: char| before.is_ascii_uppercase());
                 filled.push_str(&if is_word { text } else { in_prose(text, lang) });
+            }
+            Some((_, Value::Point(point))) => {
+                let others: Vec<Point> = arguments.iter().filter_map(|(_, value)| value.point()).collect();
+                filled.push_str(&point.apart_from(&others));
             }
             Some((_, value)) => filled.push_str(&value.render(lang)),
             None => _ = write!(filled, "{{{name}}}"),

@@ -60,6 +60,7 @@ pages! {
     NearlyDrilled "PB118" example;
     TextOnOtherLayer "PB119" example;
     NearlyPathLayer "PB120" example;
+    LeftoverElement "PB121" example;
     MissingParameter "PB201" example;
     UnknownParameter "PB202" example;
     ParameterOutOfRange "PB203" example;

@@ -19,6 +19,15 @@ impl Point {
     pub fn new(x: f64, y: f64) -> Self {
         Self { x: Number(x), y: Number(y) }
     }
+
+    /// The point with as many decimals as tell it from other points of the same sentence that would look like it.
+    pub(crate) fn apart_from(self, others: &[Self]) -> String {
+        let shown = |point: Self| (point.x.to_string(), point.y.to_string());
+        let alike: Vec<Self> = others.iter().copied().filter(|other| shown(*other) == shown(self)).collect();
+        let x = self.x.apart_from(alike.iter().map(|other| other.x));
+        let y = self.y.apart_from(alike.iter().map(|other| other.y));
+        format!("({x}, {y})")
+    }
 }
 
 /// A DXF handle: the identity of an entity, displayed in hexadecimal.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::{Diagnostic, Lang, Value, limits, messages};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, Value, limits, messages};
 
 #[test]
 fn each_message_has_a_key_of_its_own() {
@@ -50,5 +50,15 @@ fn a_sentence_within_a_message_is_in_its_language() {
     assert_eq!(
         problem.text(Lang::De),
         "die Dateigröße von 17219 Bytes überschreitet die Grenze von 1000 Bytes"
+    );
+}
+
+/// Small numbers are written as people write them, with two digits that count.
+#[test]
+fn small_numbers_are_no_powers_of_ten() {
+    let shown = |number: f64| Number(number).to_string();
+    assert_eq!(
+        [0.0005, 0.000_499, 0.0004, -0.000_04, 0.000_012_34, 0.000_096, 1e-9].map(shown),
+        ["0.001", "0.0005", "0.0004", "-0.00004", "0.000012", "0.000096", "1.0e-9"]
     );
 }

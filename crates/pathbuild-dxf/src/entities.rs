@@ -19,7 +19,7 @@ use crate::line_types::LineTypes;
 use crate::names::is_same;
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
-use crate::trouble::EntityError;
+use crate::trouble::{EntityError, first_point};
 use crate::{Options, Origin};
 
 /// Reads entities and caches what it learns about names.
@@ -297,6 +297,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         records: &mut Records<'a>,
     ) -> Result<Result<Shape<'a>, EntityError<'a>>, Stop<'a>> {
         let mut polyline = OpenPolyline::begin(&self.fields);
+        let mut is_first = true;
         while RecordKind::of(records.head.value) == Some(RecordKind::Vertex) {
             let always = |_| Want::Keep;
             let (next, _) = self.fields.fill(&mut records.groups, records.head.line, 0, always)?;
@@ -305,6 +306,13 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             if let Ok(Err(trouble)) = vertex {
                 polyline = Err(trouble);
             }
+            // The POLYLINE's own point is a dummy.
+            if let Err(EntityError::LeftOut { point, .. }) = &mut polyline
+                && is_first
+            {
+                *point = first_point(&self.fields);
+            }
+            is_first = false;
         }
         Ok(polyline.map(|polyline| Shape::Parts(polyline.end())))
     }

@@ -41,9 +41,13 @@ impl<'a> From<BadGroup<'a>> for EntityError<'a> {
 impl<'a> EntityError<'a> {
     /// Leaves an entity out for this reason; its point is 10/20, if present.
     pub(crate) fn left_out(message: &'static Message, fields: &Fields<'a>) -> Self {
-        let point = fields.point(10).ok().map(|point| Point::new(point.x, point.y));
-        Self::LeftOut { message, point, block: None }
+        Self::LeftOut { message, point: first_point(fields), block: None }
     }
+}
+
+/// The point 10/20 of an entity, if present.
+pub(crate) fn first_point(fields: &Fields<'_>) -> Option<Point> {
+    fields.point(10).ok().map(|point| Point::new(point.x, point.y))
 }
 
 impl BadGroup<'_> {

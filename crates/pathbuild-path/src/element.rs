@@ -126,6 +126,14 @@ impl Origin {
 }
 
 impl Shape {
+    /// The radius of a circle.
+    pub(crate) fn radius(&self) -> Option<f64> {
+        match self {
+            Self::Circle { radius, .. } => Some(*radius),
+            Self::Curve(_) => None,
+        }
+    }
+
     /// Its start, or its centre.
     pub fn point(&self) -> Xy {
         match self {
@@ -246,7 +254,22 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
     }
 }
 
+/// Largest difference in mm between the radius of a PHANTOM circle and that of the marker it was probably meant as.
+const RADIUS_SLIP: f64 = 0.1;
+
 impl MeantMarker {
+    /// What a PHANTOM circle whose radius means nothing was probably meant as.
+    pub(crate) fn of_radius(radius: f64) -> Self {
+        let is_about = |known: f64| (radius - known).abs() <= RADIUS_SLIP;
+        if is_about(0.5) {
+            Self::Start
+        } else if is_about(1.0) {
+            Self::End
+        } else {
+            Self::Other
+        }
+    }
+
     /// The marker that a circle of unknown line type would be with a suitable one.
     pub(crate) fn of(line_type: LineType, radius: f64) -> Self {
         match circle_meaning(line_type, radius) {

@@ -50,7 +50,7 @@ pub use doubts::DoubtThresholds;
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
-    Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, near_names,
+    Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, with_near_names,
 };
 pub use file_name::{is_q_project, judge_file_name};
 pub use files::{FilePattern, NameRange, PathKey};

@@ -1,10 +1,9 @@
 //! The posts included in pathbuild, in both definition languages: ready for use, and templates for one's own. (crates/pathbuild-post/posts)
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
 
 use super::definition::Post;
-use super::suggest::nearest;
 
 /// A post included in pathbuild.
 #[derive(Clone, Copy, Debug)]

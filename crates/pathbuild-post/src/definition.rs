@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts};
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts, nearest};
 
 use super::built_in::Language;
 use super::job::{Job, Operation};
@@ -12,7 +12,6 @@ use super::options::{PostMacro, PostOptions};
 use super::origin::LineOrigin;
 use super::read_back::{self, Expected};
 use super::shadow::Unfollowed;
-use super::suggest::nearest;
 use super::target::{self, Target};
 use super::{cad6, cambam};
 use pathbuild_gcode::dialect::Dialect;

@@ -24,7 +24,6 @@ mod samples;
 mod shadow;
 mod spindle;
 mod step;
-mod suggest;
 mod target;
 mod tools;
 mod ways;

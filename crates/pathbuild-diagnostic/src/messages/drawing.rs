@@ -23,12 +23,22 @@ messages! {
         en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm: meant as the start? Draw it with 1 mm",
         de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm: als Anfangsmarke gemeint? Mit 1 mm zeichnen",
     }
+    /// Note: a circle with the path's text and the line type of an element.
+    MEANT_AS_PHANTOM_START: MissingStart {
+        en: "the circle at {point} has a text with O and T, but its line type is not PHANTOM: meant as the start? Draw it as a PHANTOM circle of 1 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM: als Startmarke gemeint? Als PHANTOM-Kreis mit 1 mm zeichnen",
+    }
+    /// Note: a circle of an end marker's diameter with the line type of an element.
+    MEANT_AS_PHANTOM_END: MissingEnd {
+        en: "the circle at {point} has a diameter of 2 mm, but its line type is not PHANTOM: meant as the end?",
+        de: "der Kreis bei {point} hat 2 mm Durchmesser, sein Linientyp ist aber nicht PHANTOM: als Endmarke gemeint?",
+    }
     /// A path without an end marker.
     MISSING_END: MissingEnd {
         en: "path {name} has no end marker",
         de: "Pfad {name} hat keine Endmarke",
-        help_en: "draw a PHANTOM circle of 2 mm diameter on layer {layer} where the path ends",
-        help_de: "auf Layer {layer} einen PHANTOM-Kreis von 2 mm Durchmesser zeichnen, wo der Pfad endet",
+        help_en: "draw a PHANTOM circle of 2 mm diameter on layer {layer} where the path ends (LibreCAD turns PHANTOM into CONTINUOUS when it saves)",
+        help_de: "auf Layer {layer} einen PHANTOM-Kreis von 2 mm Durchmesser zeichnen, wo der Pfad endet (LibreCAD macht beim Speichern aus PHANTOM CONTINUOUS)",
     }
     /// Note: the point where the walk along the path ends.
     ENDS_HERE: MissingEnd {
@@ -117,6 +127,16 @@ messages! {
         en: "nearest is {element} at {point}, {distance} mm away from the text's circle",
         de: "am nächsten liegt {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
     }
+    /// Note: an element that has another text.
+    HAS_A_TEXT: TextWithoutElement {
+        en: "here {element} at {point} has a text already: write all letters into one text",
+        de: "hier hat {element} bei {point} schon einen Text: alle Buchstaben in einen Text schreiben",
+    }
+    /// Note: an entity that was left out (PB111) takes no text.
+    TEXT_OF_LEFT_OUT: TextWithoutElement {
+        en: "{kind} at {point} is left out (PB111): its text belongs to no element either",
+        de: "{kind} bei {point} wird ausgelassen (PB111): auch sein Text gehört dann zu keinem Element",
+    }
     /// Note: an element near the text on another layer.
     NEAR_ON_OTHER_LAYER: TextWithoutElement {
         en: "on layer {layer} {element} is {distance} mm away from the text's circle: are the two on different layers by mistake?",
@@ -154,6 +174,27 @@ messages! {
         de: "Layer {layer} gehört zu keinem Pfad, heißt aber fast wie der Pfad {path}: was darauf liegt, hat keine Wirkung ({elements})",
         help_en: "call it {path}, or {path}~A with letters only behind ~; give it quite another name if it is not milled",
         help_de: "{path} nennen, oder {path}~A mit nichts als Buchstaben hinter ~; ganz anders nennen, wenn es nicht gefräst wird",
+    }
+    /// A milled line from a point to the same point.
+    CUT_WITHOUT_LENGTH: LeftoverElement {
+        en: "this line has no length: the cutter plunges here, and mills nothing",
+        de: "diese Linie hat keine Länge: der Fräser taucht hier ein und fräst nichts",
+        help_en: "delete it; to drill here, draw a circle of the cutter's diameter",
+        help_de: "löschen; um hier zu bohren, einen Kreis mit dem Durchmesser des Fräsers zeichnen",
+    }
+    /// A sweep from a point to the same point.
+    SWEEP_WITHOUT_LENGTH: LeftoverElement {
+        en: "this sweep has no length and no effect",
+        de: "diese Leerfahrt hat keine Länge und keine Wirkung",
+        help_en: "delete it",
+        help_de: "löschen",
+    }
+    /// A circle on another one.
+    CIRCLE_TWICE: LeftoverElement {
+        en: "a circle of {diameter} mm diameter is drawn twice here: it is milled twice, and a text belongs to one of the two only",
+        de: "hier ist ein Kreis von {diameter} mm Durchmesser doppelt gezeichnet: er wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
+        help_en: "delete one of the two",
+        help_de: "einen der beiden löschen",
     }
     /// An element outside of the XY plane.
     OFF_PLANE: OffPlane {

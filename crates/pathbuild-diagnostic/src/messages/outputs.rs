@@ -57,7 +57,7 @@ messages! {
         help_en: "looked in {directories}",
         help_de: "gesucht in {directories}",
     }
-    /// A pattern of `list` that matches no path.
+    /// A pattern that no path matches.
     NO_PATH_LIKE: PathNotFound {
         en: "no path matches {name}",
         de: "kein Pfad entspricht {name}",

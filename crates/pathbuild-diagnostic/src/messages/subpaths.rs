@@ -41,6 +41,11 @@ messages! {
         en: "similar names: {names}",
         de: "ähnliche Namen: {names}",
     }
+    /// Note: the paths of the drawings that were searched, none of them with a similar name.
+    NAMES_THERE: PathNotFound {
+        en: "paths in the drawings that may hold it by their names: {names}",
+        de: "Pfade in den Zeichnungen, die ihn dem Namen nach enthalten können: {names}",
+    }
     /// Note: the path is elsewhere in the library.
     ELSEWHERE: PathNotFound {
         en: "the library holds it in {file}: add {directory} to `search`",

@@ -15,6 +15,13 @@ messages! {
         help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
         help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
     }
+    /// What is left begins on the way, where nothing ends.
+    BEGINS_ON_OTHER: NothingContinues {
+        en: "the path breaks off here: {element} begins at {point}, in the middle of another segment; segments not reached: {left}",
+        de: "hier bricht der Pfad ab: bei {point} beginnt {element} mitten auf einem anderen Segment; nicht erreichte Segmente: {left}",
+        help_en: "shorten or split the line or arc at {point}, so that the two meet end to end",
+        help_de: "die Linie oder den Bogen bei {point} kürzen oder teilen, damit beide sich mit ihren Enden treffen",
+    }
     /// A segment that is drawn twice, so that the walk returns along it.
     DRAWN_TWICE: NothingContinues {
         en: "{element} at {point} is drawn twice: the path runs back along the second one and breaks off; segments not reached: {left}",

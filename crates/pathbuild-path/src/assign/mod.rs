@@ -120,6 +120,27 @@ pub(crate) fn find(
     })
 }
 
+/// The nearest candidate that a text overlaps and that has a text already.
+pub(crate) fn find_taken(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+) -> Option<usize> {
+    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
+    boxes.each_touched(circle, |index| {
+        let candidate = &candidates[index];
+        if budget.take()
+            && candidate.is_taken
+            && let Some((kind, distance)) = overlap(circle, &candidate.shape)
+            && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
+        {
+            nearest = Some((kind, distance, index));
+        }
+    });
+    nearest.map(|(.., index)| index)
+}
+
 /// The nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.
 pub(crate) fn nearest_miss(
     circle: &TextCircle,

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables
 use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
 use regex::Regex;
 
-use super::near::near_names;
+use super::near::with_near_names;
 use super::restriction::Restriction;
 use super::signature::{PathHeader, PathSignature, SubpathCall};
 use crate::approx::{at_least, near};
@@ -124,12 +124,7 @@ impl<'a> Judge<'a> {
             .quoting("name", name.as_str())
             .with("directories", directories)
             .with("files", files);
-        let near = near_names(name, known);
-        if near.is_empty() {
-            return self.at_name(call, problem);
-        }
-        let near = near.iter().map(PathName::as_str).collect();
-        self.at_name(call, problem.note(&messages::NEAR_NAMES, vec![("names", near)]))
+        self.at_name(call, with_near_names(problem, name, known))
     }
 
     /// PB504: two files define the path.

@@ -9,7 +9,7 @@ mod signature;
 mod sweep;
 
 pub use judge::Judge;
-pub use near::near_names;
+pub use near::with_near_names;
 pub use raised::ProbeTop;
 pub use restriction::Restriction;
 pub use signature::{PathHeader, PathSignature, SubpathCall};

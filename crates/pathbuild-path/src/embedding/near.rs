@@ -1,23 +1,30 @@
-//! Suggests similar names.
+//! What to say of a path that is not found: names that may have been meant, else what the drawings have.
+
+use pathbuild_diagnostic::messages::subpaths as messages;
+use pathbuild_diagnostic::{Diagnostic, Value, is_slip};
 
 use crate::name::PathName;
 
-/// Maximum number of suggestions.
+/// Names that a note lists at most.
 const MOST: usize = 5;
 
-/// Known names that differ from a name by at most one character, ignoring leading zeros: `8999.1P` for `8999.01P`.
-pub fn near_names(name: &PathName, mut known: Vec<PathName>) -> Vec<PathName> {
-    let wanted = plain(name);
-    known.retain(|other| strsim::levenshtein(&wanted, &plain(other)) <= 1);
+/// Adds a note to a finding about a path that none of the searched drawings defines: the names of which `name` may be a misspelling, else
+/// all names there are in these drawings.
+pub fn with_near_names(problem: Diagnostic, name: &PathName, mut known: Vec<PathName>) -> Diagnostic {
     known.sort();
     known.dedup();
-    known.truncate(MOST);
-    known
-}
-
-/// A name without leading zeros.
-fn plain(name: &PathName) -> String {
-    let name = name.folded();
-    let parts: Vec<&str> = name.split('.').map(|part| part.trim_start_matches('0')).collect();
-    parts.join(".")
+    let similar = known.iter().filter(|other| is_slip(name.as_str(), other.as_str()));
+    let similar: Vec<&PathName> = similar.take(MOST).collect();
+    match (similar.as_slice(), known.as_slice()) {
+        ([], []) => problem,
+        ([], known) => {
+            let others = (known.len() > MOST).then_some("...");
+            let known = known.iter().take(MOST).map(PathName::as_str).chain(others).collect::<Value>();
+            problem.note(&messages::NAMES_THERE, vec![("names", known)])
+        }
+        (similar, _) => {
+            let similar = similar.iter().map(|name| name.as_str()).collect::<Value>();
+            problem.note(&messages::NEAR_NAMES, vec![("names", similar)])
+        }
+    }
 }

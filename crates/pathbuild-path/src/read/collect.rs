@@ -4,7 +4,7 @@ use std::mem::take;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Message, Point, words};
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Message, Point, Value, words};
 use pathbuild_dxf::Drawing;
 use smol_str::SmolStr;
 
@@ -192,6 +192,7 @@ impl PathCollector<'_> {
         };
         raw.faults.other_ends.extend(ends.map(|end| end.at));
         let mut checked = PathCheck { raw: &mut raw };
+        checked.check_leftovers();
         if !self.has_broken_circle {
             checked.check_markers();
         }
@@ -217,6 +218,16 @@ impl PathCollector<'_> {
         for shared in take(&mut self.shared) {
             self.diagnostics[shared.index].arguments.push(("count", shared.count.into()));
         }
+    }
+
+    /// Adds to PB107 the first entity that was left out: a text on it finds nothing.
+    pub(super) fn with_left_out(&self, problem: Diagnostic) -> Diagnostic {
+        let first = self.left_out.iter().find_map(|(kind, point)| Some((kind, (*point)?)));
+        let Some((kind, point)) = first else { return problem };
+        problem.note(
+            &messages::TEXT_OF_LEFT_OUT,
+            vec![("kind", Value::quoted(kind.name())), ("point", point.into())],
+        )
     }
 
     fn report_hidden(&mut self, layer: &str) {

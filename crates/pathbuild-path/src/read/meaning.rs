@@ -103,7 +103,9 @@ impl<'d> PathCollector<'d> {
                     .quoting("line_type", &*found.entity.line_type)
                     .with("diameter", exact(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
-                self.add_unclear(found, shape, MeantMarker::Other);
+                let is_phantom = line_type == LineType::Phantom;
+                let meant = if is_phantom { MeantMarker::of_radius(radius) } else { MeantMarker::Other };
+                self.add_unclear(found, shape, meant);
                 self.candidate(found, shape, Owner::Faulty);
             }
         }

@@ -12,7 +12,9 @@ use smol_str::SmolStr;
 use super::collect::{Owner, PathCollector, candidate_word};
 use super::found_text::{AnyText, FoundText};
 use crate::approx::near;
-use crate::assign::{AssignedCandidate, Candidate, CandidateIndex, SearchBudget, find, nearest_miss};
+use crate::assign::{
+    AssignedCandidate, Candidate, CandidateIndex, SearchBudget, find, find_taken, nearest_miss,
+};
 use crate::element::{Element, Marker, Origin, Shape, Source, shown};
 use crate::geometry::Xy;
 use crate::letter::{Letter, Letters};
@@ -100,6 +102,17 @@ impl<'d> Texts<'d> {
         layer.candidates.push(candidate);
     }
 
+    /// Takes an element out of the path: those behind it move up by one.
+    pub(super) fn forget_element(&mut self, index: usize) {
+        for candidate in self.layers.iter_mut().flat_map(|layer| &mut layer.candidates) {
+            candidate.owner = match candidate.owner {
+                Owner::Element(element) if element == index => Owner::Faulty,
+                Owner::Element(element) if element > index => Owner::Element(element - 1),
+                owner @ (Owner::Element(_) | Owner::Start | Owner::Probe(_) | Owner::Faulty) => owner,
+            };
+        }
+    }
+
     /// Whether a text with O and T overlaps a circle.
     pub(super) fn has_path_text(&self, marker: &Marker, radius: f64) -> bool {
         let on_layer = self.layers.iter().filter(|layer| layer.name == marker.origin.layer);
@@ -174,6 +187,7 @@ impl<'d> Texts<'d> {
             for text in &layer.texts {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
                 let problem = layer.without_element(text, others.map(|(_, other)| other), &budget);
+                let problem = path.with_left_out(problem);
                 path.diagnostics.push(problem);
                 let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
                 let letters = texts.first().map(ParameterText::meant_letters);
@@ -327,7 +341,13 @@ impl<'d> LayerTexts<'d> {
             .with("centre", shown(circle.centre))
             .with("diameter", 2.0 * circle.radius);
         diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
-        if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {
+        let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
+        if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
+            diagnostic = diagnostic.note(
+                &messages::HAS_A_TEXT,
+                vec![("element", candidate_word(taken).into()), ("point", shown(taken.shape.point()).into())],
+            );
+        } else if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
                 &messages::NEAREST_ELEMENT,

@@ -27,12 +27,25 @@ impl Walker<'_> {
                 .with("left", self.left);
             return self.path.origin(&self.path.segments[segment]).at(problem);
         }
-        let message = if self.is_dead_end() { &messages::DEAD_END } else { &messages::NOTHING_CONTINUES };
-        let problem = Diagnostic::new(message).with("left", self.left);
+        let begin = self.begin_on_another();
+        let problem = match begin {
+            Some((segment, begin)) => Diagnostic::new(&messages::BEGINS_ON_OTHER)
+                .with("element", self.word(segment))
+                .with("point", shown(begin)),
+            None if self.is_dead_end() => Diagnostic::new(&messages::DEAD_END),
+            None => Diagnostic::new(&messages::NOTHING_CONTINUES),
+        };
+        let problem = problem.with("left", self.left);
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
         let mut problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
         problem.place.point = Some(shown(self.at));
-        self.with_hints(problem)
+        if begin.is_some() { problem } else { self.with_hints(problem) }
+    }
+
+    /// The nearest segment that was not reached, and where it begins, if that is in the middle of a traversed one.
+    fn begin_on_another(&self) -> Option<(usize, Xy)> {
+        let (segment, begin, _) = self.nearest_end(self.at)?;
+        self.passing_by(begin).map(|_| (segment, begin))
     }
 
     /// Whether the remaining segments branch off earlier on the way here.
@@ -49,10 +62,12 @@ impl Walker<'_> {
     }
 
     pub(super) fn unreached(&self) -> Diagnostic {
-        let one = self.open().next().map(|segment| (segment, self.ends.of(segment)[0]));
+        let all = Curves::new(self.path, &self.ends, 0..self.path.segments.len());
+        let twice = self.open().find(|segment| all.have_another(*segment));
+        let one = twice.or_else(|| self.open().next()).map(|segment| (segment, self.ends.of(segment)[0]));
         let mut problem = Diagnostic::new(&messages::UNREACHED);
         if let Some((segment, start)) = one {
-            if self.is_drawn_twice(segment) {
+            if twice.is_some() {
                 problem = Diagnostic::new(&messages::UNREACHED_TWICE);
             } else if let Some(other) = self.passing_by(start) {
                 problem = Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other));

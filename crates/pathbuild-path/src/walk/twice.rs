@@ -6,7 +6,7 @@ use super::ends::{Ends, Square, Squares, square};
 use crate::approx::{coincide, near};
 use crate::path::{Path, SegmentKind};
 
-/// Milled curves, indexed by their ends.
+/// Milled curves and sweeps, indexed by their ends.
 pub(super) struct Curves<'a> {
     path: &'a Path,
     ends: &'a Ends,
@@ -14,7 +14,7 @@ pub(super) struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    /// Collects the milled curves among these segments.
+    /// Collects the milled curves and sweeps among these segments.
     pub(super) fn new(path: &'a Path, ends: &'a Ends, segments: impl Iterator<Item = usize>) -> Self {
         let mut known: BTreeMap<_, Vec<(f64, usize)>> = BTreeMap::new();
         for segment in segments {
@@ -38,10 +38,19 @@ impl<'a> Curves<'a> {
                 });
                 others.flat_map(|curves| near_in(curves, length)).any(|other| {
                     let drawn = self.ends.of(other);
-                    other != segment && coincide(drawn[0], ends[0]) && coincide(drawn[1], ends[1])
+                    other != segment
+                        && self.is_sweep(other) == self.is_sweep(segment)
+                        && coincide(drawn[0], ends[0])
+                        && coincide(drawn[1], ends[1])
                 })
             })
         })
+    }
+}
+
+impl Curves<'_> {
+    fn is_sweep(&self, segment: usize) -> bool {
+        matches!(self.path.segments[segment].kind, SegmentKind::Sweep { .. })
     }
 }
 
@@ -54,7 +63,7 @@ fn near_in(curves: &[(f64, usize)], length: f64) -> impl Iterator<Item = usize> 
 fn length(path: &Path, segment: usize) -> Option<f64> {
     let segment = &path.segments[segment];
     match segment.kind {
-        SegmentKind::Cut(_) => path.curve(segment).map(|curve| curve.length()),
+        SegmentKind::Cut(_) | SegmentKind::Sweep { .. } => path.curve(segment).map(|curve| curve.length()),
         _ => None,
     }
 }

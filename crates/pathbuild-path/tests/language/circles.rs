@@ -31,13 +31,13 @@ fn special_circles_are_told_apart_by_their_diameters() {
 fn diameters_compare_approximately() {
     let edges = [
         ("1.0000009", "start"),
-        ("1.0000012", "PB105"),
+        ("1.0000012", "start PB105"),
         ("0.9999991", "start"),
-        ("0.9999988", "PB105"),
+        ("0.9999988", "start PB105"),
         ("1.5000014", "turn"),
         ("1.5000017", "PB105"),
         ("2.0000019", "end"),
-        ("2.0000022", "PB105"),
+        ("2.0000022", "end PB105"),
         ("6.0000058", "probe"),
         ("6.0000062", "PB105"),
     ];

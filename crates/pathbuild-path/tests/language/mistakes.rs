@@ -162,3 +162,108 @@ fn the_same_fault_is_said_of_each_element() {
     assert_eq!(places.len(), 2, "{places:?}");
     assert!(places[0] != places[1] && places.iter().all(|(code, _)| code == "PB406"), "{places:?}");
 }
+
+/// Codes of a drawing's findings, and their notes.
+fn noted(drawing: &str) -> (Vec<String>, Vec<String>) {
+    let found = compile(drawing).found;
+    let codes = found.iter().map(|found| found.code().to_string()).collect();
+    let notes = found.iter().flat_map(|found| &found.notes).map(|note| note.text(Lang::En)).collect();
+    (codes, notes)
+}
+
+fn codes_of(shapes: &str) -> Vec<String> {
+    noted(&path(P, shapes)).0
+}
+
+#[test]
+fn a_line_without_length_is_left_over() {
+    let with = |line: &str| codes_of(&format!("mill 0,0 20,0\n{line}\nsweep 20,0 40,0\nend 40,0"));
+    for line in ["line CONTINUOUS 20,0 20,0", "line HIDDEN 20,0 20,0"] {
+        assert_eq!(with(line), ["PB121"], "{line}");
+    }
+    // A program has three decimals.
+    assert_eq!(codes_of("mill 0,0 20,0 20.0004,0\nend 20.0004,0"), ["PB121"]);
+    assert_eq!(codes_of("mill 0,0 20,0 20.0006,0\nend 20.0006,0"), [""; 0]);
+}
+
+#[test]
+fn a_circle_on_another_is_left_over() {
+    let with = |circle: &str| codes_of(&format!("circle 0,0 d 3\n{circle}\nsweep 0,0 20,0\nend 20,0"));
+    assert_eq!(with("circle 0,0 d 3"), ["PB121"]);
+    assert_eq!(with("circle 0.0004,0 d 3"), ["PB121", "PB402"]);
+    assert_eq!(with("circle 0,0 d 6"), [""; 0], "a counterbore");
+}
+
+#[test]
+fn a_segment_that_begins_on_another_is_named() {
+    let found = said(&compile(&path(P, "mill 0,0 20,0\nmill 15,0 40,0\nend 40,0")).found);
+    assert_one(
+        &found,
+        "PB401 the path breaks off here: a milling segment begins at (15, 0), in the middle of another segment",
+        "so that the two meet end to end",
+    );
+    let found = said(&compile(&path(P, "mill 0,0 20,0\nmill 20.1,0 40,0\nend 40,0")).found);
+    assert_one(&found, "PB401 the path breaks off here; segments", "move it to the path's layer");
+}
+
+#[test]
+fn a_sweep_drawn_twice_is_named() {
+    let found = said(
+        &compile(&path(P, "mill 0,0 20,0\nsweep 20,0 40,0\nsweep 40,0 20,0\nmill 40,0 60,0\nend 60,0")).found,
+    );
+    assert_one(&found, "PB402 a sweep at (40, 0) is drawn twice", "delete one of the two");
+    let outline = "bars 0,0 40,0 40,30 0,30 0,0";
+    let found =
+        said(&compile(&path("T5 O3 I1 B0 D1 P4 U9", &format!("{outline}\n{outline}\nend 0,0"))).found);
+    assert_one(&found, "PB402 a segment with support bars at ", "delete one of the two");
+    // There and back on a mill and a sweep is what an infeed needs.
+    assert_eq!(codes_of("mill 0,0 20,0\nsweep 20,0 0,0\nend 0,0"), [""; 0]);
+}
+
+#[test]
+fn markers_that_lost_their_line_type_are_recognised() {
+    let path = |start: &str, end: &str| {
+        noted(&format!("layer 1234.1P\n{start} \"T5 O3 I1 B0\"\nmill 0,0 20,0 20,30\n{end}"))
+    };
+    let start = "the circle at (0, 0) has a text with O and T, but its line type is not PHANTOM: meant as the start? \
+                 Draw it as a PHANTOM circle of 1 mm";
+    let end =
+        "the circle at (20, 30) has a diameter of 2 mm, but its line type is not PHANTOM: meant as the end?";
+    let strings = |strings: &[&str]| strings.iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert_eq!(path("circle 0,0 d 1", "end 20,30"), (strings(&["PB101"]), strings(&[start])));
+    assert_eq!(
+        path("circle 0,0 d 1", "circle 20,30 d 2"),
+        (strings(&["PB101", "PB102"]), strings(&[start, end]))
+    );
+    // Nearly a marker's diameter: what follows from that is not said.
+    assert_eq!(path("circle PHANTOM 0,0 d 1.1", "circle PHANTOM 20,30 d 1.9").0, ["PB105", "PB105"]);
+    assert_eq!(path("start 0,0", "circle PHANTOM 20,30 d 1.7").0, ["PB105", "PB102"]);
+}
+
+#[test]
+fn a_second_text_on_an_element_says_so() {
+    let second = |at: &str| {
+        noted(&path(P, &format!("sweep 0,0 20,0\ncircle 20,0 d 5\ntext 20,-1 \"B1\" height 1\ntext {at} \"F50\" height 1\nend 20,0"))).1
+    };
+    assert_eq!(
+        second("20,0.5"),
+        ["here a circle at (20, 0) has a text already: write all letters into one text"]
+    );
+    assert!(second("20,9")[0].starts_with("nearest is "), "{:?}", second("20,9"));
+}
+
+/// A gap that three decimals do not show.
+#[test]
+fn points_that_look_alike_are_told_apart() {
+    let text = |drawing: &str| compile(&path(P, drawing)).found[0].text(Lang::En);
+    assert_eq!(
+        text("mill 0,0 20,0\nend 20,0.0004"),
+        "the path stops at (20, 0), but its end marker is at (20, 0.0004)"
+    );
+    assert_eq!(
+        text("mill 0,0 61.5,36.4996\nend 61.5,36.5"),
+        "the path stops at (61.5, 36.4996), but its end marker is at (61.5, 36.5)"
+    );
+    let (_, notes) = noted(&path(P, "mill 0,0 20,0\nmill 20.0004,0 40,0\nend 40,0"));
+    assert_eq!(notes, ["the nearest open end is at (20, 0), 0.0004 mm away (a milling segment)"]);
+}

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Text};
+use pathbuild_diagnostic::{Diagnostic, Text, nearest};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -16,7 +16,6 @@ use super::settings::{SETTINGS, Settings};
 use crate::Units;
 use crate::findings::{Findings, LineStarts};
 use crate::number::FEWEST_DECIMALS;
-use crate::suggest::nearest;
 
 /// A definition as it is in its file.
 #[derive(Clone, Debug)]

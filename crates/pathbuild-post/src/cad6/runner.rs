@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
 use pathbuild_gcode::native::too_large;
 
 use super::control_text::{ControlText, ControlTextKind};
@@ -18,7 +18,6 @@ use super::variables::{VARIABLES, Variables, reason};
 use crate::PostFiles;
 use crate::guard::Guard;
 use crate::origin::LineOrigin;
-use crate::suggest::nearest;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type Called = Result<(), Box<Diagnostic>>;

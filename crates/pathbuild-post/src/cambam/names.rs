@@ -1,11 +1,10 @@
 //! The names of macros and their arguments.
 
-use pathbuild_diagnostic::Text;
+use pathbuild_diagnostic::{Text, nearest};
 
 use super::macros::{Argument, Block, Choice, Macro, State, Value};
 use super::registers::{Code, Form, Register};
 use super::section::{Section, coolant_section, spindle_section};
-use crate::suggest::nearest;
 use pathbuild_motion::{Coolant, Turning};
 
 /// An error in the arguments of a built-in macro: unexpected, missing, or not supported.

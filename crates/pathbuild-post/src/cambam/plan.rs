@@ -1,7 +1,7 @@
 //! Combines a program, a definition and the macros of all sources, and checks them together.
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
 
 use super::definition::{Definition, is_built_in, template_error};
 use super::macros::Macro;
@@ -9,7 +9,6 @@ use super::section::Section;
 use super::template::Template;
 use crate::findings::MOST_FINDINGS;
 use crate::job::{Job, Texts};
-use crate::suggest::nearest;
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 

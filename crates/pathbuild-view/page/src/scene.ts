@@ -45,6 +45,8 @@ export interface Parameter {
   value: string;
   from: "own" | "chain" | "path" | "lender" | "option" | "default";
   which?: string;
+  /** The line of pathbuild.toml that gives an option's value. */
+  line?: number;
 }
 
 export interface Label {

@@ -307,7 +307,8 @@ function describe(at: number | null): void {
 }
 
 /** Where a parameter comes from. */
-function provider({ from, which }: Parameter): string {
+function provider({ from, which, line }: Parameter): string {
+  if (line !== undefined) return `\`${which ?? ""}\` ${say("fromLine", lang)} ${line}`;
   const words = { own: "fromOwn", chain: "fromChain", path: "fromPath", lender: "fromLender", option: "fromOption", default: "fromDefault" } as const;
   return `${say(words[from], lang)}${from === "option" ? "" : " "}${which ?? ""}`.trim();
 }

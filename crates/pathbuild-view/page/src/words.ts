@@ -35,6 +35,7 @@ const words = {
   fromPath: ["text of the path", "Text des Pfads"],
   fromLender: ["@, text of path", "@, Text des Pfads"],
   fromOption: ["option --", "Option --"],
+  fromLine: ["in pathbuild.toml, line", "in pathbuild.toml, Zeile"],
   fromDefault: ["default", "Vorgabe"],
   feed: ["feed", "Vorschub"],
   pick: ["Click two points to measure.", "Zum Messen zwei Punkte anklicken."],

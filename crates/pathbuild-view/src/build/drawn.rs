@@ -155,6 +155,7 @@ fn parameter(known: &InForceParameter) -> Parameter {
         value: known.value.to_string(),
         from: known.from.name(),
         which: known.from.which().map(str::to_owned),
+        line: None,
     }
 }
 

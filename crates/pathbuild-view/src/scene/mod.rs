@@ -161,6 +161,9 @@ pub struct Parameter {
     /// The lending path or the option.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub which: Option<String>,
+    /// The line of pathbuild.toml, counted from 1, where that gives the option's value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u32>,
 }
 
 /// The kind of an element.

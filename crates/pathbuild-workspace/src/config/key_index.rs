@@ -1,8 +1,8 @@
 //! Finds the table that a misplaced key belongs to. (PB003; book: reference/configuration)
 
+use pathbuild_diagnostic::nearest;
 use serde_json::{Map, Value as Json};
 
-use super::nearest::nearest;
 use super::schema::schema;
 
 /// All tables of `pathbuild.toml` with their keys, taken from the schema.

@@ -16,7 +16,6 @@ mod key_index;
 mod kind;
 mod kinds;
 mod load;
-pub(crate) mod nearest;
 mod options;
 mod origin;
 mod reader;

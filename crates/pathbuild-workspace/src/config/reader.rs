@@ -5,13 +5,12 @@ use std::ops::Range;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{ConfinedSystem, spelt};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Text, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, Text, Value, nearest};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::key_index::{KeyIndex, KeyPlace};
 use super::kind::ValueType;
-use super::nearest::nearest;
 use super::origin::{Origin, Sourced};
 use super::source::Source;
 

@@ -28,6 +28,16 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Where the value of an option comes from that holds where drawings say nothing: `feed`, `sweep-height` or `probe-feed`.
+    pub fn origin_of_option(&self, name: &str) -> Origin {
+        let general = &self.general;
+        [&general.feed, &general.sweep_height, &general.probe_feed]
+            .into_iter()
+            .zip(["feed", "sweep-height", "probe-feed"])
+            .find(|(_, known)| *known == name)
+            .map_or(Origin::Default, |(option, _)| option.origin)
+    }
+
     /// Directory that paths in the configuration are relative to, if there is a configuration.
     pub fn directory(&self) -> Option<&Utf8Path> {
         self.file.as_deref().and_then(Utf8Path::parent)

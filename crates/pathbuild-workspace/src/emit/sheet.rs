@@ -14,7 +14,7 @@ use pathbuild_motion::Turning;
 use pathbuild_path::PathName;
 use pathbuild_post::ToolTable;
 use pathbuild_toolpath::Program;
-use pathbuild_view::{self as view, Scene, Sheet, SheetProbe, SheetTool};
+use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, SheetTool};
 
 use super::deliver::{OutputSettings, Task, make};
 use super::job::{Job, JobBuilder};
@@ -64,7 +64,7 @@ pub fn sheet_of(
 ) -> Result<SheetOutcome, String> {
     session.with_stable_files(|session| match resolve_target(session, what)? {
         Ok(target) => of_target(session, post_processor, target),
-        Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics }),
+        Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics: session.with_hints(diagnostics) }),
     })
 }
 
@@ -215,15 +215,18 @@ fn sheet(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Opti
         minutes: Some(total.minutes()).filter(|minutes| minutes.is_finite()),
         rapid: Some(settings.writing.options.rapid).filter(|rapid| *rapid > 0.0),
         probes: programs.iter().flat_map(|program| probes(program)).collect(),
-        left_out: programs
-            .iter()
-            .flat_map(|program| native::left_out_lines(program, settings.sheets.lang))
-            .collect(),
+        left_out: programs.iter().flat_map(|program| left_out(program)).collect(),
         scene,
     }))
 }
 
-/// Adds a path, together with the clamps in its way, in the program's coordinates.
+/// What a program lacks though it is drawn on the layers of its paths.
+fn left_out(program: &Program) -> impl Iterator<Item = BilingualText> + use<> {
+    let [en, de] = [Lang::En, Lang::De].map(|lang| native::left_out_lines(program, lang));
+    en.into_iter().zip(de).map(|(en, de)| BilingualText { en, de })
+}
+
+/// Adds a path with the clamps in its way, in the coordinates of its program.
 fn add(
     db: &Database,
     scene: &mut Scene,

@@ -104,14 +104,15 @@ pub enum ProgramState {
 impl Session<'_> {
     /// Names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
     pub fn names_of_library(&self) -> Vec<PathName> {
-        let mut names: Vec<PathName> = self.paths_of_library().into_iter().map(|(name, _)| name).collect();
+        let paths = self.paths_of_library(MOST_UNKNOWN);
+        let mut names: Vec<PathName> = paths.into_iter().map(|(name, _)| name).collect();
         names.dedup();
         names
     }
 
-    /// The same with the drawings that define them. Drawings known from the last `check` are not read again; of the others, only a limited
-    /// number is read.
-    pub(crate) fn paths_of_library(&self) -> Vec<(PathName, SourceFile)> {
+    /// The same with the drawings that define them. A drawing that the last `check` of the library knows is not read again. Of the others
+    /// only the first `most_unknown` are read, and the rest are left out.
+    pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
         let (files, _) = self.all_drawings();
         let result_store = cached_results(self.workspace());
         let kept = |file: &SourceFile| {
@@ -125,7 +126,7 @@ impl Session<'_> {
                 None => open.push(file),
             }
         }
-        open.truncate(MOST_UNKNOWN);
+        open.truncate(most_unknown);
         self.parse_ahead(&open);
         for file in open {
             paths.extend(path_names(self.db(), file).iter().map(|name| (name.clone(), file)));
@@ -138,7 +139,7 @@ impl Session<'_> {
 }
 
 /// Upper bound on the number of drawings that are read just for the names of their paths; takes half a second.
-const MOST_UNKNOWN: usize = 2000;
+pub(crate) const MOST_UNKNOWN: usize = 2000;
 
 impl Request<'_> {
     /// Lists the paths.

@@ -1,10 +1,11 @@
-//! First step of resolving arguments, by file names alone: no drawing is read. (book: reference/commands)
+//! First step of resolving arguments, by file names alone: only patterns of path names read drawings. (book: reference/commands)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
 use pathbuild_db::system::{FileKind, join};
-use pathbuild_db::{Db, SourceFile, drawing_names, may_hold};
+use pathbuild_db::{Db, SourceFile, check_file, drawing_names, may_hold};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_path::PathName;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
@@ -90,6 +91,11 @@ impl ArgumentMatches {
 }
 
 impl Argument {
+    /// Whether no drawing and no directory may hold what a name means.
+    fn is_unknown(&self) -> bool {
+        matches!(self, Self::Name { candidates, drawing: None, directory: None, .. } if candidates.is_empty())
+    }
+
     fn directory(&self) -> Option<&SearchedDirectory> {
         match self {
             Self::Directory(directory) => Some(directory),
@@ -127,7 +133,10 @@ impl Session<'_> {
                 }
                 Input::Name(name) => {
                     let argument = self.match_name(name, &mut found);
-                    found.arguments.push(argument);
+                    match argument.is_unknown().then(|| pattern_of(name)).flatten() {
+                        Some(pattern) => self.add_matching_paths(&pattern, &mut found),
+                        None => found.arguments.push(argument),
+                    }
                 }
             }
         }
@@ -137,14 +146,42 @@ impl Session<'_> {
     /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. Matches drawings and directories by the last component,
     /// unless a file of just that name exists.
     fn expand_pattern(&self, place: &Utf8Path) -> Vec<Utf8PathBuf> {
-        let name = place.file_name().filter(|name| name.contains(['*', '?', '[']));
-        let Some(pattern) = name.and_then(|name| Pattern::new(name).ok()) else { return Vec::new() };
+        let Some(pattern) = place.file_name().and_then(pattern_of) else { return Vec::new() };
         if self.db.system().kind(&self.normal(place)) != FileKind::Missing {
             return Vec::new();
         }
         let directory = place.parent().unwrap_or(Utf8Path::new(""));
         let entries = self.entries(&self.normal(directory)).into_iter();
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
+    }
+
+    /// Adds the paths of the library whose names match a pattern, and what is wrong with drawings of which no path is known.
+    fn add_matching_paths(&self, pattern: &Pattern, found: &mut ArgumentMatches) {
+        let paths = self.paths_of_library(usize::MAX);
+        let (files, problems) = self.all_drawings();
+        if !self.has_library() {
+            found.problems.extend(problems);
+        }
+        let known: FxHashSet<SourceFile> = paths.iter().map(|(_, file)| *file).collect();
+        let unknown = files.iter().filter(|file| !known.contains(file));
+        let problems = unknown.flat_map(|file| check_file(self.db(), *file));
+        found.problems.extend(problems.filter(|problem| problem.is_error()).cloned());
+        let matching = paths.into_iter().filter(|(name, _)| pattern.matches(name.as_str()));
+        let before = found.arguments.len();
+        for (path, file) in matching {
+            match &mut found.arguments[before..] {
+                [.., Argument::Name { name, candidates, .. }] if *name == path => candidates.push(file),
+                _ => found.arguments.push(Argument::Name {
+                    name: path,
+                    candidates: vec![file],
+                    drawing: None,
+                    directory: None,
+                }),
+            }
+        }
+        if found.arguments.len() == before {
+            found.problems.push(Diagnostic::new(&messages::NO_PATH_LIKE).quoting("name", pattern.text()));
+        }
     }
 
     fn match_place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {
@@ -292,6 +329,11 @@ impl Session<'_> {
             is_parallel: self.context.jobs != Some(1),
         }
     }
+}
+
+/// The pattern that an argument is, if it is one.
+fn pattern_of(name: &str) -> Option<Pattern> {
+    name.contains(['*', '?', '[']).then(|| Pattern::new(name).ok()).flatten()
 }
 
 fn holding_drawings(walked: &[SearchedDirectory]) -> Vec<Utf8PathBuf> {

@@ -4,7 +4,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, check_file, holders, path_names};
 use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_path::PathName;
+use pathbuild_path::{PathName, with_near_names};
 use rustc_hash::FxHashSet;
 
 use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
@@ -114,7 +114,9 @@ impl Session<'_> {
                         selection.problems.extend(self.name_problems(found));
                         let read_errors = self.read_errors(candidates, names);
                         if read_errors.is_empty() {
-                            selection.problems.push(no_such_path(name, &found.name_directories));
+                            let known = candidates.iter().flat_map(|file| names(*file)).cloned().collect();
+                            let problem = no_such_path(name, &found.name_directories);
+                            selection.problems.push(with_near_names(problem, name, known));
                         }
                         selection.problems.extend(read_errors);
                     }

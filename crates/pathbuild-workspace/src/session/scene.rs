@@ -18,6 +18,7 @@ use pathbuild_view::{
 
 use super::work::about;
 use super::{CheckedTarget, Session, WriteSettings};
+use crate::config::Origin;
 use crate::emit::{program_text, writing};
 use crate::findings::Findings;
 use crate::posting::PostProcessor;
@@ -85,7 +86,21 @@ impl Session<'_> {
             diagnostics.extend(found);
         }
         scene.other_layers = view::other_layers(other_layers(&self.db, file));
+        self.add_origins(&mut scene);
         SceneReport { scene, diagnostics }
+    }
+
+    /// Says of each parameter that an option gives where in pathbuild.toml that stands.
+    fn add_origins(&self, scene: &mut Scene) {
+        let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
+        for parameter in elements.flat_map(|element| &mut element.parameters) {
+            let option = parameter.which.as_deref().filter(|_| parameter.from == "option");
+            let origin = option.map(|option| self.context.settings.origin_of_option(option));
+            parameter.line = match origin {
+                Some(Origin::File(line)) => Some(line),
+                Some(Origin::Default | Origin::CommandLine(_)) | None => None,
+            };
+        }
     }
 
     /// Scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.

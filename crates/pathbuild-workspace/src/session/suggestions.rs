@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
 use pathbuild_db::{Db, SourceFile, catch_bugs};
-use pathbuild_diagnostic::messages::{files, outputs};
-use pathbuild_diagnostic::{Diagnostic, Message, Value};
+use pathbuild_diagnostic::messages::{files, outputs, subpaths};
+use pathbuild_diagnostic::{Diagnostic, Message, Value, nearest};
 use pathbuild_path::PathName;
 
 use super::{Session, library};
-use crate::config::nearest::nearest;
+use crate::list::MOST_UNKNOWN;
 
 impl Session<'_> {
     /// Adds suggestions to diagnostics about missing files and paths: another location, or a similar name.
@@ -27,7 +27,8 @@ impl Session<'_> {
                 }
                 _ => None,
             };
-            match near {
+            let is_told = diagnostic.notes.iter().any(|note| *note.message == subpaths::NEAR_NAMES);
+            match near.filter(|(message, _)| **message != outputs::NEAR_PATH || !is_told) {
                 Some((message, near)) => diagnostic.note(message, vec![("near", Value::quoted(near))]),
                 None => diagnostic,
             }
@@ -53,7 +54,7 @@ impl Session<'_> {
 
     /// Everything that a name without a separator may refer to.
     fn known(&self) -> KnownNames {
-        KnownNames { paths: self.paths_of_library(), entries: self.entries(Utf8Path::new("")) }
+        KnownNames { paths: self.paths_of_library(MOST_UNKNOWN), entries: self.entries(Utf8Path::new("")) }
     }
 
     /// The existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.

@@ -13,7 +13,7 @@ pub struct InputArgs(Inputs);
 
 #[derive(Args)]
 struct Declared {
-    /// Drawings (.dxf), names of paths, directories
+    /// Drawings (.dxf), names of paths or patterns of them (8*.1P), directories
     #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completion::paths())]
     inputs: Vec<String>,
 }

@@ -96,7 +96,10 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Gibt diese Hilfe oder die eines Befehls aus",
     ),
     // What commands work on.
-    ("Drawings (.dxf), names of paths, directories", "Zeichnungen (.dxf), Namen von Pfaden, Verzeichnisse"),
+    (
+        "Drawings (.dxf), names of paths or patterns of them (8*.1P), directories",
+        "Zeichnungen (.dxf), Namen von Pfaden oder Muster dafür (8*.1P), Verzeichnisse",
+    ),
     (
         "Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library",
         "Muster von Pfadnamen (8*, 20[0-5]?.1P), Zeichnungen (.dxf), Verzeichnisse; ohne Zeichnungen und Verzeichnisse die Bibliothek",

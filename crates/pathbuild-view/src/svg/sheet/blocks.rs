@@ -4,7 +4,7 @@ use super::facts::{self, distinct};
 use super::flow::Block;
 use super::words::Words;
 use super::{Sheet, SheetTool};
-use crate::scene::{MoveKind, Point};
+use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::legend::mm;
 
 /// Steps before running the program, in the order in which they are carried out.
@@ -41,8 +41,8 @@ pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
             )
             .into(),
     );
-    checks.extend(sheet.left_out.iter().map(|line| {
-        words.either(format!("{line}: that is intended"), format!("{line}: das ist so gewollt"))
+    checks.extend(sheet.left_out.iter().map(|BilingualText { en, de }| {
+        words.either(format!("{en}: that is intended"), format!("{de}: das ist so gewollt"))
     }));
     let heading = Block::Heading(words.either("Before the start", "Vor dem Start").into());
     std::iter::once(heading).chain(checks.into_iter().map(Block::Check)).collect()

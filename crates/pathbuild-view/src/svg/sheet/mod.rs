@@ -16,7 +16,7 @@ use pathbuild_diagnostic::Lang;
 #[cfg(not(feature = "pictures"))]
 use pathbuild_diagnostic::{Value, reasons::WITHOUT_PICTURES};
 
-use crate::scene::{Point, Scene};
+use crate::scene::{BilingualText, Point, Scene};
 use crate::svg::canvas::escaped;
 
 /// The size of a page in mm.
@@ -56,8 +56,8 @@ pub struct Sheet {
     pub rapid: Option<f64>,
     /// Z-probes in measuring order.
     pub probes: Vec<SheetProbe>,
-    /// Elements on the paths' layers that are not part of the programs, in the language of the sheet.
-    pub left_out: Vec<String>,
+    /// Elements on the paths' layers that are not part of the programs.
+    pub left_out: Vec<BilingualText>,
 }
 
 /// A cutter.

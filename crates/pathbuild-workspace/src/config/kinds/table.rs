@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Code, Severity, Value};
+use pathbuild_diagnostic::{Code, Severity, Value, nearest};
 use pathbuild_path::LineType;
 use serde_json::{Value as Json, json};
 use toml::Spanned;
@@ -13,7 +13,6 @@ use super::number::{COUNT, POSITIVE, SWITCH};
 use super::pattern::{PATTERNS, REGEX};
 use super::text::{TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::kind::ValueType;
-use crate::config::nearest::nearest;
 use crate::config::reader::{Table, TomlReader};
 use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
 use crate::posting::is_file_name;

@@ -4,13 +4,12 @@ use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Value, shown};
+use pathbuild_diagnostic::{Value, nearest, shown};
 use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::DeValue;
 
 use crate::config::kind::ValueType;
-use crate::config::nearest::nearest;
 use crate::config::reader::TomlReader;
 use crate::config::types::{Choice, Directories};
 

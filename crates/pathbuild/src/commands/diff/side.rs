@@ -140,7 +140,7 @@ fn path(context: &Context, name: &str) -> Result<ComparedProgram, Failure> {
                     &format!("{name:?}"),
                 )
             };
-            let problems = selection.problems;
+            let problems = session.with_hints(selection.problems);
             return Err(if problems.is_empty() {
                 Failure::Usage(reason())
             } else {
@@ -149,7 +149,7 @@ fn path(context: &Context, name: &str) -> Result<ComparedProgram, Failure> {
         };
         let seen = session.scene(path.file, std::slice::from_ref(&path.name), ShownText::Native);
         if seen.diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(Failure::Found(seen.diagnostics));
+            return Err(Failure::Found(session.with_hints(seen.diagnostics)));
         }
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
         Ok(ComparedProgram { path: as_printed(path), problems: seen.diagnostics })

@@ -78,7 +78,7 @@ fn texts(
         }));
         shown.extend(paths.flat_map(|path| table::shown(context, db, file, path)));
     }
-    (shown, problems)
+    (shown, session.with_hints(problems))
 }
 
 /// A text in a few lines: its content, its place, and the elements that it belongs to.

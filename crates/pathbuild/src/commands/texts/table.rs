@@ -55,26 +55,20 @@ fn table<'a>(
 fn source(context: &Context, from: &Provider) -> String {
     let word = context.choose(from.word().en, from.word().de);
     match from {
-        Provider::Option(name) => option(context, name),
+        Provider::Option(name) => option(context, word, name),
         Provider::Lender(path) => format!("{word}: {}", shown::line(path.as_str())),
         _ => word.to_owned(),
     }
 }
 
 /// The configuration key or option that sets a value.
-fn option(context: &Context, name: &str) -> String {
-    let general = &context.settings.general;
-    let origin = match name {
-        "feed" => general.feed.origin,
-        "sweep-height" => general.sweep_height.origin,
-        _ => general.probe_feed.origin,
-    };
-    match origin {
+fn option(context: &Context, word: &str, name: &str) -> String {
+    match context.settings.origin_of_option(name) {
         Origin::File(line) => context
             .choose("`{name}` in pathbuild.toml, line {line}", "`{name}` in pathbuild.toml, Zeile {line}")
             .replace("{name}", name)
             .replace("{line}", &line.to_string()),
-        Origin::Default | Origin::CommandLine(_) => format!("Option --{name}"),
+        Origin::Default | Origin::CommandLine(_) => format!("{word} --{name}"),
     }
 }
 

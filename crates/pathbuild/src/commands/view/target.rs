@@ -57,7 +57,7 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Target
 fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
     let selection = session.select(&Inputs { inputs: vec![what.to_owned()] });
     if !selection.problems.is_empty() {
-        return Err(Failure::Found(selection.problems));
+        return Err(Failure::Found(session.with_hints(selection.problems)));
     }
     let db = session.db();
     let (file, names): (SourceFile, Vec<PathName>) =
@@ -81,5 +81,6 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
         let problem = Diagnostic::new(&outputs::NO_PATH).quoting("pattern", "path-pattern");
         report.diagnostics.push(problem.in_file(file.path(db)));
     }
+    report.diagnostics = session.with_hints(report.diagnostics);
     Ok(TargetScene { report, file: file.path(db).to_string() })
 }

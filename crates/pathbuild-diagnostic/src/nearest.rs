@@ -1,0 +1,153 @@
+//! Suggestions for misspelt names.
+
+/// Bytes beyond which a name is not compared: every known name is shorter, and comparing takes the product of both lengths.
+const LONGEST: usize = 200;
+
+/// Digits from which on a number identifies something. Shorter numbers count: `3101.1P` is followed by `3101.2P`.
+const LONG_NUMBER: usize = 3;
+
+/// The known name nearest to a misspelt one: at most a third of its letters differ, and its numbers are the same, slips of the pen aside.
+/// The first of several wins.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST {
+        return None;
+    }
+    let numbers = Numbers::of(name);
+    let name: Vec<char> = name.to_lowercase().chars().collect();
+    let (most, own) = (name.len().div_ceil(3), letters(&name));
+    let near = |candidate: &'a str| {
+        // A letter more or less is one that differs.
+        if candidate.chars().count().abs_diff(name.len()) > most {
+            return None;
+        }
+        let other: Vec<char> = candidate.to_lowercase().chars().collect();
+        let others = letters(&other);
+        // Each letter that only one of them has is one that differs: nearly all names are told apart by this.
+        if (own & !others).count_ones().max((others & !own).count_ones()) as usize > most {
+            return None;
+        }
+        let distance = distance(&name, &other);
+        (distance <= most && numbers.may_mean(&Numbers::of(candidate))).then_some((distance, candidate))
+    };
+    known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
+}
+
+/// Whether one name is the other with a single slip of the pen: a character changed, added, left out or swapped with its neighbour. Case
+/// and leading zeros do not count, and a neighbour in a numbering is another name.
+pub fn is_slip(name: &str, other: &str) -> bool {
+    let plain = |name: &str| -> Vec<char> {
+        let name = name.to_lowercase();
+        let parts: Vec<&str> = name.split('.').map(|part| part.trim_start_matches('0')).collect();
+        parts.join(".").chars().collect()
+    };
+    name.len().max(other.len()) <= LONGEST
+        && distance(&plain(name), &plain(other)) <= 1
+        && Numbers::of(name).may_mean(&Numbers::of(other))
+}
+
+/// The numbers in a name, in order, without leading zeros.
+struct Numbers(Vec<String>);
+
+impl Numbers {
+    /// A letter like a digit counts as that digit beside one: `31O1` is 3101.
+    fn of(name: &str) -> Self {
+        let mut numbers = vec![String::new()];
+        let mut letters = name.chars().peekable();
+        while let Some(letter) = letters.next() {
+            let is_beside_digit = numbers.last().is_some_and(|number| !number.is_empty())
+                || letters.peek().is_some_and(char::is_ascii_digit);
+            let digit = match letter {
+                '0'..='9' => Some(letter),
+                'o' | 'O' if is_beside_digit => Some('0'),
+                _ => None,
+            };
+            match (digit, numbers.last_mut()) {
+                (Some(digit), Some(number)) => number.push(digit),
+                _ => numbers.push(String::new()),
+            }
+        }
+        numbers.retain(|number| !number.is_empty());
+        Self(numbers.iter().map(|number| number.trim_start_matches('0').to_owned()).collect())
+    }
+
+    /// Whether these are the others, but for a slip of the pen in one of them.
+    fn may_mean(&self, others: &Self) -> bool {
+        if self.0.len() != others.0.len() {
+            return self.0.concat() == others.0.concat();
+        }
+        let mut different = self.0.iter().zip(&others.0).filter(|(number, other)| number != other);
+        match (different.next(), different.next()) {
+            (None, _) => true,
+            (Some((number, other)), None) => is_misspelt(number, other),
+            (Some(_), Some(_)) => false,
+        }
+    }
+}
+
+/// Whether a long number is another with a digit left out or put in, or with two neighbours swapped.
+fn is_misspelt(number: &str, other: &str) -> bool {
+    let (long, short) = if number.len() < other.len() { (other, number) } else { (number, other) };
+    if long.len() < LONG_NUMBER {
+        return false;
+    }
+    let same = long.bytes().zip(short.bytes()).take_while(|(a, b)| a == b).count();
+    let (long, short) = (&long.as_bytes()[same..], &short.as_bytes()[same..]);
+    match (long, short) {
+        ([a, b, rest @ ..], [c, d, other @ ..]) if long.len() == short.len() => (a, b, rest) == (d, c, other),
+        ([_, rest @ ..], short) => rest == short,
+        ([], _) => false,
+    }
+}
+
+/// The letters of a name, a bit for each; some share theirs.
+fn letters(name: &[char]) -> u32 {
+    name.iter().fold(0, |found, letter| found | 1 << (u32::from(*letter) % 32))
+}
+
+/// The number of letters to change, put in, leave out or swap with their neighbour (optimal string alignment).
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut before: Vec<usize> = Vec::new();
+    let mut above: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let change = above[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = change.min(above[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(before[j - 2] + 1);
+            }
+            row.push(least);
+        }
+        before = std::mem::replace(&mut above, row);
+    }
+    above[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_slip, nearest};
+
+    #[test]
+    fn a_slip_finds_the_word() {
+        let known = ["toolchange", "tooltable", "spindle"];
+        assert_eq!(nearest("toolchnage", known), Some("toolchange"));
+        assert_eq!(nearest("Spindel", known), Some("spindle"));
+        assert_eq!(nearest("coolant", known), None);
+    }
+
+    #[test]
+    fn a_neighbour_in_a_numbering_is_no_slip() {
+        for other in ["3101.1P", "3101.22P", "3102.2P", "3111.2P", "31011.1P"] {
+            assert!(!is_slip("3101.2P", other), "{other}");
+            assert_eq!(nearest("3101.2P", [other]), None, "{other}");
+        }
+        for other in [
+            "3101.02P", "3101.2Q", "3101.2p", "311.2P", "3011.2P", "31101.2P", "31O1.2P", "31012P", "3101,2P",
+        ] {
+            assert!(is_slip("3101.2P", other), "{other}");
+            assert_eq!(nearest("3101.2P", [other]), Some(other));
+        }
+        assert_eq!(nearest("PB599", ["PB509", "PB590"]), None);
+        assert_eq!(nearest("PB5O9", ["PB509", "PB590"]), Some("PB509"));
+    }
+}
