@@ -9,9 +9,9 @@ use crate::context::Context;
 use crate::environment::user_configuration;
 use crate::exit::ExitStatus;
 use crate::serving::Server;
-use crate::warn_about_unused_configuration;
-use crate::{context_of, refusal};
-use camino::Utf8PathBuf;
+use crate::{context_of, refusal, warn_about_unused_configuration, working_directory};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::shown;
 
 /// Interval at which an invalid configuration is checked again.
 const PAUSE: Duration = Duration::from_millis(200);
@@ -22,7 +22,11 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let mut has_begun = false;
     let mut had_file = false;
     let mut server = None;
+    let home = working_directory();
     loop {
+        if has_begun && !is_back(cli, &home, server.as_ref()) {
+            return context_of(cli).0.printer.finish(ExitStatus::Success);
+        }
         // Taken before the configuration is read, so that later changes are noticed.
         let sources = Sources::of(&context_of(cli).0);
         let (context, faults) = context_of(cli);
@@ -70,6 +74,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                         return context.printer.finish(ExitStatus::Success);
                     }
                     thread::sleep(PAUSE);
+                    enter(&home);
                 }
             }
             Err(because) => {
@@ -79,6 +84,40 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             }
         }
     }
+}
+
+/// Returns to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again. Returns whether to
+/// go on: the page may be closed meanwhile.
+fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
+    let inputs = cli.command.inputs();
+    let is_named = inputs.inputs.iter().all(|input| Utf8Path::new(input).is_absolute());
+    let is_configured = cli.common.config.as_ref().is_none_or(|file| file.is_absolute());
+    if enter(home) || is_named && is_configured && !inputs.inputs.is_empty() {
+        return true;
+    }
+    let (context, _) = context_of(cli);
+    let line = context.phrase(
+        "the working directory {} is missing: nothing is checked until it is there again",
+        "das Arbeitsverzeichnis {} fehlt: nichts wird geprüft, bis es wieder da ist",
+        &shown::line(home.as_str()),
+    );
+    if let Some(server) = server {
+        server.halt(&[], &line);
+    }
+    context.printer.status(line);
+    while !enter(home) {
+        if server.is_some_and(Server::is_over) {
+            return false;
+        }
+        thread::sleep(PAUSE);
+    }
+    true
+}
+
+/// Changes the working directory; returns whether that succeeded.
+fn enter(home: &Utf8Path) -> bool {
+    // It is empty if the system did not tell it.
+    home.as_str().is_empty() || std::env::set_current_dir(home).is_ok()
 }
 
 /// Tells that nothing is checked because the configuration has disappeared.

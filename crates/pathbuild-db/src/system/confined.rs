@@ -11,7 +11,7 @@ use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::LEADS_OUT;
 
-use super::{Entry, FileKind, Listing, ReadError, System, WriteOutcome, clean};
+use super::{Entry, FileKind, FileLink, Listing, ReadError, System, WriteOutcome, clean};
 
 /// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A
 /// path that is spelt outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so such a
@@ -167,6 +167,10 @@ impl System for ConfinedSystem {
 
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
         self.below.canonical(path)
+    }
+
+    fn link(&self, path: &Utf8Path) -> Option<FileLink> {
+        self.allowed(path).ok()?.link(path)
     }
 
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {

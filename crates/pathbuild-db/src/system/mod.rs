@@ -120,6 +120,11 @@ pub trait System: Debug + Send + Sync {
     /// A canonical path for a file that can be reached by several paths.
     fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf;
 
+    /// How a path links to a file that has other names; `None` for an ordinary file, or if the system cannot tell.
+    fn link(&self, _: &Utf8Path) -> Option<FileLink> {
+        None
+    }
+
     /// Replaces a file atomically, unless it already has these bytes.
     ///
     /// # Errors
@@ -145,6 +150,15 @@ pub enum FileKind {
     File,
     Directory,
     Missing,
+}
+
+/// A name of a file that has other names as well.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileLink {
+    /// A symbolic link with this target, which is relative to the directory of the link.
+    Symbolic(Utf8PathBuf),
+    /// A hard link to the file with this device and inode number.
+    Hard([u64; 2]),
 }
 
 /// The result of writing a file.

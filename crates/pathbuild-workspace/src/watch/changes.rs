@@ -11,7 +11,7 @@ use notify::{Config, Event, PollWatcher, RecommendedWatcher, Watcher as _};
 use pathbuild_db::System;
 
 use super::Request;
-use super::directories::{WatchedDirectories, event_path};
+use super::directories::{EventPath, WatchedDirectories, event_path};
 use super::library::Library;
 use crate::session::Session;
 
@@ -19,12 +19,15 @@ use crate::session::Session;
 pub(super) struct Watcher {
     signals: Receiver<Signal>,
     bell: Bell,
-    /// Kept alive, because dropping it ends the watch.
-    _source: Box<dyn notify::Watcher>,
+    source: Box<dyn notify::Watcher>,
     debounce: Duration,
     /// The configuration and the files of the post-processor, as named in events.
     configuration: BTreeSet<Utf8PathBuf>,
     directories: WatchedDirectories,
+    /// Path of the working directory at the start; `None` if no watched path is relative.
+    working_directory: Option<Utf8PathBuf>,
+    /// When to check next that the working directory still has this path.
+    next_directory_check: Instant,
     system: Arc<dyn System>,
     /// Changes that arrived while a batch was processed.
     pending: Changes,
@@ -95,6 +98,9 @@ pub(super) struct Changes {
 /// Interval at which network drives are polled.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
+/// Interval at which the path of the working directory is checked.
+const DIRECTORY_CHECK_INTERVAL: Duration = Duration::from_secs(1);
+
 /// How long to wait for an incomplete drawing after its last change. Some programs never write the end marker.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -121,13 +127,20 @@ impl Watcher {
         };
         let mut directories = WatchedDirectories::new(session, request, post);
         directories.watch(&mut *watcher, &*workspace.system)?;
-        let configuration = settings.file.iter().chain(post);
+        let configuration = settings.file.iter().chain(post).map(|file| event_path(session, file));
+        let configuration: BTreeSet<Utf8PathBuf> = configuration.collect();
+        // As with drawings: a link may be one to nothing by now.
+        _ = directories.follow(&mut *watcher, session, configuration.iter().cloned());
         Ok(Self {
             signals,
             bell,
-            _source: watcher,
+            source: watcher,
             debounce: settings.watch.debounce.value,
-            configuration: configuration.map(|file| event_path(session, file)).collect(),
+            working_directory: (directories.are_relative()
+                || configuration.iter().any(|file| file.is_relative()))
+            .then(|| current_directory(&*workspace.system)),
+            next_directory_check: Instant::now() + DIRECTORY_CHECK_INTERVAL,
+            configuration,
             directories,
             pending: Changes::default(),
             due: Instant::now(),
@@ -136,6 +149,16 @@ impl Watcher {
             system: Arc::clone(&workspace.system),
             unfinished: BTreeMap::new(),
         })
+    }
+
+    /// Watches the targets of those files that are links. Returns the files whose target the system refuses to watch, with its reason.
+    pub(super) fn follow(
+        &mut self,
+        session: &Session<'_>,
+        files: impl IntoIterator<Item = Utf8PathBuf>,
+    ) -> Vec<(Utf8PathBuf, String)> {
+        let refused = self.directories.follow(&mut *self.source, session, files);
+        refused.into_iter().map(|(file, error)| (file, error.to_string())).collect()
     }
 
     /// A handle that wakes this watcher.
@@ -149,6 +172,9 @@ impl Watcher {
             self.poll_signals(library.session());
             if self.is_over {
                 return Batch::Over;
+            }
+            if self.has_moved() {
+                return Batch::Restart(Restart::Directories);
             }
             let patience = self.patience(library);
             if patience.is_zero()
@@ -212,7 +238,22 @@ impl Watcher {
         }
     }
 
+    /// Whether the working directory was moved or removed. The process keeps the old directory, in which its relative paths are resolved.
+    /// This is polled because events report it only if every directory above can be watched.
+    fn has_moved(&mut self) -> bool {
+        let now = Instant::now();
+        let Some(before) = self.working_directory.as_ref().filter(|_| now >= self.next_directory_check)
+        else {
+            return false;
+        };
+        self.next_directory_check = now + DIRECTORY_CHECK_INTERVAL;
+        current_directory(&*self.system) != *before
+    }
+
     fn wait(&self, patience: Duration) -> Result<Signal, RecvTimeoutError> {
+        if self.working_directory.is_some() {
+            return self.signals.recv_timeout(patience.min(DIRECTORY_CHECK_INTERVAL));
+        }
         if patience == Duration::MAX {
             return self.signals.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
@@ -245,21 +286,25 @@ impl Watcher {
         };
         for path in event.paths.into_iter().filter(|_| is_change) {
             if let Ok(path) = Utf8PathBuf::from_path_buf(path) {
-                self.add_path(event.kind, &event_path(session, &path));
+                self.add_path(event.kind, &EventPath::new(session, &path));
             }
         }
     }
 
-    fn add_path(&mut self, kind: EventKind, path: &Utf8Path) {
-        let restart = if self.configuration.contains(path) {
+    fn add_path(&mut self, kind: EventKind, path: &EventPath) {
+        let linked = self.directories.linked_drawings(path, &*self.system);
+        let is_configuration = |name: &Utf8PathBuf| self.configuration.contains(name);
+        let restart = if is_configuration(&path.reported) || linked.iter().any(is_configuration) {
             Some(Restart::Configuration)
         } else {
             self.directories.are_changed(kind, path, &*self.system).then_some(Restart::Directories)
         };
-        let is_change = may_affect_results(path) && self.directories.is_relevant(path);
-        if is_change {
+        let is_regarded = may_affect_results(&path.reported) && self.directories.is_relevant(path);
+        if is_regarded {
             self.pending.paths.extend(self.directories.own_names(path));
         }
+        let is_change = is_regarded || !linked.is_empty();
+        self.pending.paths.extend(linked);
         if restart.is_some() || is_change {
             self.pending.restart = self.pending.restart.max(restart);
             self.restart_debounce();
@@ -288,6 +333,11 @@ impl Changes {
     fn is_empty(&self) -> bool {
         self.paths.is_empty() && !self.is_incomplete && self.restart.is_none()
     }
+}
+
+/// The path of the working directory as it is now; `.` if it was removed.
+fn current_directory(system: &dyn System) -> Utf8PathBuf {
+    system.canonical(Utf8Path::new("."))
 }
 
 /// Whether a change of this path can affect results: drawings, configurations, ignore files, and possible directories of drawings.

@@ -11,6 +11,7 @@ use pathbuild_db::System;
 use pathbuild_db::system::{FileKind, join};
 
 use super::Request;
+use super::links::{LinkPlace, Links, trail};
 use crate::Input;
 use crate::config::clean;
 use crate::session::Session;
@@ -19,30 +20,61 @@ use crate::session::Session;
 pub(super) struct WatchedDirectories {
     /// Watched directories, with or without everything below them.
     watched: BTreeMap<Utf8PathBuf, RecursiveMode>,
-    /// The watched directories, each with its name in the session, which may begin with `..`.
-    own_names: BTreeSet<[Utf8PathBuf; 2]>,
+    /// The watched directories as named in events, each with its canonical path, and its name in the session, which may begin with `..`.
+    roots: BTreeSet<[Utf8PathBuf; 3]>,
     /// Directories whose replacement matters: the watched ones, and those on the way to them.
     names: BTreeSet<Utf8PathBuf>,
     /// Directories that the system refuses to watch because they cannot be listed.
     refused: BTreeSet<Utf8PathBuf>,
+    /// Symbolic and hard links among the drawings.
+    links: Links,
+    /// Directories and files that are watched because links lead there.
+    linked: BTreeSet<Utf8PathBuf>,
+}
+
+/// The path of an event, as reported and with its directory's links resolved. A directory with two names has one watch, which reports only one
+/// of them.
+pub(super) struct EventPath {
+    pub(super) reported: Utf8PathBuf,
+    resolved: Utf8PathBuf,
+}
+
+impl EventPath {
+    /// Normalises the absolute path of an event.
+    pub(super) fn new(session: &Session<'_>, path: &Utf8Path) -> Self {
+        let reported = event_path(session, path);
+        let resolved = match reported.parent().zip(reported.file_name()) {
+            Some((parent, name)) => join(&real_directory(session, parent), name),
+            None => reported.clone(),
+        };
+        Self { reported, resolved }
+    }
 }
 
 impl WatchedDirectories {
     /// Collects the directories of a request. `post` lists the files that the post-processor is read from.
     pub(super) fn new(session: &Session<'_>, request: &Request<'_>, post: &[Utf8PathBuf]) -> Self {
-        let (mut watched, mut own_names) = (BTreeMap::new(), BTreeSet::new());
+        let (mut watched, mut roots, mut names) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
+        let workspace = session.workspace();
+        let (system, working_directory) = (&*workspace.system, &workspace.working_directory);
         for (directory, mode) in directories(session, request, post) {
             let event_name = event_path(session, &directory);
             let known = watched.entry(event_name.clone()).or_insert(mode);
             if mode == RecursiveMode::Recursive {
                 *known = mode;
             }
-            own_names.insert([event_name, session.normal(&directory)]);
+            names.extend(directory_and_parents(&event_name));
+            for name in trail(system, &working_directory.join(&event_name)) {
+                names.extend(directory_and_parents(&event_path(session, &name)));
+            }
+            roots.insert([
+                event_name.clone(),
+                real_directory(session, &event_name),
+                session.normal(&directory),
+            ]);
         }
-        let names = watched.keys().flat_map(|directory| directory.ancestors());
-        // The working directory and the root exist as long as the program runs.
-        let names = names.filter(|name| name.parent().is_some()).map(Utf8Path::to_owned).collect();
-        Self { watched, own_names, names, refused: BTreeSet::new() }
+        let (links, linked) = (Links::default(), BTreeSet::new());
+        Self { watched, roots, names, refused: BTreeSet::new(), links, linked }
     }
 
     /// Starts watching the directories.
@@ -63,35 +95,119 @@ impl WatchedDirectories {
         Ok(())
     }
 
-    /// Whether a change of this path matters; directories on the way contain unrelated names as well.
-    pub(super) fn is_relevant(&self, path: &Utf8Path) -> bool {
-        self.names.contains(path) || path.ancestors().skip(1).any(|directory| self.holds(directory, path))
+    /// Watches the targets of those files that are links. Returns the files whose target the system refuses to watch, with its reason.
+    pub(super) fn follow(
+        &mut self,
+        source: &mut dyn Watcher,
+        session: &Session<'_>,
+        files: impl IntoIterator<Item = Utf8PathBuf>,
+    ) -> Vec<(Utf8PathBuf, notify::Error)> {
+        let workspace = session.workspace();
+        let system = &*workspace.system;
+        let as_event = |path: &Utf8Path| event_path(session, path);
+        let mut refused = Vec::new();
+        for file in files {
+            let places = self.links.follow(system, &file, &workspace.working_directory, as_event);
+            let outcomes = places.into_iter().map(|place| self.watch_link(source, place));
+            // Drawings behind a directory that cannot be listed are tried again after the next change.
+            let errors = outcomes.filter_map(Result::err).filter(|error| !is_refusal(error));
+            refused.extend(errors.last().map(|error| (file, error)));
+        }
+        refused
     }
 
-    /// Whether the path is in a watched directory, or below one that is watched recursively.
-    fn holds(&self, directory: &Utf8Path, path: &Utf8Path) -> bool {
-        match self.watched.get(directory) {
-            Some(RecursiveMode::Recursive) => path != directory && path.starts_with(directory),
-            Some(RecursiveMode::NonRecursive) => path.parent() == Some(directory),
+    fn watch_link(&mut self, source: &mut dyn Watcher, place: LinkPlace) -> notify::Result<()> {
+        let directory = match place {
+            LinkPlace::File(file) => return self.watch_linked(source, &file),
+            LinkPlace::Name(file) => file.parent().unwrap_or(Utf8Path::new("")).to_owned(),
+            LinkPlace::Directory(directory) => directory,
+        };
+        for name in directory_and_parents(&directory) {
+            let above = name.parent().filter(|above| !is_root(above) && !self.is_covered(above));
+            if let Some(above) = above {
+                // Some of these may not be listable.
+                _ = self.watch_linked(source, above);
+            }
+            self.names.insert(name);
+        }
+        if self.is_covered(&directory) { Ok(()) } else { self.watch_linked(source, &directory) }
+    }
+
+    fn watch_linked(&mut self, source: &mut dyn Watcher, path: &Utf8Path) -> notify::Result<()> {
+        if !self.linked.contains(path) {
+            source.watch(spelt(path).as_std_path(), RecursiveMode::NonRecursive)?;
+            self.linked.insert(path.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Whether a directory is among the watched ones. Watching it again without its subdirectories would end the recursive watch.
+    fn is_covered(&self, directory: &Utf8Path) -> bool {
+        let is_covered_by = |event_name: &Utf8PathBuf, root: &Utf8PathBuf| {
+            root == directory
+                || self.watched.get(event_name) == Some(&RecursiveMode::Recursive)
+                    && directory.starts_with(root)
+        };
+        self.roots.iter().any(|[event_name, real, _]| {
+            is_covered_by(event_name, event_name) || is_covered_by(event_name, real)
+        })
+    }
+
+    /// Whether any of the directories has a relative path.
+    pub(super) fn are_relative(&self) -> bool {
+        self.watched.keys().any(|directory| directory.is_relative())
+    }
+
+    /// Whether a change of this path matters; directories on the way contain unrelated names as well.
+    pub(super) fn is_relevant(&self, path: &EventPath) -> bool {
+        self.names.contains(&path.reported)
+            || self.roots.iter().any(|[event_name, real, _]| {
+                self.holds(event_name, event_name, &path.reported)
+                    || self.holds(event_name, real, &path.resolved)
+            })
+    }
+
+    /// Whether the path is in the directory that is watched as `event_name`, or below it if it is watched recursively. `root` is one of its names.
+    fn holds(&self, event_name: &Utf8Path, root: &Utf8Path, path: &Utf8Path) -> bool {
+        match self.watched.get(event_name) {
+            Some(RecursiveMode::Recursive) => path != root && path.starts_with(root),
+            Some(RecursiveMode::NonRecursive) => path.parent() == Some(root),
             None => false,
         }
     }
 
     /// Names that the session uses for the path of an event. A drawing may have two names: as an argument, and in a search directory.
-    pub(super) fn own_names(&self, path: &Utf8Path) -> Vec<Utf8PathBuf> {
-        let pairs = self.own_names.iter().filter(|[event_name, _]| self.holds(event_name, path));
-        let own = pairs.filter_map(|[event_name, own]| Some(join(own, path.strip_prefix(event_name).ok()?)));
-        let own: BTreeSet<Utf8PathBuf> = own.collect();
-        if own.is_empty() { vec![path.to_owned()] } else { own.into_iter().collect() }
+    pub(super) fn own_names(&self, path: &EventPath) -> Vec<Utf8PathBuf> {
+        let below =
+            |own: &Utf8Path, root: &Utf8Path, path: &Utf8Path| Some(join(own, path.strip_prefix(root).ok()?));
+        let real =
+            self.roots.iter().filter(|[event_name, real, _]| self.holds(event_name, real, &path.resolved));
+        let mut own: BTreeSet<Utf8PathBuf> =
+            real.filter_map(|[_, real, own]| below(own, real, &path.resolved)).collect();
+        if own.is_empty() {
+            let event_name = self
+                .roots
+                .iter()
+                .filter(|[event_name, ..]| self.holds(event_name, event_name, &path.reported));
+            own.extend(event_name.filter_map(|[event_name, _, own]| below(own, event_name, &path.reported)));
+        }
+        if own.is_empty() { vec![path.reported.clone()] } else { own.into_iter().collect() }
+    }
+
+    /// Names of linked drawings whose content may differ after a change of this path.
+    pub(super) fn linked_drawings(&self, path: &EventPath, system: &dyn System) -> BTreeSet<Utf8PathBuf> {
+        let mut drawings = self.links.drawings_at(system, &path.reported);
+        drawings.extend(self.links.drawings_at(system, &path.resolved));
+        drawings
     }
 
     /// Whether the set of directories to watch differs after this event. Ordinary files do not matter, nor do changes inside a directory:
     /// programs may be written into it.
-    pub(super) fn are_changed(&self, kind: EventKind, path: &Utf8Path, system: &dyn System) -> bool {
+    pub(super) fn are_changed(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
         if comes_or_goes(kind) {
-            return self.names.contains(path);
+            return self.names.contains(&path.reported) || self.names.contains(&path.resolved);
         }
-        self.refused.contains(path) && system.list(path).is_ok()
+        self.refused.contains(&path.reported) && system.list(&path.reported).is_ok()
     }
 
     /// Whether a directory above is watched recursively.
@@ -132,6 +248,16 @@ impl WatchedDirectories {
 /// Spelling for system calls: the working directory is `.`.
 fn spelt(directory: &Utf8Path) -> &Utf8Path {
     if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
+}
+
+/// A directory and those on the way to it, except the root and the working directory.
+fn directory_and_parents(directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> {
+    directory.ancestors().filter(|name| name.parent().is_some()).map(Utf8Path::to_owned)
+}
+
+/// Canonical path of a directory, as named in events.
+fn real_directory(session: &Session<'_>, directory: &Utf8Path) -> Utf8PathBuf {
+    event_path(session, &session.workspace().system.canonical(spelt(directory)))
 }
 
 fn is_root(directory: &Utf8Path) -> bool {

@@ -31,6 +31,8 @@ pub(super) struct Library<'a> {
     open: BTreeMap<Utf8PathBuf, SourceFile>,
     /// The changed files that caused this backlog.
     backlog_cause: BTreeSet<Utf8PathBuf>,
+    /// Dependencies that have not yet been checked for links.
+    unfollowed: BTreeSet<Utf8PathBuf>,
 }
 
 /// The outcome of a batch of changes.
@@ -76,6 +78,7 @@ impl<'a> Library<'a> {
             names: NameSnapshots::default(),
             open: BTreeMap::new(),
             backlog_cause: BTreeSet::new(),
+            unfollowed: BTreeSet::new(),
         }
     }
 
@@ -102,6 +105,7 @@ impl<'a> Library<'a> {
         self.session.parse_ahead(&drawings);
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
+        self.unfollowed.extend(self.open.keys().cloned());
         self.problems.clone_from(&selection.problems);
         Batch { now: selection.problems, ..Batch::default() }
     }
@@ -128,6 +132,7 @@ impl<'a> Library<'a> {
         });
         self.open.extend(concerned.map(|file| (file.path(db).clone(), file)));
         self.open.retain(|path, _| !update.removed.contains(path));
+        self.unfollowed.extend(self.open.keys().chain(&files).cloned());
         update.changed.extend(files);
         update.changed.append(&mut self.backlog_cause);
         update
@@ -171,6 +176,11 @@ impl<'a> Library<'a> {
         let listed = update.before.iter().filter(|problem| !update.now.contains(problem));
         update.tried_again = again.chain(listed.filter_map(|problem| problem.file.clone())).collect();
         update
+    }
+
+    /// Takes the dependencies that were found or changed since the last call.
+    pub(super) fn take_unfollowed(&mut self) -> BTreeSet<Utf8PathBuf> {
+        std::mem::take(&mut self.unfollowed)
     }
 
     /// Whether drawings are still to be checked.
@@ -305,6 +315,11 @@ impl<'a> Library<'a> {
             for directory in searched(&traces) {
                 self.names.take(&self.session, directory);
             }
+            let files =
+                traces.iter().flat_map(|trace| &trace.files).filter(|read| !self.reverse.knows(**read));
+            self.unfollowed.extend(
+                files.filter(|read| **read != *file).map(|read| read.path(self.session.db()).clone()),
+            );
             self.reverse.set(*file, traces);
             update.now.extend_from_slice(&result.diagnostics);
             let before = self.drawings.insert(file.path(self.session.db()).clone(), result);

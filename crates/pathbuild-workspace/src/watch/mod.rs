@@ -7,6 +7,7 @@
 mod changes;
 mod directories;
 mod library;
+mod links;
 mod names;
 mod reverse;
 mod writing;
@@ -56,6 +57,8 @@ pub trait Listener {
     fn first_check_done(&self, _: &FirstCheck) {}
     /// A batch of changes was processed.
     fn batch_done(&self, _: &Update) {}
+    /// The targets of these links cannot be watched, for the reason that the system gives.
+    fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
     /// Programs were written.
     fn programs_written(&self, _: &[ProgramOutcome]) {}
     /// Programs cannot be written because options are missing; the text says which.
@@ -177,10 +180,12 @@ impl WatchLoop<'_> {
     fn begin(&mut self) {
         let begun = Instant::now();
         let mut found = self.library.find();
+        self.follow_links();
         let drawings: Vec<SourceFile> = self.library.open().collect();
         self.listener.drawings_found(self.library.session_mut(), &drawings, &found.now);
         while self.library.has_backlog() && !self.watcher.is_over(self.library.session()) {
             let portion = self.library.check_portion(FIRST_PORTION, &mut found);
+            self.follow_links();
             self.tell(&portion);
         }
         let written = self.writer.begin(self.library.session_mut(), &found.checked_files);
@@ -215,8 +220,10 @@ impl WatchLoop<'_> {
         let begun = Instant::now();
         found.before.extend(self.writer.release(self.library.session(), self.library.open(), &found.removed));
         let mut written = Vec::new();
+        self.follow_links();
         while self.library.has_backlog() {
             let portion = self.library.check_portion(PORTION, &mut found);
+            self.follow_links();
             let writing = self.writer.write(self.library.session_mut(), &portion);
             found.before.extend(writing.before);
             written.extend(writing.now);
@@ -244,6 +251,15 @@ impl WatchLoop<'_> {
             time,
         });
         checked_files
+    }
+
+    /// Watches the targets of links, before they are read if possible.
+    fn follow_links(&mut self) {
+        let files = self.library.take_unfollowed();
+        let refused = self.watcher.follow(self.library.session(), files);
+        if !refused.is_empty() {
+            self.listener.not_watched(&refused);
+        }
     }
 
     /// Reports checked drawings, and handles a pending wake-up.

@@ -73,6 +73,11 @@ impl ReverseIndex {
         concerned.flat_map(|(_, drawings)| drawings).copied().collect()
     }
 
+    /// Whether the file is known as a dependency.
+    pub(super) fn knows(&self, file: SourceFile) -> bool {
+        self.by_file.contains_key(&file)
+    }
+
     /// All files that any drawing depends on.
     pub(super) fn files(&self) -> impl Iterator<Item = SourceFile> {
         self.by_file.keys().copied()

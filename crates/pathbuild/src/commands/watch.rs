@@ -2,8 +2,9 @@
 
 use std::collections::HashSet;
 
+use camino::Utf8PathBuf;
 use pathbuild_db::SourceFile;
-use pathbuild_diagnostic::{Diagnostic, Lang, in_prose};
+use pathbuild_diagnostic::{Diagnostic, Lang, in_prose, shown};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::ProgramOutcome;
 use pathbuild_workspace::posting::PostProcessor;
@@ -177,6 +178,17 @@ impl Listener for WatchPrinter<'_> {
         let tried_again = tried_again.map(|path| (path, phrase("tried again", "noch einmal versucht")));
         for (path, what) in changed.chain(tried_again) {
             context.printer.status(format_args!("[{revision}] {path}: {what}; {tail}"));
+        }
+    }
+
+    fn not_watched(&self, drawings: &[(Utf8PathBuf, String)]) {
+        let cannot = self.context.choose(
+            "this is a link, and changes of the file that it leads to cannot be watched",
+            "das ist eine Verknüpfung, und Änderungen der Datei an ihrem Ende sind nicht zu beobachten",
+        );
+        for (drawing, reason) in drawings {
+            let line = format!("{drawing}: {cannot}: {reason}");
+            self.context.printer.status(shown::line(&line));
         }
     }
 

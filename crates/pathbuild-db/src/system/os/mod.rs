@@ -19,7 +19,7 @@ use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::reason;
 
-use super::{Entry, FileKind, Listing, ReadError, System, WriteOutcome};
+use super::{Entry, FileKind, FileLink, Listing, ReadError, System, WriteOutcome};
 
 /// The files of the operating system. Relative paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -118,6 +118,11 @@ impl System for OsSystem {
         path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned())
     }
 
+    fn link(&self, path: &Utf8Path) -> Option<FileLink> {
+        let data = path.as_std_path().symlink_metadata().ok()?;
+        if data.is_symlink() { path.read_link_utf8().ok().map(FileLink::Symbolic) } else { hard_link(&data) }
+    }
+
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
         replace::replace(path, bytes)
     }
@@ -128,6 +133,20 @@ impl System for OsSystem {
             _ => Ok(()),
         }
     }
+}
+
+#[cfg(unix)]
+fn hard_link(data: &fs::Metadata) -> Option<FileLink> {
+    use std::os::unix::fs::MetadataExt;
+
+    // Every directory has several.
+    (data.is_file() && data.nlink() > 1).then(|| FileLink::Hard([data.dev(), data.ino()]))
+}
+
+/// Windows does not count them without opening the file.
+#[cfg(not(unix))]
+fn hard_link(_: &fs::Metadata) -> Option<FileLink> {
+    None
 }
 
 /// The path as passed to system calls, which do not accept an empty one.
