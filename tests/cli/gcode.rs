@@ -122,6 +122,44 @@ fn tools_are_those_of_the_table_where_there_is_one() {
     assert!(!elsewhere.run("verify foreign.nc --format concise").stderr.contains("PB764"));
 }
 
+/// The nearest configuration above the program, else that of the working directory; which one it was is told where it is not obvious.
+#[test]
+fn the_configuration_of_a_program_is_told() {
+    let configuration = |most: u32| format!("[machine]\nmaximum-feed = {most}\n");
+    let program = "G17 G21 G90 G94 G40\nM3 S1000\nG0 Z5\nG0 X0 Y0\nG1 Z1 F100\nM30\n";
+    let place = Place::new()
+        .file("library/pathbuild.toml", configuration(90))
+        .file("library/gcode/a.nc", program)
+        .file("other/pathbuild.toml", configuration(200))
+        .file("other/a.nc", program)
+        .file("stick/a.nc", program);
+    for (directory, file, told, is_limited) in [
+        ("library", "gcode/a.nc", None, true),
+        ("library/gcode", "a.nc", None, true),
+        ("library", "../stick/a.nc", Some("configuration: pathbuild.toml"), true),
+        ("library/gcode", "../../stick/a.nc", Some("configuration: ../pathbuild.toml"), true),
+        ("library", "../other/a.nc", Some("configuration: ../other/pathbuild.toml"), false),
+        ("stick", "../library/gcode/a.nc", Some("configuration: ../library/pathbuild.toml"), true),
+        ("stick", "a.nc", None, false),
+    ] {
+        for command in ["verify", "import"] {
+            let run = place.run_in(directory, &[command, file, "--dialect", "grbl"]);
+            let said = run.stderr.lines().find(|line| line.starts_with("configuration: "));
+            assert_eq!(said, told, "{directory}: {command} {file}: {run}");
+            assert_eq!(run.stderr.contains("PB747"), command == "verify" && is_limited, "{run}");
+        }
+    }
+    let run = place.run_in("library", &["verify", "../stick/a.nc", "--config", "../other/pathbuild.toml"]);
+    assert!(!run.stderr.contains("configuration: "), "{run}");
+    let json = |directory: &str, file: &str| {
+        let run = place.run_in(directory, &["verify", file, "--dialect", "grbl", "--format", "json"]);
+        let last: serde_json::Value = serde_json::from_str(run.stdout.lines().last().unwrap()).unwrap();
+        last["configuration"].as_str().map(str::to_owned)
+    };
+    assert_eq!(json("library", "../stick/a.nc").as_deref(), Some("pathbuild.toml"));
+    assert_eq!(json("stick", "a.nc"), None);
+}
+
 #[test]
 fn every_format_of_diagnostics_is_there_for_programs() {
     let place = Place::new().file("a.gcode", "G17 G21 G90 G94\nG0 X1 X2\nM30\n");

@@ -54,6 +54,12 @@ impl Workspace {
         Some(relative(file, &self.working_directory))
     }
 
+    /// Path of the configuration relative to the working directory, if it is not obvious that it applies to a program.
+    pub fn unexpected_configuration(&self) -> Option<Utf8PathBuf> {
+        let file = self.settings.file.as_deref().filter(|_| self.settings.is_unexpected)?;
+        Some(relative(file, &self.working_directory))
+    }
+
     /// A copy with `compatible` switched on or off. It caches nothing and reports nothing.
     pub fn in_mode(&self, is_compatible: bool) -> Self {
         let mut settings = self.settings.clone();

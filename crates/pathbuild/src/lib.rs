@@ -28,7 +28,7 @@ use std::rc::Rc;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::system::{OsSystem, spelt};
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::{Overrides, User};
 use pathbuild_workspace::{Workspace, config};
 
@@ -104,6 +104,9 @@ fn execute(cli: &Cli) -> ExitStatus {
     }
     context.begin();
     warn_about_unused_configuration(&context);
+    if cli.command.reads_programs() {
+        say_unexpected_configuration(&context);
+    }
     let status = if faults.is_empty() || !cli.command.needs_configuration() {
         commands::run(&context, &cli.command)
     } else {
@@ -127,6 +130,14 @@ fn warn_about_unused_configuration(context: &Context) {
             file.as_str(),
         );
         context.printer.status(line);
+    }
+}
+
+/// Tells which configuration applies to a program, unless it is obvious.
+fn say_unexpected_configuration(context: &Context) {
+    if let Some(file) = context.unexpected_configuration() {
+        let configuration = context.choose("configuration", "Konfiguration");
+        context.printer.status(format_args!("{configuration}: {}", shown::line(file.as_str())));
     }
 }
 

@@ -46,6 +46,15 @@ impl Discovery<'_> {
         self.inputs.iter().map(|input| self.search_start_of(input))
     }
 
+    /// Whether this configuration applies to a program although the working directory has another one, or the program lies outside its tree.
+    pub(super) fn is_unexpected(&self, file: &Utf8Path) -> bool {
+        let tree = file.parent().unwrap_or(Utf8Path::new(""));
+        let mut programs =
+            self.inputs.iter().filter(|input| input.is_program(|place| self.is_directory(place))).peekable();
+        programs.peek().is_some() && self.of_working_directory().as_deref() != Some(file)
+            || programs.any(|program| !self.search_start_of(program).starts_with(tree))
+    }
+
     fn search_start_of(&self, input: Input<'_>) -> Utf8PathBuf {
         clean(&self.working_directory.join(input.search_start(|place| self.is_directory(place))))
     }

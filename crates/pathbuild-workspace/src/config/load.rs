@@ -39,7 +39,9 @@ pub fn load(
     let read = |file: &Utf8Path| read(&**system, file, confined.as_ref(), &mut diagnostics);
     let configured = file.as_deref().map(read).unwrap_or_default();
     let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
-    (Settings { file, not_used, confined, ..options.over(configured).resolve() }, diagnostics)
+    let is_unexpected =
+        given.config.is_none() && file.as_deref().is_some_and(|file| discovery.is_unexpected(file));
+    (Settings { file, not_used, is_unexpected, confined, ..options.over(configured).resolve() }, diagnostics)
 }
 
 /// The repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are

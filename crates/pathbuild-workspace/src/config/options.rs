@@ -54,6 +54,7 @@ impl Options {
         Settings {
             file: None,
             not_used: None,
+            is_unexpected: false,
             confined: None,
             general: self.general.resolve(),
             emit: self.emit.resolve(),

@@ -16,6 +16,8 @@ pub struct Settings {
     /// The working directory's configuration if it does not apply, because the arguments lie outside its tree and below no other
     /// configuration.
     pub not_used: Option<Utf8PathBuf>,
+    /// Whether `file` applies to a program although the working directory has another configuration, or the program lies outside its tree.
+    pub is_unexpected: bool,
     /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
     pub confined: Option<ConfinedSystem>,
     pub general: general::Settings,

@@ -107,6 +107,11 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether the arguments may be programs.
+    pub(crate) fn reads_programs(&self) -> bool {
+        matches!(self, Self::Verify(_) | Self::Import(_) | Self::Post(_) | Self::View(_) | Self::Adjust(_))
+    }
+
     /// The drawings and paths that the command works on; empty for other commands.
     pub fn inputs(&self) -> Inputs {
         match self {

@@ -40,6 +40,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Err(problems) => return context.fail(problems),
     };
     context.output.figure("programs", args.files.len());
+    context.output.figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
     let mut session = Session::new(context);
     let mut diagnostics = Vec::new();
     let drawn = |name| session.with_stable_files(|session| Against::new(context, session, name));
