@@ -108,3 +108,56 @@ fn what_took_too_long_is_compiled_again() {
     assert_eq!(place.run("check").status, Some(0));
     assert!(why(&place, "1111.1P").contains("up to date"));
 }
+
+/// Where links lead is a part of what is kept: as long as that and the files are the same, results hold.
+#[cfg(unix)]
+#[test]
+fn results_hold_in_directories_with_links() {
+    use std::fs;
+    use std::os::unix::fs::symlink;
+
+    let all_hold = |place: &Place| {
+        let said = why(place, "");
+        assert!(said.lines().all(|line| line.ends_with(": up to date")), "{said}");
+    };
+    let link = |target: &str, link: &std::path::Path| {
+        _ = fs::remove_file(link);
+        symlink(target, link).unwrap();
+    };
+    let place = Place::of(LIBRARY);
+    let component = place.path().join("1111.dxf");
+    let bytes = fs::read(&component).unwrap();
+    fs::remove_file(&component).unwrap();
+    let place = place.file("store/a.bin", &bytes).file("store/b.bin", &bytes).file("store/c.bin", &bytes);
+    link("store/a.bin", &component);
+    assert_eq!(place.run("check").status, Some(0));
+    all_hold(&place);
+    // The file that it leads to.
+    fs::write(place.path().join("store/a.bin"), [&bytes[..], b"\n"].concat()).unwrap();
+    assert_eq!(why(&place, "8001.1P"), "8001.dxf: would be compiled again\n  1111.dxf has changed\n");
+    assert_eq!(place.run("check").status, Some(0));
+    all_hold(&place);
+    // The same bytes elsewhere, which may be those of another drawing.
+    link("store/b.bin", &component);
+    let said = why(&place, "8001.1P");
+    assert!(said.contains(". has a link in it or on the way to it that leads elsewhere now"), "{said}");
+    assert_eq!(place.run("check").status, Some(0));
+    all_hold(&place);
+
+    // A directory that is searched, and is a link itself.
+    let configuration = "library = [\"projects\"]\nsearch = [\"parts\"]\n";
+    let place = Place::of(LIBRARY).file("pathbuild.toml", configuration);
+    for directory in ["projects", "store", "other"] {
+        fs::create_dir(place.path().join(directory)).unwrap();
+    }
+    fs::rename(place.path().join("8001.dxf"), place.path().join("projects/8001.dxf")).unwrap();
+    fs::copy(place.path().join("1111.dxf"), place.path().join("other/1111.dxf")).unwrap();
+    fs::rename(place.path().join("1111.dxf"), place.path().join("store/1111.dxf")).unwrap();
+    link("store", &place.path().join("parts"));
+    assert_eq!(place.run("check").status, Some(0));
+    all_hold(&place);
+    link("other", &place.path().join("parts"));
+    assert!(why(&place, "").contains("parts has a link in it or on the way to it"));
+    assert_eq!(place.run("check").status, Some(0));
+    all_hold(&place);
+}

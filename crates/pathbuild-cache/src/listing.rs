@@ -18,7 +18,9 @@ use crate::names::Names;
 pub struct Listing {
     /// The names; sorted once the listing is complete.
     pub names: Names,
-    /// Whether some names are symbolic links, or some may be missing.
+    /// Names that are symbolic links, in any order.
+    pub links: Names,
+    /// Whether some may be missing.
     pub is_doubtful: bool,
 }
 
@@ -29,8 +31,10 @@ impl Listing {
     /// Adds a directory entry that is not itself a directory, if it is a drawing.
     pub fn add(&mut self, name: &str, is_link: bool) {
         if is_drawing(name) {
-            self.is_doubtful |= is_link;
             self.names.push(name);
+            if is_link {
+                self.links.push(name);
+            }
         }
     }
 
@@ -68,13 +72,21 @@ impl DirectoryFact {
     /// Like [`now`](Self::now), but reuses an earlier listing if there is one.
     pub(crate) fn from_listing(path: &Utf8Path, base: &Utf8Path, listed: Option<Listing>) -> Self {
         let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
-        let Listing { names, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));
-        Self { path: path.to_owned(), names, canonical: canonical(place, base), is_doubtful }
+        let Listing { names, mut links, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));
+        let mut canonical = canonical(place, base);
+        links.sort_by(Ord::cmp);
+        for link in links.iter() {
+            // No name holds this character.
+            canonical.push('\0');
+            canonical.push_str(&self::canonical(&place.join(link), base));
+        }
+        Self { path: path.to_owned(), names, canonical: canonical.into(), is_doubtful }
     }
 }
 
-fn canonical(directory: &Utf8Path, base: &Utf8Path) -> Box<str> {
-    let Ok(directory) = directory.canonicalize_utf8() else { return "".into() };
+/// Canonical path relative to `base` if inside it; empty if there is no such file.
+fn canonical(place: &Utf8Path, base: &Utf8Path) -> String {
+    let Ok(place) = place.canonicalize_utf8() else { return String::new() };
     let base = base.canonicalize_utf8().unwrap_or_else(|_| base.to_owned());
-    directory.strip_prefix(&base).map_or(directory.as_str(), Utf8Path::as_str).into()
+    place.strip_prefix(&base).map_or(place.as_str(), Utf8Path::as_str).to_owned()
 }

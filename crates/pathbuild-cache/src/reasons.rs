@@ -24,7 +24,7 @@ pub enum Reason {
         /// Whether the file disappeared.
         is_gone: bool,
     },
-    /// A directory contains symbolic links or is reached through one: lookups in it are always repeated.
+    /// A symbolic link in a directory, or on the way to it, has another target, or the directory could not be listed completely.
     Links {
         /// The directory.
         directory: Utf8PathBuf,

@@ -172,7 +172,7 @@ pub(crate) enum DirectoryChange {
     None,
     /// Names that were added or removed.
     Names(Vec<Box<str>>),
-    /// Symbolic links are involved: all lookups in this directory are repeated.
+    /// Symbolic links have other targets, or names may be missing: all lookups in this directory are repeated.
     Links,
 }
 

@@ -407,7 +407,7 @@ fn a_directory_that_was_listed_is_not_listed_again() {
     let snapshot = snapshot(&catalogue(&base, Stamp::UNKNOWN, b"one"));
     let holds = |names: &[&str], is_doubtful| {
         let names = names.iter().copied().collect();
-        let listings = Listings::from([(base.clone(), Listing { names, is_doubtful })]);
+        let listings = Listings::from([(base.clone(), Listing { names, is_doubtful, ..Listing::default() })]);
         pathbuild_cache::verify(&snapshot, context(&base, &covers), listings).holds[0]
     };
     assert!(holds(&["a.dxf"], false));

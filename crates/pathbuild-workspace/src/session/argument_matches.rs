@@ -300,7 +300,9 @@ impl Session<'_> {
 
     /// Passes the names of freshly listed directories to the database, to save listing them again, unless they are doubtful.
     pub fn provide_names(&self, listings: &Listings) {
-        for (directory, listing) in listings.iter().filter(|(_, listing)| !listing.is_doubtful) {
+        for (directory, listing) in
+            listings.iter().filter(|(_, listing)| !listing.is_doubtful && listing.links.is_empty())
+        {
             self.db.provide_names(directory, listing.names.iter().collect());
         }
     }

@@ -190,7 +190,7 @@ impl Directory {
         let drawings = found.listing.names.iter().filter(|name| found.counts(directory, name, false));
         found.drawings = drawings.map(|name| join(directory, name)).collect();
         if !found.inexact.names.is_empty() {
-            found.listing.is_doubtful |= found.inexact.is_doubtful;
+            found.listing.links.extend(found.inexact.links.iter());
             found.listing.names.extend(found.inexact.names.iter());
             found.listing.names.sort_by(Ord::cmp);
         }

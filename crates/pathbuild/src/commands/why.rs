@@ -106,8 +106,8 @@ fn describe(context: &Context, reason: &Reason) -> String {
             format!(
                 "{directory} {}",
                 context.choose(
-                    "has links in it or on the way to it: it is always looked through again",
-                    "hat Verknüpfungen in sich oder auf dem Weg dorthin: es wird immer neu durchgesehen",
+                    "has a link in it or on the way to it that leads elsewhere now, or could not be listed",
+                    "enthält eine Verknüpfung, die jetzt woandershin führt, oder liegt hinter einer, oder war nicht aufzulisten",
                 )
             )
         }
