@@ -126,6 +126,30 @@ fn what_else_is_named_must_be_a_file() {
     each("out.ngc", "post 1202.1P.dxf --post linuxcnc -o out.ngc", 1, "PB");
 }
 
+/// A picture of a drawing that cannot be read would be an empty one.
+#[test]
+fn what_cannot_be_read_is_not_drawn() {
+    for extension in ["svg", "html", "json"] {
+        each("1202.1P.dxf", &format!("view 1202.1P.dxf -o x.{extension}"), 1, "PB001");
+    }
+    for kind in KINDS {
+        let place = place(kind, "1202.1P.dxf").file("b.svg", "before");
+        let run = place.run("view 1202.1P.dxf -o b.svg");
+        assert!(run.stderr.contains("PB001") && !run.stderr.contains("b.svg"), "{kind}: {run}");
+        assert_eq!(place.read("b.svg"), "before");
+        // The other way round it is the picture that cannot be written.
+        let place = self::place(kind, "b.svg");
+        let run = place.run("view 1202.1P.dxf -o b.svg");
+        assert!(run.stderr.contains("PB004") && !run.stderr.contains("written\n"), "{kind}: {run}");
+    }
+    for drawing in ["no drawing", "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n"] {
+        let place = Place::new().file("a.dxf", drawing).file("b.svg", "before");
+        let run = place.run("view a.dxf -o b.svg");
+        assert!(run.status == Some(1) && !run.stderr.contains("b.svg"), "{run}");
+        assert_eq!(place.read("b.svg"), "before");
+    }
+}
+
 /// One input just inside a limit, and one just outside.
 #[test]
 fn files_have_limits_with_names() {

@@ -77,9 +77,13 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
     let post_processor = PostProcessor::for_run(session.workspace(), None, PostArguments::default());
     let post_processor = post_processor.map_err(Failure::Found)?;
     let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
-    if names.is_empty() && !report.diagnostics.iter().any(Diagnostic::is_error) {
-        let problem = Diagnostic::new(&outputs::NO_PATH).quoting("pattern", "path-pattern");
-        report.diagnostics.push(problem.in_file(file.path(db)));
+    if names.is_empty() {
+        if !report.diagnostics.iter().any(Diagnostic::is_error) {
+            let problem = Diagnostic::new(&outputs::NO_PATH).quoting("pattern", "path-pattern");
+            report.diagnostics.push(problem.in_file(file.path(db)));
+        }
+        // An empty picture could replace one that shows something.
+        return Err(Failure::Found(report.diagnostics));
     }
     report.diagnostics = session.with_hints(report.diagnostics);
     Ok(TargetScene { report, file: file.path(db).to_string() })
