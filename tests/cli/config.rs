@@ -435,13 +435,37 @@ fn names_of_paths_that_no_file_may_have_are_refused() {
         let place = Place::new().file("pathbuild.toml", configuration);
         place.file("a.dxf", sheet(&text).unwrap().to_dxf()).run_with(&["emit", ".", "--format", "concise"])
     };
-    for name in ["x:y", "x<y", "x\u{202e}y"] {
+    for name in [
+        "x:y",
+        "x<y",
+        "x>y",
+        "x?y",
+        "x*y",
+        "x/y",
+        "x\\y",
+        "x\u{202e}y",
+        "CON.1P",
+        "aux.x",
+        "com1.1P",
+        "Nul.1P",
+    ] {
         let run = emitted(name);
-        assert!(
-            run.status == Some(1) && run.stderr.contains("PB004") || run.stdout.contains("PB004"),
-            "{name}: {run}"
-        );
+        let said = [&*run.stdout, &*run.stderr].concat();
+        assert_eq!(run.status, Some(1), "{name}: {run}");
+        let shown = name.replace('\u{202e}', "\\u{202e}");
+        let told = said.lines().any(|line| line.contains("error[PB004]") && line.contains(&shown));
+        assert!(told, "{name}: {run}");
     }
-    let run = emitted("x-y(z)");
-    assert_eq!(run.status, Some(0), "{run}");
+    // CADs write a bar between the name of an external reference and that of its layer: it is never part of a name.
+    let run = emitted("x|y");
+    assert!(
+        run.status == Some(0) && run.stdout.contains("y_Milling.gcode: written")
+            || run.stderr.contains("y_Milling.gcode: written"),
+        "{run}"
+    );
+    assert!(!run.stderr.contains("x|y"), "{run}");
+    for name in ["x-y(z)", "CONE.1P", "com10.1P", "CON", "x.CON", "x#&%'y"] {
+        let run = emitted(name);
+        assert_eq!(run.status, Some(0), "{name}: {run}");
+    }
 }

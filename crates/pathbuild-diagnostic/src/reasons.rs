@@ -19,6 +19,8 @@ words! {
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
     /// R makes the name of a program invalid.
     NO_FILE_NAME: "the name, of which R is a part, holds a character that cannot be in a file's name", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
+    /// A path name that would become a file name such as `CON.1P_Milling.gcode`.
+    DEVICE_NAME: "on Windows a file name that begins like this means a device", "unter Windows meint ein Dateiname, der so beginnt, ein Gerät";
     /// A pipe, a socket or a device.
     NOT_REGULAR: "it is not a regular file", "es ist keine gewöhnliche Datei";
     /// A link out of an untrusted repository.

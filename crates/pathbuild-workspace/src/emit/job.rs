@@ -6,7 +6,6 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_db::{Database, SourceFile, Target, path_names, trace};
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
-use pathbuild_diagnostic::reasons::NO_FILE_NAME;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::native;
 
@@ -253,8 +252,8 @@ fn clashes(session: &Session<'_>, jobs: &[Job], diagnostics: &mut Vec<Diagnostic
 
 /// Joins a file name to a directory, unless the system forbids the name. `rest` is the part that does not stem from the drawing's name.
 fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
-    if stem_fault(name, rest) {
-        return Err(Box::new(cannot_write(name, Value::Prose(&NO_FILE_NAME))));
+    if let Some(fault) = stem_fault(name, rest) {
+        return Err(Box::new(cannot_write(name, Value::Prose(fault))));
     }
     Ok(join(directory, name))
 }

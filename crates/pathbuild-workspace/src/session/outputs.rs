@@ -1,6 +1,7 @@
 //! Kinds of files that belong to a program. (book: program/gcode)
 
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::reasons::{DEVICE_NAME, NO_FILE_NAME};
+use pathbuild_diagnostic::{Diagnostic, Text};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_toolpath::Program;
 
@@ -135,13 +136,28 @@ impl WriteSettings {
     }
 }
 
-/// Whether a name is not allowed as a file name. `rest` is the part that does not stem from an existing file name, such as R: it must be
-/// valid on every system, and must not deceive the reader. On Windows, `x:y` is a hidden stream of the file `x`.
-pub fn stem_fault(name: &str, rest: &str) -> bool {
-    name.contains(['/', '\\'])
+/// Why a name is not allowed as a file name, if it is not. `rest` is the part that does not stem from an existing file name, such as R: it must
+/// be valid on every system, and must not deceive the reader. On Windows, `x:y` is a hidden stream of the file `x`.
+pub fn stem_fault(name: &str, rest: &str) -> Option<&'static Text> {
+    let is_invalid = name.contains(['/', '\\'])
         || name.contains(char::is_control)
         || rest.contains([':', '<', '>', '"', '|', '?', '*'])
-        || rest.contains(is_direction)
+        || rest.contains(is_direction);
+    if is_invalid {
+        return Some(&NO_FILE_NAME);
+    }
+    (name == rest && is_device(name)).then_some(&DEVICE_NAME)
+}
+
+/// Whether Windows takes a file name that begins like this for a device: whatever follows the first point does not matter there.
+fn is_device(name: &str) -> bool {
+    let Some((base, _)) = name.split_once('.') else { return false };
+    let base = base.trim_end().to_ascii_uppercase();
+    let is_port = |kind: &str| {
+        base.strip_prefix(kind)
+            .is_some_and(|port| port.len() == 1 && port != "0" && port.parse::<u8>().is_ok())
+    };
+    matches!(&*base, "CON" | "PRN" | "AUX" | "NUL") || is_port("COM") || is_port("LPT")
 }
 
 /// Whether the character changes the writing direction of the characters around it.
