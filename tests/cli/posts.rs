@@ -413,6 +413,33 @@ fn the_posts_command_runs_only_when_asked() {
     assert!(missing.status == Some(1) && missing.stderr.contains("PB768"), "{missing}");
 }
 
+/// `emit --check` does not run the command, so it cannot know what the command made of the program: only the moves can be compared.
+#[cfg(unix)]
+#[test]
+fn a_program_that_the_posts_command_edited_has_its_moves() {
+    let post = |edit: &str| {
+        format!(
+            "<PostProcessor><PostBuildCommand>/bin/sed</PostBuildCommand><PostBuildCommandArgs>-i \"{edit}\" {{$outfile}}</PostBuildCommandArgs></PostProcessor>"
+        )
+    };
+    for (edit, is_same_way) in [("1i (made for mill 3)", true), ("s/X40/X41/", false)] {
+        let place = library("").file("edit.cbpp", post(edit));
+        let arguments = "1234.1P --post edit.cbpp --dialect linuxcnc";
+        let emitted = || {
+            let run = place.run(&format!("emit {arguments} --run-post-build"));
+            assert_eq!(run.status, Some(0), "{run}");
+            place.read("1234_Milling.nc")
+        };
+        let first = emitted();
+        assert!(first.contains(if is_same_way { "mill 3" } else { "X41" }), "{first}");
+        let check = |option: &str| place.run(&format!("emit {arguments} --check{option}")).status;
+        assert_eq!(check(""), Some(1), "{edit}");
+        assert_eq!(check(" --moves"), Some(i32::from(!is_same_way)), "{edit}");
+        // The command works on what was written, not on what it made before.
+        assert_eq!(emitted(), first, "{edit}");
+    }
+}
+
 /// A program that could not be written must not be processed.
 #[cfg(unix)]
 #[test]

@@ -53,6 +53,18 @@ fn compile_differences(run: &Run, arguments: &[String]) -> Vec<String> {
     differences
 }
 
+/// Messages with this code, of any severity, when the run is checked without `--compatible`; `None` for runs that do not compile.
+pub(crate) fn messages(run: &Run, code: &str) -> Option<Vec<String>> {
+    let What::Compile(arguments) = &run.what else { return None };
+    let place = copy_of(&run.case);
+    let mut command = program();
+    command.args(["check", "--no-cache", "--format=json"]).args(&arguments[1..]).current_dir(place.path());
+    let output = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    let lines = output.lines().map(|line| serde_json::from_str(line).unwrap());
+    let found = lines.filter(|line: &serde_json::Value| line["code"] == code);
+    Some(found.map(|finding| finding["message"].as_str().unwrap().to_owned()).collect())
+}
+
 /// The corrected program is compared byte for byte, except for line ends.
 fn adjust_differences(run: &Run, max_correction: f64) -> Vec<String> {
     let expected = run.case.join("expected");

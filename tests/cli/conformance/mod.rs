@@ -45,6 +45,31 @@ fn foreign_runs_are_equal() {
     compare_all("foreign", &runs);
 }
 
+/// PB506 also compares the cutter of an embedded path with that of the path that embeds it, whatever the segment says. PathDxf2GCode does not, so
+/// this must not concern any recorded run.
+#[test]
+fn no_recorded_run_embeds_a_path_for_another_cutter() {
+    let fixtures = support::project().join("fixtures/conformance");
+    let runs = recorded::runs(&["cases", "turns"].map(|name| fixtures.join(name)));
+    let compiled = runs.iter().filter(|run| run.form == Form::Recorded);
+    let findings: Vec<(String, Vec<String>)> = compiled
+        .collect::<Vec<_>>()
+        .par_iter()
+        .filter_map(|run| Some((run.name(), compare::messages(run, "PB506")?)))
+        .collect();
+    assert!(findings.len() > 600, "{} runs", findings.len());
+    let is_cutter = |message: &String| {
+        ["is drawn for a cutter of", "ist für einen Fräser von"].iter().any(|text| message.contains(text))
+    };
+    for (run, messages) in &findings {
+        assert!(!messages.iter().any(is_cutter), "{run}: {messages:#?}");
+    }
+    // The others compare the segment with the path that it embeds.
+    let others = findings.iter().filter(|(_, messages)| !messages.is_empty());
+    let cases: BTreeSet<&str> = others.map(|(run, _)| run.split('/').next().unwrap()).collect();
+    assert_eq!(cases, BTreeSet::from(["subpath_wrong_m", "subpath_wrong_o", "subpath_wrong_t"]));
+}
+
 /// The differences of each run. Fails if any is unknown.
 fn compare_all(what: &str, runs: &[Run]) -> Vec<Vec<String>> {
     let mut differences: Vec<Vec<String>> = runs.par_iter().map(compare::differences).collect();
