@@ -54,6 +54,27 @@ fn a_searched_directory_of_the_command_line_that_is_missing_is_an_error() {
     assert_found(&place, "check 1234.1P.dxf --search 1234.1P.dxf", 1, &["003"]);
 }
 
+/// Every command that takes one path tells by the pattern itself what a path's layer is called.
+#[test]
+fn every_command_names_the_pattern_of_paths() {
+    let place = place(&[("remarks.dxf", REMARKS), ("pathbuild.toml", "path-pattern = 'X[0-9]+'\n")])
+        .file("program.nc", "G21 G90 G17\nG0 X0 Y0 Z5\nM30\n");
+    let commands = [
+        "check remarks.dxf",
+        "emit remarks.dxf",
+        "view remarks.dxf -o picture.json",
+        "sheet remarks.dxf -o sheet.svg",
+        "verify program.nc --against remarks.dxf",
+        "q-project remarks.dxf --path-name X1",
+    ];
+    for command in commands {
+        let run = place.run(&format!("{command} {OPTIONS}"));
+        let run = if run.status == Some(2) { place.run(command) } else { run };
+        assert_eq!(found(&run), (Some(1), vec!["513"]), "{command}: {run}");
+        assert!(run.stderr.contains("has a name that matches X[0-9]+"), "{command}: {run}");
+    }
+}
+
 #[test]
 fn a_drawing_that_was_named_holds_a_path() {
     let place = place(&[("remarks.dxf", REMARKS), ("1234.1P.dxf", PATH)]);

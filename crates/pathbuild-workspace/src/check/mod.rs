@@ -136,9 +136,9 @@ fn check(
     checked.diagnostics.extend(selection.problems);
     if !session.is_compatible() {
         let named = answers.iter().skip(selection.drawings.len()).take(selection.named.len());
-        checked
-            .diagnostics
-            .extend(named.filter_map(|(target, result)| session.no_path(&target.drawing, result)));
+        checked.diagnostics.extend(named.filter_map(|(target, result)| {
+            session.no_path(&target.drawing, &result.names, &result.diagnostics)
+        }));
     }
     if !checked.diagnostics.iter().any(Diagnostic::is_error) {
         let parts = answers.iter().map(|(_, result)| result.parts());

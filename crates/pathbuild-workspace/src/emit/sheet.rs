@@ -2,10 +2,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{
-    Database, Role, SourceFile, Target, check_file, keep_outs, path_names, placed_keep_outs, traced_program,
-};
-use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_db::{Database, Role, SourceFile, Target, keep_outs, placed_keep_outs, traced_program};
 use pathbuild_diagnostic::{Diagnostic, Lang, Value};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
@@ -19,10 +16,10 @@ use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, Shee
 use super::deliver::{OutputSettings, Task, make};
 use super::job::{Job, JobBuilder};
 use super::{generate, options};
+use crate::config;
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
-use crate::session::{OutputKind, Session, WriteSettings, program_scene};
-use crate::{Inputs, config};
+use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, WriteSettings, program_scene};
 
 /// Settings shared by all sheets of a run.
 #[derive(Debug)]
@@ -70,43 +67,25 @@ pub fn sheet_of(
 
 /// Resolves an argument to a path, or returns the diagnostics of its drawing.
 fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
-    let selection = session.select(&Inputs { inputs: vec![what.to_owned()] });
-    if !selection.problems.is_empty() {
-        return Ok(Err(selection.problems));
-    }
-    let db = session.db();
-    match (&*selection.directories, &*selection.paths, &*selection.named) {
-        ([], [path], []) => Ok(Ok(session.target_in(path.file, &path.name, Role::Emitted))),
-        ([], [], [file]) => match path_names(db, *file) {
-            [name] => Ok(Ok(session.target_in(*file, name, Role::Emitted))),
-            [] => Ok(Err(no_path(db, *file))),
-            names => {
-                let names: Vec<&str> = names.iter().map(PathName::as_str).collect();
-                Err(session.workspace().phrase(
-                    "a sheet is of one path: name one of {}",
-                    "ein Blatt ist von einem Pfad: einen von diesen nennen: {}",
-                    &names.join(", "),
-                ))
-            }
-        },
-        _ => Err(session
-            .workspace()
+    let context = session.workspace();
+    match session.one_path(what, Role::Emitted) {
+        Ok(target) => Ok(Ok(target)),
+        Err(NotOnePath::Wrong(diagnostics)) => Ok(Err(diagnostics)),
+        Err(NotOnePath::Several(NamedPaths { names, .. })) => {
+            let names: Vec<&str> = names.iter().map(PathName::as_str).collect();
+            Err(context.phrase(
+                "a sheet is of one path: name one of {}",
+                "ein Blatt ist von einem Pfad: einen von diesen nennen: {}",
+                &names.join(", "),
+            ))
+        }
+        Err(NotOnePath::Directory) => Err(context
             .choose(
                 "a sheet is of one path: this is a directory",
                 "ein Blatt ist von einem Pfad: das ist ein Verzeichnis",
             )
             .into()),
     }
-}
-
-/// Diagnostics of a drawing without paths.
-fn no_path(db: &Database, file: SourceFile) -> Vec<Diagnostic> {
-    let mut found = check_file(db, file).to_vec();
-    if !found.iter().any(Diagnostic::is_error) {
-        let problem = Diagnostic::new(&messages::NO_PATH).quoting("pattern", "path-pattern");
-        found.push(problem.in_file(file.path(db)));
-    }
-    found
 }
 
 fn of_target(

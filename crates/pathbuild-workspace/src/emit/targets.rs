@@ -4,13 +4,12 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Role, SourceFile, Target};
-use pathbuild_diagnostic::messages::outputs as messages;
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use super::EmitContext;
 use super::target_patterns::TargetPatterns;
-use crate::session::{Argument, Drawing, Drawings, Selection, Session};
+use crate::session::{Argument, Drawing, Drawings, Selection, Session, several_paths};
 
 /// The paths to emit, and the drawings that were considered.
 #[derive(Debug, Default)]
@@ -114,7 +113,7 @@ impl TargetCollector<'_> {
         for Drawing { path, result, .. } in resolved.named.iter().filter_map(|file| get(*file)) {
             self.diagnostics.extend_from_slice(&result.diagnostics);
             match result.names.as_slice() {
-                [] => self.diagnostics.extend(self.session.no_path(path, result)),
+                [] => self.diagnostics.extend(self.session.no_path(path, &result.names, &result.diagnostics)),
                 [name] => self.add(path, name),
                 names => self.refuse_several(path, names),
             }
@@ -149,12 +148,4 @@ impl TargetCollector<'_> {
             self.targets.push(self.session.target_in(file, name, Role::Emitted));
         }
     }
-}
-
-fn several_paths(file: &Utf8Path, names: &[PathName]) -> Diagnostic {
-    let list: Value = names.iter().map(PathName::as_str).collect();
-    Diagnostic::new(&messages::SEVERAL_PATHS)
-        .with("names", list)
-        .quoting("first", names[0].as_str())
-        .in_file(file)
 }

@@ -7,8 +7,8 @@ use pathbuild_diagnostic::messages::{configuration, outputs as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 
+use super::Session;
 use super::argument_matches::SearchedDirectory;
-use super::{DrawingResult, Session};
 use crate::config::{Origin, Sourced};
 
 impl Session<'_> {
@@ -73,16 +73,6 @@ impl Session<'_> {
     /// Whether the run mimics PathDxf2GCode.
     pub fn is_compatible(&self) -> bool {
         self.context.settings.general.compatible.value
-    }
-
-    /// PB513 for a drawing that was named but contains no path, unless the drawing has errors.
-    pub fn no_path(&self, drawing: &Utf8Path, result: &DrawingResult) -> Option<Diagnostic> {
-        let is_right = !result.names.is_empty() || result.diagnostics.iter().any(Diagnostic::is_error);
-        (!is_right).then(|| {
-            Diagnostic::new(&messages::NO_PATH)
-                .quoting("pattern", &*self.context.settings.general.path_pattern.value)
-                .in_file(drawing)
-        })
     }
 }
 

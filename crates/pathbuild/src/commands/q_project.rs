@@ -148,11 +148,7 @@ fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     let db = session.db();
     let mut problems = check_file(db, drawing).to_vec();
     let targets = session.targets(drawing, &Role::Checked);
-    if targets.is_empty() && problems.is_empty() {
-        let pattern = Settings::get(db).language(db).path_pattern.as_str();
-        problems
-            .push(Diagnostic::new(&outputs::NO_PATH).quoting("pattern", pattern).in_file(drawing.path(db)));
-    }
+    problems.extend(session.no_path(drawing.path(db), path_names(db, drawing), &problems));
     problems.extend(session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics));
     problems
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Role, Target, check_file, path_names, placed_keep_outs, program};
-use pathbuild_diagnostic::messages::{gcode as say, outputs};
+use pathbuild_db::{Role, Target, check_file, placed_keep_outs, program};
+use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
@@ -13,17 +13,16 @@ use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{self, Clamps, PastClamps, PostWords, ToolUse};
 use pathbuild_motion::Move;
-use pathbuild_path::{KeepOut, PathName};
+use pathbuild_path::KeepOut;
 use pathbuild_toolpath::Program as Drawn;
 use serde_json::json;
 
 use crate::commands::program::Program;
 use crate::context::Context;
 use crate::numbers::count;
-use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::{Provenances, missing_values, native_text, writing};
 use pathbuild_workspace::posting::tool_table;
-use pathbuild_workspace::session::{OutputKind, Session};
+use pathbuild_workspace::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
 
 /// The program of a path, as its drawing defines it.
 pub(super) struct Against {
@@ -191,34 +190,20 @@ fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
 
 /// Resolves an argument to a single path.
 fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
-    let db = session.db();
-    let selection = session.select(&Inputs { inputs: vec![name.to_owned()] });
-    if !selection.problems.is_empty() {
-        return Err(Failure::Found(selection.problems));
-    }
-    if let [path] = selection.paths.as_slice() {
-        return Ok(session.target(path, Role::Emitted));
-    }
-    let [file] = selection.named.as_slice() else {
-        return Err(Failure::Usage(session.workspace().phrase(
+    session.one_path(name, Role::Emitted).map_err(|not_one| match not_one {
+        NotOnePath::Wrong(found) => Failure::Found(found),
+        NotOnePath::Several(NamedPaths { file, names }) => {
+            let db = session.db();
+            let mut found = check_file(db, file).to_vec();
+            if !found.iter().any(Diagnostic::is_error) {
+                found.push(several_paths(file.path(db), &names));
+            }
+            Failure::Found(found)
+        }
+        NotOnePath::Directory => Failure::Usage(session.workspace().phrase(
             "--against takes one path: `{}` is a directory",
             "--against braucht einen Pfad: `{}` ist ein Verzeichnis",
             name,
-        )));
-    };
-    let file = *file;
-    match path_names(db, file) {
-        [path] => Ok(Target::new(db, file, path.as_str().into(), Role::Emitted)),
-        names => {
-            let mut found = check_file(db, file).to_vec();
-            if !found.iter().any(Diagnostic::is_error) {
-                let message = if names.is_empty() { &outputs::NO_PATH } else { &outputs::SEVERAL_PATHS };
-                let list: pathbuild_diagnostic::Value = names.iter().map(PathName::as_str).collect();
-                let first = names.first().map_or("", PathName::as_str);
-                let problem = Diagnostic::new(message).with("names", list).quoting("first", first);
-                found.push(problem.quoting("pattern", "path-pattern").in_file(file.path(db)));
-            }
-            Err(Failure::Found(found))
-        }
-    }
+        )),
+    })
 }

@@ -1,15 +1,11 @@
 //! Resolves the argument of `view`.
 
 use camino::Utf8Path;
-use pathbuild_db::{SourceFile, path_names};
-use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Diagnostic, shown};
-use pathbuild_path::PathName;
 use pathbuild_view::{GcodeSource, Scene, gcode_path};
-use pathbuild_workspace::Inputs;
 use pathbuild_workspace::files::is_there;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{self, Session, ShownText};
+use pathbuild_workspace::session::{self, NamedPaths, Session, ShownText};
 
 use crate::args::ViewArgs;
 use crate::commands::program::Program;
@@ -55,33 +51,21 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Target
 }
 
 fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
-    let selection = session.select(&Inputs { inputs: vec![what.to_owned()] });
-    if !selection.problems.is_empty() {
-        return Err(Failure::Found(session.with_hints(selection.problems)));
-    }
+    let Some(NamedPaths { file, names }) = session.named_paths(what).map_err(Failure::Found)? else {
+        let reason = session.workspace().phrase(
+            "view shows one path, drawing or program: `{}` is a directory",
+            "view zeigt einen Pfad, eine Zeichnung oder ein Programm: `{}` ist ein Verzeichnis",
+            &shown::line(what),
+        );
+        return Err(Failure::Usage(reason));
+    };
     let db = session.db();
-    let (file, names): (SourceFile, Vec<PathName>) =
-        match (selection.directories.as_slice(), selection.paths.as_slice(), selection.named.as_slice()) {
-            ([], [path], []) => (path.file, vec![path.name.clone()]),
-            ([], [], [file]) => (*file, path_names(db, *file).to_vec()),
-            _ => {
-                let what = shown::line(what);
-                let reason = session.workspace().phrase(
-                    "view shows one path, drawing or program: `{}` is a directory",
-                    "view zeigt einen Pfad, eine Zeichnung oder ein Programm: `{}` ist ein Verzeichnis",
-                    &what,
-                );
-                return Err(Failure::Usage(reason));
-            }
-        };
     let post_processor = PostProcessor::for_run(session.workspace(), None, PostArguments::default());
     let post_processor = post_processor.map_err(Failure::Found)?;
     let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
+    let missing = session.no_path(file.path(db), &names, &report.diagnostics);
+    report.diagnostics.extend(missing);
     if names.is_empty() {
-        if !report.diagnostics.iter().any(Diagnostic::is_error) {
-            let problem = Diagnostic::new(&outputs::NO_PATH).quoting("pattern", "path-pattern");
-            report.diagnostics.push(problem.in_file(file.path(db)));
-        }
         // An empty picture could replace one that shows something.
         return Err(Failure::Found(report.diagnostics));
     }
