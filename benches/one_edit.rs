@@ -4,11 +4,13 @@
 use std::fmt::Write;
 use std::hint::black_box;
 use std::sync::Arc;
+use std::time::Duration;
 
 use camino::Utf8Path;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{Database, Db, Limits, Reading, Role, Settings, Target, closure, program, trace};
+use pathbuild_dxf::Units;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathOptions, PathPattern};
 use pathbuild_testkit::sheet;
 
@@ -92,8 +94,18 @@ fn settings(db: &mut Database) {
     };
     let (files, search) = (FilePattern::default(), vec!["parts".into()]);
     let fold = PathOptions { feed: Some(150.0), sweep_height: Some(20.0), ..PathOptions::default() };
-    let reading = Reading::default();
-    _ = Settings::new(db, reading, Arc::new(language), files, search, Vec::new(), fold, Limits::default());
+    let reading = Reading {
+        units: Units::Header,
+        approximate_curves: 0.0,
+        file_size: 1 << 28,
+        entities: 1 << 20,
+        text_length: 65_536,
+        walk_time: Duration::from_mins(1),
+        is_hashed: false,
+        compatible: false,
+    };
+    let limits = Limits { moves: 1 << 25, memory: 1 << 30, paths: 1 << 16 };
+    _ = Settings::new(db, reading, Arc::new(language), files, search, Vec::new(), fold, limits);
 }
 
 /// Four-digit names below those of projects.

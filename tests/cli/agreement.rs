@@ -9,13 +9,15 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
-    Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_file, check_target, closure,
-    locate, path_names, q_project_findings,
+    Database, Db, Role, Settings, SourceFile, Target, check_file, check_target, closure, locate, path_names,
+    q_project_findings,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{FilePattern, PathOptions, Restriction};
 use pathbuild_testkit::Workshop;
 use pathbuild_testkit::naive::{Finding, Model, Rules, differences, language};
+use pathbuild_workspace::config;
+use pathbuild_workspace::session::{limits, reading};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
@@ -135,15 +137,16 @@ impl Asked {
         let db = Database::new(system);
         let search = rules.search.iter().map(Utf8PathBuf::from).collect();
         let restrict = rules.restrict.iter().map(|(parent, child)| Restriction::new(parent, child).unwrap());
+        let settings = config::Settings::default();
         Settings::new(
             &db,
-            Reading::default(),
+            reading(&settings, false),
             Arc::new(language()),
             FilePattern::default(),
             search,
             restrict.collect(),
             PathOptions { feed: Some(100.0), sweep_height: None, ..PathOptions::default() },
-            Limits::default(),
+            limits(&settings),
         );
         Self { db, targets: BTreeMap::new() }
     }

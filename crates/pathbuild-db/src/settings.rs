@@ -65,24 +65,3 @@ pub struct Limits {
     /// Maximum number of paths in a program that differ in drawing or values: each takes memory, however little it mills.
     pub paths: u64,
 }
-
-impl Default for Reading {
-    fn default() -> Self {
-        Self {
-            units: Units::Header,
-            approximate_curves: 0.0,
-            file_size: 256 << 20,
-            entities: 2_000_000,
-            text_length: 65_536,
-            walk_time: Duration::from_mins(1),
-            is_hashed: false,
-            compatible: false,
-        }
-    }
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self { moves: 50_000_000, memory: 1 << 30, paths: 100_000 }
-    }
-}

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_db::system::MemorySystem;
 use pathbuild_db::{
-    Database, Db, Limits, Reading, Role, Settings, Target, check_file, check_target, path_names, program,
+    Database, Db, Limits, Role, Settings, Target, check_file, check_target, path_names, program,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
@@ -13,6 +13,8 @@ use pathbuild_path::{
 };
 use pathbuild_post::{Job, PostOptions, ToolTable};
 use pathbuild_toolpath::{Correction, Program};
+use pathbuild_workspace::config;
+use pathbuild_workspace::session::{limits, reading};
 
 use crate::drawn::{Choices, dxf as drawn, written};
 
@@ -87,8 +89,9 @@ fn settle(db: &Database) {
     let (files, search) = (FilePattern::default(), Vec::new());
     let fold = PathOptions { feed: Some(100.0), sweep_height: Some(20.0), ..PathOptions::default() };
     // Without this limit, a fuzzer would find slow inputs that are merely large.
-    let limits = Limits { moves: 20_000, ..Limits::default() };
-    Settings::new(db, Reading::default(), Arc::new(language), files, search, Vec::new(), fold, limits);
+    let settings = config::Settings::default();
+    let limits = Limits { moves: 20_000, ..limits(&settings) };
+    Settings::new(db, reading(&settings, false), Arc::new(language), files, search, Vec::new(), fold, limits);
 }
 
 /// Checks that findings can be rendered and are not bugs.

@@ -5,7 +5,7 @@ use pathbuild_path::Bindings;
 use salsa::Setter;
 
 use crate::embedding::component;
-use crate::world::World;
+use crate::world::{LIMITS, World};
 
 /// Correct with B0; with B9 the tool mills through the table.
 const WITH_VARIABLE: &str = "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nend 20,0";
@@ -85,10 +85,10 @@ fn limits_hold_for_every_path() {
             _ = Settings::get(&world.db).set_limits(&mut world.db).to(limits);
             world.judge("path", file, path, Role::Checked).contains(&"PB005".to_owned())
         };
-        let moves = |moves| Limits { moves, ..Limits::default() };
+        let moves = |moves| Limits { moves, ..LIMITS };
         let least = (0..1000).find(|least| !refused(moves(*least))).unwrap();
         assert!(least > 0 && refused(moves(least - 1)), "{path}: {least}");
-        let paths = |paths| Limits { paths, ..Limits::default() };
+        let paths = |paths| Limits { paths, ..LIMITS };
         let count = if path == "8001.1P" { 2 } else { 1 };
         assert!(!refused(paths(count)) && refused(paths(count - 1)), "{path}");
     }

@@ -6,7 +6,7 @@ use pathbuild_db::{Reading, Role, Settings};
 use salsa::Setter;
 
 use crate::embedding::component;
-use crate::world::World;
+use crate::world::{READING, World};
 
 const PATH: &str = "lib/1111.1P.dxf";
 const OTHER: &str = "lib/1112.1P.dxf";
@@ -27,7 +27,7 @@ fn a_walk_that_was_given_up_is_tried_again_after_any_change() {
         ("lib/1114.1P.dxf", &long("1114.1P", "B=B :B0,1")),
         ("lib/8001.1P.dxf", PROJECT),
     ]);
-    let reading = Reading { walk_time: Duration::ZERO, ..Reading::default() };
+    let reading = Reading { walk_time: Duration::ZERO, ..READING };
     _ = Settings::get(&world.db).set_reading(&mut world.db).to(reading);
     assert_eq!(world.judge("path", PATH, "1111.1P", Role::Checked), ["PB005"]);
     let found = world.judge("project", "lib/8001.1P.dxf", "8001.1P", Role::Checked);

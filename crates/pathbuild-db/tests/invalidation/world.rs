@@ -10,6 +10,7 @@ use pathbuild_db::{
     Database, Db, Limits, Reading, Role, Settings, SourceFile, Target, check_target, locate, program,
 };
 use pathbuild_diagnostic::{Diagnostic, Place};
+use pathbuild_dxf::Units;
 use pathbuild_path::{FilePattern, Language, LineTypeAliases, PathOptions, PathPattern};
 use pathbuild_testkit::sheet;
 
@@ -39,6 +40,21 @@ pub(crate) fn dxf(text: &str) -> Vec<u8> {
     sheet(text).expect("the text is right").to_dxf()
 }
 
+/// How drawings are read here: nothing exceeds these limits.
+pub(crate) const READING: Reading = Reading {
+    units: Units::Header,
+    approximate_curves: 0.0,
+    file_size: 1 << 20,
+    entities: 10_000,
+    text_length: 65_536,
+    walk_time: Duration::from_mins(1),
+    is_hashed: false,
+    compatible: false,
+};
+
+/// Limits that no path here exceeds.
+pub(crate) const LIMITS: Limits = Limits { moves: 1_000_000, memory: 1 << 30, paths: 1000 };
+
 /// The settings that all tests here begin with, with additional search directories.
 pub(crate) fn set_up(db: &Database, search: &[&str]) {
     let language = Language {
@@ -51,16 +67,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
     };
     let search = search.iter().map(Utf8PathBuf::from).collect();
     let fold = PathOptions { feed: Some(100.0), sweep_height: Some(20.0), ..PathOptions::default() };
-    Settings::new(
-        db,
-        Reading::default(),
-        Arc::new(language),
-        FilePattern::default(),
-        search,
-        Vec::new(),
-        fold,
-        Limits::default(),
-    );
+    Settings::new(db, READING, Arc::new(language), FilePattern::default(), search, Vec::new(), fold, LIMITS);
 }
 
 /// Queries everything that a client gets for a target.

@@ -51,6 +51,7 @@ pub use result_store::{
 };
 pub(crate) use scene::program_scene;
 pub use scene::{SceneReport, ShownText};
+pub use settings::{limits, reading};
 pub use work::{CheckedTarget, Checker, Emitted};
 
 /// A database with the settings of a run.

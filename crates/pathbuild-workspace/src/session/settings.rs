@@ -10,28 +10,13 @@ use pathbuild_path::{
 };
 
 use super::normal;
-use crate::config::types;
+use crate::config::{self, types};
 use crate::workspace::Workspace;
 
 /// Sets the database's settings. The configuration has no errors at this point, so its patterns compile.
 pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let general = &context.settings.general;
-    let limits = &context.settings.limits;
-    let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
-    let reading = Reading {
-        units: match general.units.value {
-            types::Units::Header => Units::Header,
-            types::Units::Drawing => Units::Drawing,
-            types::Units::Millimetres => Units::Millimetres,
-        },
-        approximate_curves: general.approximate_curves.value,
-        file_size: limits.file_size.value,
-        entities: count(limits.entities.value),
-        text_length: count(limits.text_length.value),
-        walk_time: limits.seconds_per_path.value,
-        is_hashed,
-        compatible: general.compatible.value,
-    };
+    let reading = reading(&context.settings, is_hashed);
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
         keep_out: general.keep_out.value.as_deref().and_then(|pattern| KeepOutPattern::new(pattern).ok()),
@@ -51,15 +36,41 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
         probe_feed: general.probe_feed.value,
         compatible: general.compatible.value,
     };
-    let limits = Limits {
-        moves: limits.embedding_moves.value,
-        memory: limits.program_memory.value,
-        paths: limits.embedded_paths.value,
-    };
+    let limits = limits(&context.settings);
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
-fn doubts(settings: &crate::config::Settings) -> DoubtThresholds {
+/// The database's settings for reading drawings. `is_hashed`: whether to hash them.
+pub fn reading(settings: &config::Settings, is_hashed: bool) -> Reading {
+    let (general, limits) = (&settings.general, &settings.limits);
+    let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+    Reading {
+        units: match general.units.value {
+            types::Units::Header => Units::Header,
+            types::Units::Drawing => Units::Drawing,
+            types::Units::Millimetres => Units::Millimetres,
+        },
+        approximate_curves: general.approximate_curves.value,
+        file_size: limits.file_size.value,
+        entities: count(limits.entities.value),
+        text_length: count(limits.text_length.value),
+        walk_time: limits.seconds_per_path.value,
+        is_hashed,
+        compatible: general.compatible.value,
+    }
+}
+
+/// The database's limits. Their defaults are declared by the configuration alone.
+pub fn limits(settings: &config::Settings) -> Limits {
+    let limits = &settings.limits;
+    Limits {
+        moves: limits.embedding_moves.value,
+        memory: limits.program_memory.value,
+        paths: limits.embedded_paths.value,
+    }
+}
+
+fn doubts(settings: &config::Settings) -> DoubtThresholds {
     let warnings = &settings.warnings;
     DoubtThresholds {
         below_plate: warnings.below_plate.value,
