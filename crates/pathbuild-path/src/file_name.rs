@@ -33,9 +33,19 @@ pub fn judge_file_name(
     broken.chain(strays).collect()
 }
 
-/// Whether the name of a drawing is that of a Q-project.
+/// Whether the name of a drawing is that of a Q-project. Names of files here are without `.dxf`.
 pub fn is_q_project(stem: &str) -> bool {
-    stem.ends_with("_Q") || stem.ends_with("_q")
+    tested_by_q_project(stem).is_some()
+}
+
+/// The name of the drawing that a Q-project tests; `None` if the name is not that of a Q-project.
+pub fn tested_by_q_project(stem: &str) -> Option<&str> {
+    stem.strip_suffix("_Q").or_else(|| stem.strip_suffix("_q"))
+}
+
+/// The name of the Q-project that tests a drawing.
+pub fn q_project_name(stem: &str) -> String {
+    format!("{stem}_Q")
 }
 
 /// The full path names in a file's name, without duplicates. The ends of a range do not count.

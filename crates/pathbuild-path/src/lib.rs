@@ -52,7 +52,7 @@ pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
     Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, with_near_names,
 };
-pub use file_name::{is_q_project, judge_file_name};
+pub use file_name::{is_q_project, judge_file_name, q_project_name, tested_by_q_project};
 pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};

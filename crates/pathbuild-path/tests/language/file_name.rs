@@ -1,7 +1,9 @@
 //! Compares the name of a file with the paths in it. (book: language/layers-and-names)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_path::{FilePattern, PathName, PathPattern, judge_file_name};
+use pathbuild_path::{
+    FilePattern, PathName, PathPattern, is_q_project, judge_file_name, q_project_name, tested_by_q_project,
+};
 
 /// The codes and names of the findings for a file with this name and these paths.
 fn said(stem: &str, held: &[&str]) -> Vec<String> {
@@ -70,4 +72,16 @@ fn other_patterns_say_what_names_are() {
     let (file, path) = ("([A-Z]+)(?:[.]([0-9]+))?", "([A-Z]+)[.]([0-9]+)");
     assert_eq!(said_with(file, path, "GEAR.1-GEAR.9", &["GEAR.4"]), [""; 0]);
     assert_eq!(said_with(file, path, "GEAR.1", &["GEAR.2"]), ["PB519 GEAR.1", "PB521 GEAR.2"]);
+}
+
+#[test]
+fn a_q_project_is_named_after_its_drawing() {
+    for (name, drawing) in [("1234_Q", "1234"), ("1234_q", "1234"), ("1234.1P gears_Q", "1234.1P gears")] {
+        assert!(is_q_project(name));
+        assert_eq!(tested_by_q_project(name), Some(drawing));
+    }
+    for name in ["1234Q", "1234_Q1", "1234-Q", "1234"] {
+        assert!(!is_q_project(name) && tested_by_q_project(name).is_none(), "{name}");
+    }
+    assert_eq!(tested_by_q_project(&q_project_name("1234")), Some("1234"));
 }

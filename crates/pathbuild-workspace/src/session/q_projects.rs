@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, SourceFile, q_project_findings};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::{is_q_project, tested_by_q_project};
 
 use super::Session;
 
@@ -36,8 +37,7 @@ pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec
         drawings.clone().filter_map(|path| Some((stem(path)?, path))).collect();
     let pair = |q_project: &'a Utf8PathBuf| {
         let (directory, name) = stem(q_project)?;
-        let name = name.strip_suffix("_Q").or_else(|| name.strip_suffix("_q"))?;
-        Some([*by_stem.get(&(directory, name))?, q_project])
+        Some([*by_stem.get(&(directory, tested_by_q_project(name)?))?, q_project])
     };
     drawings.filter_map(pair).collect()
 }
@@ -45,5 +45,5 @@ pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec
 /// A cheap test that does not split the path into components.
 fn may_be_q_project(drawing: &Utf8Path) -> bool {
     let stem = drawing.as_str().rsplit_once('.').map_or(drawing.as_str(), |(stem, _)| stem);
-    stem.ends_with("_Q") || stem.ends_with("_q")
+    is_q_project(stem)
 }

@@ -6,7 +6,7 @@ use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_pro
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value};
 use pathbuild_draw::EmbeddingPath;
-use pathbuild_path::{PathName, QProject};
+use pathbuild_path::{PathName, QProject, q_project_name};
 
 use super::output_row;
 use crate::args::QProjectArgs;
@@ -49,7 +49,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
 
 /// `NAME_Q.dxf` beside `NAME.dxf`.
 fn beside(drawing: &Utf8Path) -> Utf8PathBuf {
-    spelt(drawing.with_file_name(format!("{}_Q.dxf", drawing.file_stem().unwrap_or_default())))
+    spelt(drawing.with_file_name(format!("{}.dxf", q_project_name(drawing.file_stem().unwrap_or_default()))))
 }
 
 /// Name of the Q-project's path: the given one, or the drawing's first number with `.0Q`.

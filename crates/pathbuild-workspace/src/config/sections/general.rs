@@ -6,6 +6,7 @@ use std::fmt::Debug;
 
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Lang;
+use pathbuild_path::{FilePattern, PathPattern};
 
 use crate::config::arguments::OptionValues::{
     Directories as SearchDirectories, Directory, Switch, Text, Texts,
@@ -21,11 +22,6 @@ use crate::config::reader::Table;
 use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;
 use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
-
-/// Default regular expression for path names. (book: language/layers-and-names)
-pub const PATH_PATTERN: &str = "([0-9]{4})[.]([0-9]+)([A-Z])";
-/// Default regular expression for the path names covered by a file name.
-pub const FILE_PATTERN: &str = "([0-9]{4})(?:[.]([0-9]+))?";
 
 /// Like [`section!`], for keys that command-line options can override. Such a key adds its option: position among the common options
 /// in the help, parser, values, and help in both languages.
@@ -79,10 +75,10 @@ overridable! {
         option 5: |option| Ok(option.directories()), SearchDirectories, "Look for embedded paths in this directory as well (repeatable)",
         "Sucht eingebettete Pfade auch in diesem Verzeichnis (wiederholbar)";
     /// which names are path names
-    path_pattern: Box<str> = "path-pattern", REGEX, PATH_PATTERN.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check,
+    path_pattern: Box<str> = "path-pattern", REGEX, PathPattern::DEFAULT.into(), "'([0-9]{4})[.]([0-9]+)([A-Z])'", Check,
         option 6: GivenOption::regex, Text("REGEX"), "Regular expression for path names", "Regulärer Ausdruck für Pfadnamen";
     /// which parts of a file name are path names
-    file_pattern: Box<str> = "file-pattern", REGEX, FILE_PATTERN.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check,
+    file_pattern: Box<str> = "file-pattern", REGEX, FilePattern::DEFAULT.into(), "'([0-9]{4})(?:[.]([0-9]+))?'", Check,
         option 7: GivenOption::regex, Text("REGEX"), "Regular expression for path names in file names",
         "Regulärer Ausdruck für Pfadnamen in Dateinamen";
     /// layers with clamps, by their whole names: no move may enter their outlines below the height
