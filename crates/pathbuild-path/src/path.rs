@@ -375,6 +375,18 @@ impl CutParameters {
     }
 }
 
+impl Helix {
+    /// Radius of the circle on which the axis of a cutter of this diameter moves along a drawn circle.
+    pub(crate) fn radius_of_axis(drawn: f64, tool: f64) -> f64 {
+        drawn - tool / 2.0
+    }
+
+    /// Radius of the circle on which the axis of a cutter of this diameter moves.
+    pub fn axis_radius(&self, tool: f64) -> f64 {
+        Self::radius_of_axis(self.radius, tool)
+    }
+}
+
 impl Bars {
     /// The number of bars on a segment of this length.
     pub fn count(&self, length: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use std::ptr;
 
-use pathbuild_path::{Chain, ChainSegment, CutParameters, Helix, Item, Path, WalkedPath};
+use pathbuild_path::{Bars, Chain, ChainSegment, CutParameters, Helix, Item, Path, WalkedPath};
 
 use crate::program::Step;
 
@@ -33,7 +33,7 @@ fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
         let known = last.filter(|(known, _)| ptr::eq(*known, cut));
         let (_, passes) =
             *last.insert(known.unwrap_or_else(|| (cut, passes(first - cut.bottom, chain.infeed))));
-        let sections = cut.bars.map_or(1, |bars| whole(4.0 * bars.count(member.curve(path).length()) + 1.0));
+        let sections = cut.bars.map_or(1, |bars| sections(&bars, member.curve(path).length()));
         passes.saturating_mul(sections.saturating_add(1))
     });
     let once = segments.fold(0, u64::saturating_add);
@@ -43,10 +43,15 @@ fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
 fn helix_moves(path: &Path, helix: &Helix) -> u64 {
     let spiral = passes(path.thickness - helix.bottom, helix.infeed).saturating_mul(2);
     let with_bars = helix.bars.map_or(0, |(depth, bars)| {
-        let length = std::f64::consts::TAU * (helix.radius - path.tool / 2.0);
-        passes(helix.bottom - depth, helix.infeed).saturating_mul(whole(4.0 * bars.count(length) + 1.0))
+        let length = std::f64::consts::TAU * helix.axis_radius(path.tool);
+        passes(helix.bottom - depth, helix.infeed).saturating_mul(sections(&bars, length))
     });
     spiral.saturating_add(with_bars)
+}
+
+/// The sections of a segment with bars: each gap is a slope, a low section, a slope and the next bar.
+fn sections(bars: &Bars, length: f64) -> u64 {
+    whole(4.0 * bars.count(length) + 1.0)
 }
 
 fn passes(depth: f64, infeed: f64) -> u64 {

@@ -70,7 +70,8 @@ fn folded<P: Parts>(
     };
     let mut fold = Fold {
         parts,
-        feed: options.feed.unwrap_or_default(),
+        feed: fallback(Letter::F, ElementClass::PathStart, path.numbers(), &options, PathRole::Emitted)
+            .map_or(0.0, |(feed, _)| feed),
         compatible: options.compatible,
         options,
         clearance: sweep_height,

@@ -45,7 +45,7 @@ impl<P: Parts> Fold<'_, P> {
     pub(crate) fn helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
         let circle = Circle {
             centre: place.placement.place(helix.centre),
-            radius: helix.radius - place.path.tool / 2.0,
+            radius: helix.axis_radius(place.path.tool),
             feed: self.feed(helix.feed),
         };
         let bottom = place.raised + helix.bottom;

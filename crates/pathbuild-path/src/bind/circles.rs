@@ -67,7 +67,7 @@ impl Binder<'_> {
         self.check_size(scope, radius);
         self.check_margin(scope, radius, tool);
         let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
-        let length = 2.0 * std::f64::consts::PI * (radius - tool / 2.0);
+        let length = std::f64::consts::TAU * Helix::radius_of_axis(radius, tool);
         let bars = (cut == Cut::Support).then(|| self.bars(scope, length, Some(tool))).flatten();
         if let Some(problem) = bars.as_ref().and_then(|bars| no_gap(bars, length)) {
             self.report(scope.at, problem);
@@ -94,7 +94,7 @@ impl Binder<'_> {
             .with("diameter", 2.0 * radius)
             .with("difference", difference)
             .with("tool", tool)
-            .with("radius", difference / 2.0);
+            .with("radius", Helix::radius_of_axis(radius, tool));
         self.report(scope.at, problem);
     }
 

@@ -158,3 +158,20 @@ fn row(texts: [&str; 4]) -> String {
 fn what_is_wrong_with_a_hole_is_said_of_each() {
     assert_eq!(wrong(&row(["B6", "B6", "B1", "B1"])), ["PB203 B", "PB203 B"]);
 }
+
+/// A circle of 10 mm for a cutter of 3 mm: its axis moves on one of 7 mm. Bars are counted along that circle.
+#[test]
+fn the_axis_of_the_cutter_moves_inside_the_drawn_circle() {
+    let compiled = compile(&path("T5 O3 I1 B0 Mx", "sweep 0,0 20,0\ncircle 20,0 d 10\nend 20,0"));
+    let helix = &compiled.path.unwrap().helices[0];
+    assert_eq!((helix.radius, helix.axis_radius(3.0)), (5.0, 3.5));
+    // 22 mm have room for two bars of 1 mm each 10 mm, 31.4 mm would have room for three.
+    let bars = |distance: f64| {
+        let text = format!("circle CENTER 20,0 d 10 \"D2 P1 U{distance}\"");
+        let compiled = compile(&path("T5 O3 I1 B0 Mx", &format!("sweep 0,0 20,0\n{text}\nend 20,0")));
+        let path = compiled.path.unwrap();
+        let (_, bars) = path.helices[0].bars.unwrap();
+        bars.count(std::f64::consts::TAU * path.helices[0].axis_radius(3.0))
+    };
+    assert_eq!([bars(9.9), bars(10.1)], [2.0, 1.0]);
+}

@@ -1,6 +1,9 @@
 //! Inheritance of values: the element's own, or else the path's. (book: language/letters)
 
-use pathbuild_path::{CutParameters, Path, PathOptions, PathRole, SegmentKind};
+use pathbuild_path::{
+    CutParameters, ElementClass, Letter, Path, PathNumbers, PathOptions, PathRole, Provider, SegmentKind,
+    fallback,
+};
 
 use crate::support::{compile, path, read, wrong};
 
@@ -218,5 +221,35 @@ fn faults_of_borrowed_parameters_are_reported_with_the_path_they_belong_to() {
         let found: Vec<_> =
             path.diagnostics.iter().map(|found| (found.code().to_string(), found.path.as_deref())).collect();
         assert_eq!(found, [("PB202".to_owned(), Some("1234.2P"))], "{:?}", path.name);
+    }
+}
+
+/// F, S, A, H and Z that no text gives, of a path with O2, T5 and F90.
+#[test]
+fn defaults_follow_from_one_function() {
+    use ElementClass::{HelicalCircle, Mill, PathStart, Probe, Subpath};
+
+    let path = PathNumbers { tool: Some(2.0), thickness: Some(5.0), feed: Some(90.0) };
+    let options =
+        PathOptions { feed: Some(99.0), sweep_height: Some(20.0), probe_feed: None, compatible: false };
+    let compatible = PathOptions { compatible: true, ..options };
+    let probing = PathOptions { probe_feed: Some(7.0), ..options };
+    let (emitted, embedded) = (PathRole::Emitted, PathRole::Embedded);
+    let option = |value, name| Some((value, Provider::Option(name)));
+    let default = |value| Some((value, Provider::Default));
+    for (letter, class, options, role, expected) in [
+        (Letter::F, Mill, &options, emitted, option(99.0, "feed")),
+        (Letter::S, PathStart, &options, emitted, option(20.0, "sweep-height")),
+        (Letter::S, PathStart, &options, embedded, default(7.0)),
+        (Letter::A, HelicalCircle, &options, emitted, default(8.0)),
+        (Letter::A, PathStart, &options, emitted, None),
+        (Letter::H, Subpath, &options, emitted, default(0.0)),
+        (Letter::H, Mill, &options, emitted, None),
+        (Letter::Z, Probe, &probing, emitted, option(7.0, "probe-feed")),
+        (Letter::Z, Probe, &options, emitted, Some((90.0, Provider::Path))),
+        (Letter::Z, Probe, &compatible, emitted, option(99.0, "feed")),
+        (Letter::B, Mill, &options, emitted, None),
+    ] {
+        assert_eq!(fallback(letter, class, path, options, role), expected, "{letter:?} {class:?} {role:?}");
     }
 }

@@ -141,7 +141,7 @@ impl Builder {
                 }
                 (SegmentKind::Helix(helix), _) => {
                     let helix = &path.helices[*helix as usize];
-                    let radius = helix.radius - path.tool / 2.0;
+                    let radius = helix.axis_radius(path.tool);
                     helix
                         .bars
                         .map(|(bottom, bars)| (bars, bottom, circle(placement.place(helix.centre), radius)))
