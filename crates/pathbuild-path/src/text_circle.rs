@@ -63,12 +63,7 @@ impl TextCircle {
 
     /// The distance from its centre to an arc, if its radial projection lies on the arc.
     pub fn distance_to_arc(&self, arc: &Arc) -> Option<f64> {
-        let out = self.centre - arc.centre;
-        let (along, across) = (out.dot(&(arc.start - arc.centre)), (arc.start - arc.centre).perp(&out));
-        let angle = libm::atan2(across, along).to_degrees();
-        let ahead = if arc.clockwise { -angle } else { angle };
-        let ahead = if ahead < 0.0 { ahead + 360.0 } else { ahead };
-        (ahead <= arc.degrees).then(|| self.distance_to_circle(arc.centre, arc.radius))
+        arc.spans(self.centre - arc.centre).then(|| self.distance_to_circle(arc.centre, arc.radius))
     }
 
     /// The distance from its centre to a line, if the foot of the perpendicular lies on the line.

@@ -73,7 +73,7 @@ impl Arc {
     }
 
     /// Whether the arc contains the point of its circle in that direction from the centre.
-    fn spans(&self, out: Vector2<f64>) -> bool {
+    pub(crate) fn spans(&self, out: Vector2<f64>) -> bool {
         let from = self.start - self.centre;
         let angle = libm::atan2(from.perp(&out), from.dot(&out)).to_degrees();
         let ahead = if self.clockwise { -angle } else { angle };
