@@ -75,7 +75,7 @@ fn ten_levels_of_ten_embeddings_exceed_the_limit_of_moves() {
     for command in ["check", "emit"] {
         let run = timed(&place, &format!("{command} {}", file(10)));
         assert_eq!(run.status, Some(1), "{run}");
-        assert!(run.stderr.contains("error[PB005] this path comes to"), "{run}");
+        assert!(run.stderr.contains("error[PB005] this path has"), "{run}");
         assert!(run.stderr.contains("exceeds the limit of 50000000"), "{run}");
     }
     let run = timed(&place, &format!("check {} {}", file(4), file(5)));

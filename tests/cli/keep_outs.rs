@@ -233,7 +233,7 @@ fn the_largest_cutter_of_a_program_keeps_away() {
             .file("1235.1P.dxf", dxf(component))
             .file("pathbuild.toml", format!("compatible = true\n{OPTIONS}"));
         let run = place.run("check 8001.1P.dxf --format concise");
-        let is_met = run.stderr.contains("the tool, O6, comes into");
+        let is_met = run.stderr.contains("the tool, O6, hits");
         assert!(run.stderr.contains("PB506") && is_met == run.stderr.contains("PB407"), "{run}");
         is_met
     };

@@ -369,7 +369,7 @@ fn programs_of_every_built_in_post_are_known_when_their_drawing_is_gone() {
         std::fs::remove_file(place.path().join("1234.dxf")).unwrap();
         let stale = place.run("emit . --check --out-dir out");
         assert!(
-            stale.stderr.contains("was written earlier, and nothing would write it now"),
+            stale.stderr.contains("was written earlier, but no path would write it now"),
             "{post}: {stale}"
         );
     }

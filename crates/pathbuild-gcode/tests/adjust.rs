@@ -492,9 +492,9 @@ fn a_probe_that_does_not_fit_its_neighbours_is_told() {
     let bump = |at: (f64, f64), height: f64| {
         move |x: f64, y: f64| 0.2 * x - 0.1 * y + if (x, y) == at { height } else { 0.0 }
     };
-    assert_eq!(odd(bump((0.0, 0.0), 0.102)), ["PB607 #55 is 0.102 mm higher than its neighbours let expect"]);
+    assert_eq!(odd(bump((0.0, 0.0), 0.102)), ["PB607 #55 is 0.102 mm higher than expected from its neighbours"]);
     assert_eq!(odd(bump((0.0, 0.0), 0.098)), [""; 0]);
-    assert_eq!(odd(bump((1.0, 1.0), -0.5)), ["PB607 #59 is 0.5 mm lower than its neighbours let expect"]);
+    assert_eq!(odd(bump((1.0, 1.0), -0.5)), ["PB607 #59 is 0.5 mm lower than expected from its neighbours"]);
 }
 
 #[test]
@@ -511,7 +511,7 @@ fn tilted_and_bent_plates_have_no_odd_probes() {
 fn a_probe_is_odd_beyond_four_times_the_scatter_of_the_others() {
     let raised = |middle: f64| odd(|x, y| if (x, y) == (0.0, 0.0) { middle } else { 0.1 * x * y });
     assert_eq!(raised(0.379), [""; 0]);
-    assert_eq!(raised(0.380), ["PB607 #55 is 0.38 mm higher than its neighbours let expect"]);
+    assert_eq!(raised(0.380), ["PB607 #55 is 0.38 mm higher than expected from its neighbours"]);
 }
 
 #[test]

@@ -746,7 +746,7 @@ fn a_fault_says_what_and_where() {
     let result = interpret(b"G21 G90 G17\nG0 X0 Y0 Z0\nG2 X10 Y0 I6 F10\nM30\n", Rs274, &Options::default());
     assert_eq!(
         spelled_out(&result.problems),
-        "PB734 (Some(3), Some(1)) the arc begins with the radius 6 and ends with 4: 1.998 mm more than rs274 takes \
+        "PB734 (Some(3), Some(1)) the arc begins with the radius 6 and ends with 4: the difference is 1.998 mm more than rs274 accepts \
          Some(\"G2 X10 Y0 I6 F10\")\n"
     );
 }

@@ -319,13 +319,13 @@ fn one_message_is_said_so_often_and_then_counted() {
     assert!(said(20).iter().all(|problem| problem.notes.is_empty()));
     assert_eq!(
         said(21)[19].notes[0].text(pathbuild_diagnostic::Lang::En),
-        "this is said of one more line, which is not shown"
+        "the same applies to one more line, which is not shown"
     );
     let problems = said(50);
     assert_eq!(problems.len(), 20);
     assert_eq!(
         problems[19].notes[0].text(pathbuild_diagnostic::Lang::En),
-        "this is said of 30 more lines, which are not shown"
+        "the same applies to 30 more lines, which are not shown"
     );
     assert!(problems[..19].iter().all(|problem| problem.notes.is_empty()));
 }

@@ -14,7 +14,7 @@ messages! {
     TOML_SYNTAX: InvalidConfiguration {
         en: "this is not TOML: {reason}",
         de: "das ist kein TOML: {reason}",
-        help_en: "texts stand in quotes, patterns in single ones; `pathbuild init` shows how each key is written",
+        help_en: "texts are written in double quotes, patterns in single ones; `pathbuild init` shows how each key is written",
         help_de: "Texte stehen in Anführungszeichen, Muster in einfachen; `pathbuild init` zeigt, wie jeder Schlüssel geschrieben wird",
     }
     /// An unknown key that is similar to a known one.
@@ -33,14 +33,14 @@ messages! {
     }
     /// A key that belongs into another table.
     KEY_OF_TABLE: InvalidConfiguration {
-        en: "the key `{key}` stands in the wrong place",
+        en: "the key `{key}` is in the wrong place",
         de: "der Schlüssel `{key}` steht an der falschen Stelle",
         help_en: "`{near}` belongs into {table}",
         help_de: "`{near}` gehört in {table}",
     }
     /// A top-level key inside a table.
     KEY_OF_TOP: InvalidConfiguration {
-        en: "the key `{key}` stands in the wrong place",
+        en: "the key `{key}` is in the wrong place",
         de: "der Schlüssel `{key}` steht an der falschen Stelle",
         help_en: "`{near}` belongs to the top of the file, before the first [table]",
         help_de: "`{near}` gehört an den Anfang der Datei, vor die erste [Tabelle]",
@@ -61,22 +61,22 @@ messages! {
     }
     /// A key of an earlier version.
     REPLACED_KEY: InvalidConfiguration {
-        en: "the key `{key}` is gone",
+        en: "the key `{key}` no longer exists",
         de: "den Schlüssel `{key}` gibt es nicht mehr",
-        help_en: "remove it; with `{new} = true` programs are as PathDxf2GCode writes them, without it support bars are left whole",
-        help_de: "entfernen; mit `{new} = true` werden Programme so, wie PathDxf2GCode sie schreibt, ohne bleiben Stützstege ganz",
+        help_en: "remove it; with `{new} = true`, programs are written as by PathDxf2GCode; without it, support bars keep their full length",
+        help_de: "entfernen; mit `{new} = true` werden Programme wie von PathDxf2GCode geschrieben, ohne behalten Stützstege ihre volle Länge",
     }
     /// A layer that is both a path layer and a layer with clamps.
     KEEP_OUT_IS_PATH: InvalidConfiguration {
-        en: "layer {layer} is a path by `path-pattern`, and holds clamps by `keep-out`",
-        de: "Layer {layer} ist nach `path-pattern` ein Pfad und enthält nach `keep-out` Spannmittel",
-        help_en: "write `keep-out` so that it matches the whole names of layers with clamps only, or rename the layer",
+        en: "layer {layer} is a path layer by `path-pattern`, but also holds clamps by `keep-out`",
+        de: "Layer {layer} ist nach `path-pattern` ein Pfad-Layer, enthält nach `keep-out` aber auch Spannmittel",
+        help_en: "write `keep-out` so that it matches only the whole names of layers with clamps, or rename the layer",
         help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
     }
     /// A table for a feature that does not exist.
     NOT_BUILT: InvalidConfiguration {
-        en: "`{key}` is not built yet",
-        de: "`{key}` gibt es noch nicht",
+        en: "`{key}` is not supported",
+        de: "`{key}` wird nicht unterstützt",
         help_en: "remove it; this version would ignore it",
         help_de: "entfernen; diese Version würde es nicht beachten",
     }
@@ -99,17 +99,17 @@ messages! {
     }
     /// A limit raised by an untrusted repository.
     RAISED_LIMIT: InvalidConfiguration {
-        en: "`{key}` is above its default, and the repository is not trusted",
-        de: "`{key}` liegt über der Vorgabe, und dem Repository wird nicht vertraut",
+        en: "`{key}` is above its default, which is only allowed in trusted repositories",
+        de: "`{key}` liegt über der Vorgabe, was nur in vertrauenswürdigen Repositorys erlaubt ist",
         help_en: "lower it to {default} or less",
         help_de: "auf höchstens {default} senken",
     }
     /// A post marked as unchecked by an untrusted repository.
     UNCHECKED_BY_STRANGER: InvalidConfiguration {
-        en: "`{key}` needs somebody who answers for the programs, and the repository is not trusted",
-        de: "für `{key}` muss jemand einstehen, und dem Repository wird nicht vertraut",
-        help_en: "remove it: what cannot be read back is an error then",
-        help_de: "entfernen: was sich nicht zurücklesen lässt, ist dann ein Fehler",
+        en: "`{key}` is only allowed in trusted repositories",
+        de: "`{key}` ist nur in vertrauenswürdigen Repositorys erlaubt",
+        help_en: "remove it: output that cannot be read back is then an error",
+        help_de: "entfernen: eine Ausgabe, die sich nicht zurücklesen lässt, ist dann ein Fehler",
     }
     /// A missing directory.
     NO_DIRECTORY: InvalidConfiguration {
@@ -120,15 +120,15 @@ messages! {
     }
     /// A value that is none of the choices.
     INVALID_CHOICE: InvalidConfiguration {
-        en: "`{key}` has no value {found}",
-        de: "`{key}` hat keinen Wert {found}",
-        help_en: "it can be {choices}",
+        en: "{found} is not a valid value of `{key}`",
+        de: "{found} ist kein gültiger Wert von `{key}`",
+        help_en: "valid values are {choices}",
         help_de: "möglich sind {choices}",
     }
     /// A value that is none of the choices, but similar to one.
     NEAR_CHOICE: InvalidConfiguration {
-        en: "`{key}` has no value {found}",
-        de: "`{key}` hat keinen Wert {found}",
+        en: "{found} is not a valid value of `{key}`",
+        de: "{found} ist kein gültiger Wert von `{key}`",
         help_en: "did you mean \"{near}\"?",
         help_de: "ist \"{near}\" gemeint?",
     }
@@ -136,22 +136,22 @@ messages! {
     BROKEN_REGEX: InvalidConfiguration {
         en: "`{key}` is not a regular expression: {reason}",
         de: "`{key}` ist kein regulärer Ausdruck: {reason}",
-        help_en: "a character that means itself has a backslash before it, or stands in brackets: [.]",
-        help_de: "ein Zeichen, das für sich selbst steht, hat einen Backslash davor oder steht in Klammern: [.]",
+        help_en: "escape literal characters with a backslash or brackets: [.]",
+        help_de: "Zeichen, die wörtlich gemeint sind, mit einem Backslash oder in eckigen Klammern schreiben: [.]",
     }
     /// Too many patterns, which would use an unlimited amount of memory.
     TOO_MANY_PATTERNS: InvalidConfiguration {
         en: "the file has more than {most} {what}",
         de: "die Datei hat mehr als {most} {what}",
-        help_en: "alternatives can be one: a|b; in patterns of files they stand in braces, with commas between them",
-        help_de: "Alternativen können einer sein: a|b; in Dateimustern stehen sie in geschweiften Klammern, durch Kommas getrennt",
+        help_en: "combine alternatives into one pattern: a|b; in file patterns they are written in braces, separated by commas",
+        help_de: "Alternativen in einem Muster zusammenfassen: a|b; in Dateimustern stehen sie in geschweiften Klammern, durch Kommas getrennt",
     }
     /// An invalid glob pattern.
     BROKEN_GLOB: InvalidConfiguration {
-        en: "`{key}` is not a pattern of names: {reason}",
-        de: "`{key}` ist kein Namensmuster: {reason}",
-        help_en: "* is any text, ** also across directories, ? one character, [a-c] one of several",
-        help_de: "* ist beliebiger Text, ** auch über Verzeichnisse hinweg, ? ein Zeichen, [a-c] eines von mehreren",
+        en: "`{key}` is not a valid name pattern: {reason}",
+        de: "`{key}` ist kein gültiges Namensmuster: {reason}",
+        help_en: "* matches any text, ** also across directories, ? one character, [a-c] one of several",
+        help_de: "* steht für beliebigen Text, ** auch über Verzeichnisse hinweg, ? für ein Zeichen, [a-c] für eines von mehreren",
     }
     /// A restriction without a colon.
     RESTRICT_WITHOUT_COLON: InvalidConfiguration {
@@ -183,16 +183,16 @@ messages! {
     }
     /// Arguments that belong to different configurations.
     OTHER_CONFIGURATION: InvalidConfiguration {
-        en: "{argument} lies under {other}, but this run has {used}",
-        de: "{argument} liegt unter {other}, dieser Lauf hat aber {used}",
-        help_en: "run once for each configuration, or name the one that is meant with --config",
+        en: "{argument} belongs to {other}, but this run uses {used}",
+        de: "{argument} gehört zu {other}, dieser Lauf verwendet aber {used}",
+        help_en: "run once for each configuration, or name the intended one with --config",
         help_de: "für jede Konfiguration einen eigenen Lauf machen oder die gemeinte mit --config nennen",
     }
     /// An argument with a configuration, although the first argument has none.
     UNEXPECTED_CONFIGURATION: InvalidConfiguration {
-        en: "{argument} lies under {other}, but this run has no configuration, because its first argument has none",
-        de: "{argument} liegt unter {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
-        help_en: "run once for each, or name the configuration that is meant with --config",
+        en: "{argument} belongs to {other}, but this run has no configuration, because its first argument has none",
+        de: "{argument} gehört zu {other}, dieser Lauf hat aber keine Konfiguration, weil sein erstes Argument keine hat",
+        help_en: "run once for each, or name the intended configuration with --config",
         help_de: "für jedes einen eigenen Lauf machen oder die gemeinte Konfiguration mit --config nennen",
     }
     /// An unreadable baseline.
@@ -206,7 +206,7 @@ messages! {
     BASELINE_LINE: InvalidConfiguration {
         en: "this line of the baseline does not begin with a fingerprint of 32 hexadecimal digits",
         de: "diese Zeile der Liste bekannter Meldungen beginnt nicht mit einem Kennzeichen aus 32 Hexadezimalziffern",
-        help_en: "remove it, or write the file anew with --update-baseline",
+        help_en: "remove it, or rewrite the file with --update-baseline",
         help_de: "die Zeile entfernen oder die Datei mit --update-baseline neu schreiben",
     }
 }

@@ -10,18 +10,18 @@ messages! {
     }
     /// Note: a start marker on a layer without a path.
     START_ON_OTHER_LAYER: MissingStart {
-        en: "on layer {layer}, which is no path layer, there is a start marker at {point}: is it on the wrong layer?",
+        en: "layer {layer}, which is not a path layer, has a start marker at {point}: is it on the wrong layer?",
         de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Anfangsmarke: liegt sie auf dem falschen Layer?",
     }
     /// Note: an end marker on a layer without a path.
     END_MARKER_ON_OTHER_LAYER: MissingEnd {
-        en: "on layer {layer}, which is no path layer, there is an end marker at {point}: is it on the wrong layer?",
+        en: "layer {layer}, which is not a path layer, has an end marker at {point}: is it on the wrong layer?",
         de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Endmarke: liegt sie auf dem falschen Layer?",
     }
     /// Note: a circle with the text of a start.
     MEANT_AS_START: MissingStart {
-        en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm: meant as the start? Draw it with 1 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm: als Anfangsmarke gemeint? Mit 1 mm zeichnen",
+        en: "the circle at {point} has a text with O and T, but its diameter is {diameter} mm; if it is meant as the start marker, draw it with 1 mm",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Durchmesser ist aber {diameter} mm; ist er als Anfangsmarke gemeint, mit 1 mm zeichnen",
     }
     /// Note: a circle with the path's text and the line type of an element.
     MEANT_AS_PHANTOM_START: MissingStart {
@@ -61,8 +61,8 @@ messages! {
     }
     /// A PHANTOM circle with a meaningless diameter.
     UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {
-        en: "a {line_type} circle of {diameter} mm diameter means nothing",
-        de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser bedeutet nichts",
+        en: "a {line_type} circle with a diameter of {diameter} mm has no meaning",
+        de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser hat keine Bedeutung",
         help_en: "PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
         help_de: "PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
     }
@@ -70,7 +70,7 @@ messages! {
     UNKNOWN_LINE_TYPE: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
         de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
-        help_en: "known are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
+        help_en: "the known line types are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
         help_de: "bekannt sind {known}, jeweils auch mit 2, X2 oder TINY; [line-types] in pathbuild.toml kann weitere festlegen",
     }
     /// A line type without a meaning, with a suggestion.
@@ -112,7 +112,7 @@ messages! {
     NEARER_OF_OTHER_KIND: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: circles come before arcs, arcs before lines",
         de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: Kreise gehen vor Bögen, Bögen vor Linien",
-        help_en: "move the text away from the element that it shall not belong to, or make it smaller, or put text and element on a layer of their own with ~ and letters behind the name",
+        help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a layer of their own with ~ and letters behind the name",
         help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder kleiner machen, oder Text und Element auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
     /// A text that is equally near to two elements.
@@ -124,8 +124,8 @@ messages! {
     }
     /// Note: the nearest element.
     NEAREST_ELEMENT: TextWithoutElement {
-        en: "nearest is {element} at {point}, {distance} mm away from the text's circle",
-        de: "am nächsten liegt {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
+        en: "the nearest element is {element} at {point}, {distance} mm away from the text's circle",
+        de: "das nächste Element ist {element} bei {point}, {distance} mm vom Kreis des Textes entfernt",
     }
     /// Note: an element that has another text.
     HAS_A_TEXT: TextWithoutElement {
@@ -149,14 +149,14 @@ messages! {
     }
     /// A circle smaller than the cutter.
     CIRCLE_TOO_SMALL: CircleTooSmall {
-        en: "the circle's diameter {diameter} mm is less than the cutter's, O{tool}",
+        en: "the circle's diameter of {diameter} mm is smaller than the cutter's, O{tool}",
         de: "der Kreisdurchmesser {diameter} mm ist kleiner als der des Fräsers, O{tool}",
         help_en: "a circle of the cutter's diameter is a drilled hole, a larger one a helical circle",
         help_de: "ein Kreis mit dem Durchmesser des Fräsers ist ein Bohrloch, ein größerer ein Helixkreis",
     }
     /// A circle only slightly larger than the cutter.
     NEARLY_DRILLED: NearlyDrilled {
-        en: "the circle's diameter {diameter} mm is only {difference} mm larger than the cutter's, O{tool}: it is not drilled, but milled along a helix of {radius} mm radius",
+        en: "the circle's diameter of {diameter} mm is only {difference} mm larger than the cutter's, O{tool}: it is not drilled, but milled along a helix of {radius} mm radius",
         de: "der Kreisdurchmesser {diameter} mm ist nur {difference} mm größer als der des Fräsers, O{tool}: er wird nicht gebohrt, sondern auf einer Helix von {radius} mm Radius gefräst",
         help_en: "draw it with a diameter of {tool} mm to drill it; `hole-margin` under [warnings] sets the limit",
         help_de: "zum Bohren mit {tool} mm Durchmesser zeichnen; `hole-margin` unter [warnings] setzt die Grenze",
@@ -170,10 +170,10 @@ messages! {
     }
     /// A layer whose name resembles that of a path layer.
     NEARLY_PATH_LAYER: NearlyPathLayer {
-        en: "layer {layer} belongs to no path, but its name is nearly that of path {path}: what is drawn on it has no effect ({elements})",
+        en: "layer {layer} belongs to no path, but its name resembles that of path {path}: what is drawn on it has no effect ({elements})",
         de: "Layer {layer} gehört zu keinem Pfad, heißt aber fast wie der Pfad {path}: was darauf liegt, hat keine Wirkung ({elements})",
-        help_en: "call it {path}, or {path}~A with letters only behind ~; give it quite another name if it is not milled",
-        help_de: "{path} nennen, oder {path}~A mit nichts als Buchstaben hinter ~; ganz anders nennen, wenn es nicht gefräst wird",
+        help_en: "rename it to {path}, or to {path}~A with nothing but letters after ~; if it is not meant to be milled, give it a quite different name",
+        help_de: "in {path} umbenennen oder in {path}~A mit nichts als Buchstaben hinter ~; soll es nicht gefräst werden, den Layer ganz anders nennen",
     }
     /// A milled line from a point to the same point.
     CUT_WITHOUT_LENGTH: LeftoverElement {
@@ -205,50 +205,50 @@ messages! {
     }
     /// A frozen or invisible path layer.
     LAYER_NOT_VISIBLE: LayerNotVisible {
-        en: "layer {layer} is frozen or off, but its path counts all the same",
-        de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad zählt trotzdem",
-        help_en: "make it visible, or rename it if the path is not wanted any more",
+        en: "layer {layer} is frozen or off, but its path is used nevertheless",
+        de: "Layer {layer} ist gefroren oder ausgeschaltet, sein Pfad gilt trotzdem",
+        help_en: "make it visible, or rename it if the path is no longer needed",
         help_de: "sichtbar machen oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
     }
     /// A turn marker without effect.
     TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
-        en: "this turn marker never acts",
-        de: "diese Wendemarke wirkt nie",
-        help_en: "a turn marker acts only where segments are left and none begins there: at the tip of a dead end",
-        help_de: "eine Wendemarke wirkt nur, wo noch Segmente übrig sind und keines weiterführt: an der Spitze einer Sackgasse",
+        en: "this turn marker has no effect",
+        de: "diese Wendemarke hat keine Wirkung",
+        help_en: "a turn marker has an effect only at the tip of a dead end: where no segment continues although others are left",
+        help_de: "eine Wendemarke wirkt nur an der Spitze einer Sackgasse: wo kein Segment weiterführt, obwohl noch welche übrig sind",
     }
     /// Ends that nearly meet and were joined.
     JOINED_ENDS: JoinedEnds {
         en: "two ends {distance} mm apart were joined",
         de: "zwei Enden im Abstand von {distance} mm wurden verbunden",
-        help_en: "snap the end to the other with the CAD's object snap; join-tolerance in pathbuild.toml allows it meanwhile",
-        help_de: "das Ende im CAD auf das andere fangen; join-tolerance in pathbuild.toml erlaubt es bis dahin",
+        help_en: "snap one end to the other with the CAD's object snap; until then, join-tolerance in pathbuild.toml allows the gap",
+        help_de: "das eine Ende mit dem Objektfang des CAD auf das andere setzen; join-tolerance in pathbuild.toml erlaubt die Lücke bis dahin",
     }
     /// A frozen or invisible layer with clamps.
     CLAMPS_NOT_VISIBLE: LayerNotVisible {
-        en: "a layer with clamps is frozen or off, but its clamps count all the same",
-        de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel zählen trotzdem",
-        help_en: "make it visible, or move the clamps that are gone to a layer that `keep-out` does not name",
+        en: "a layer with clamps is frozen or off, but its clamps are used nevertheless",
+        de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel gelten trotzdem",
+        help_en: "make it visible, or move clamps that no longer exist to a layer that `keep-out` does not name",
         help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
     }
     /// An open outline of a clamp.
     OUTLINE_OPEN: InvalidKeepOut {
-        en: "the outline of a clamp does not close: it ends at {point} and at {other}, {distance} mm apart",
+        en: "the outline of a clamp is not closed: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss eines Spannmittels ist nicht geschlossen: er endet bei {point} und bei {other}, {distance} mm auseinander",
         help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; the CAD's object snap joins them",
         help_de: "einen Kreis, eine geschlossene Polylinie oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
     }
     /// A point where more than two curves of clamps end.
     OUTLINE_BRANCHES: InvalidKeepOut {
-        en: "at {point} more than two lines or arcs of clamps meet: it is not clear what is inside",
+        en: "more than two lines or arcs of clamps meet at {point}: it is not clear what is inside",
         de: "bei {point} treffen sich mehr als zwei Linien oder Bögen von Spannmitteln: was innen liegt, ist nicht eindeutig",
-        help_en: "remove what is drawn twice; draw clamps that touch as closed polylines, each for itself",
-        help_de: "doppelt Gezeichnetes löschen; Spannmittel, die sich berühren, jeweils als geschlossene Polylinie zeichnen",
+        help_en: "delete duplicates; draw clamps that touch as separate closed polylines",
+        help_de: "doppelt Gezeichnetes löschen; Spannmittel, die sich berühren, als getrennte geschlossene Polylinien zeichnen",
     }
     /// A clamp without a height.
     CLAMP_WITHOUT_TEXT: InvalidKeepOut {
-        en: "no text says how high this clamp is",
-        de: "kein Text sagt, wie hoch dieses Spannmittel ist",
+        en: "no text gives the height of this clamp",
+        de: "kein Text gibt die Höhe dieses Spannmittels an",
         help_en: "put a text such as Z25 (mm above the plate) inside the outline, on the same layer",
         help_de: "einen Text wie Z25 (mm über der Platte) in den Umriss setzen, auf demselben Layer",
     }
@@ -256,27 +256,27 @@ messages! {
     CLAMP_WITH_TEXTS: InvalidKeepOut {
         en: "several texts are inside the outline of this clamp or overlap it: {texts}",
         de: "mehrere Texte liegen im Umriss dieses Spannmittels oder überlappen ihn: {texts}",
-        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and what is only a note to another layer",
+        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and move mere notes to another layer",
         help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
     }
     /// A text of a clamp that gives no height.
     NO_CLAMP_HEIGHT: InvalidKeepOut {
-        en: "the text \"{text}\" does not say how high this clamp is",
-        de: "der Text \"{text}\" sagt nicht, wie hoch dieses Spannmittel ist",
+        en: "the text \"{text}\" does not give the height of this clamp",
+        de: "der Text \"{text}\" gibt die Höhe dieses Spannmittels nicht an",
         help_en: "write Z and the height above the plate in mm, greater than 0, and nothing else: Z25",
         help_de: "Z und die Höhe über der Platte in mm schreiben, größer als 0, und sonst nichts: Z25",
     }
     /// A text on a layer with clamps that belongs to no clamp.
     TEXT_OUTSIDE_CLAMPS: InvalidKeepOut {
-        en: "the text \"{text}\" is on a layer with clamps, but inside the outline of none and overlaps none",
+        en: "the text \"{text}\" is on a layer with clamps, but neither inside an outline nor overlapping one",
         de: "der Text \"{text}\" ist auf einem Layer mit Spannmitteln, liegt aber in keinem Umriss und überlappt keinen",
-        help_en: "move it into the outline whose height it says, or to another layer",
-        help_de: "in den Umriss schieben, dessen Höhe er sagt, oder auf einen anderen Layer legen",
+        help_en: "move it into the outline whose height it gives, or to another layer",
+        help_de: "in den Umriss schieben, dessen Höhe er angibt, oder auf einen anderen Layer legen",
     }
     /// An unsupported curve on a layer with clamps.
     NO_OUTLINE: InvalidKeepOut {
-        en: "this {entity} on a layer with clamps is not understood, so it is not known where the clamp is",
-        de: "{entity} auf einem Layer mit Spannmitteln wird nicht verstanden; wo das Spannmittel ist, ist also nicht bekannt",
+        en: "this {entity} on a layer with clamps is not supported, so the position of the clamp is unknown",
+        de: "{entity} auf einem Layer mit Spannmitteln wird nicht unterstützt; die Lage des Spannmittels ist daher unbekannt",
         help_en: "draw the outline with lines, arcs, a circle or a closed polyline; `approximate-curves` in pathbuild.toml reads ellipses and splines",
         help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
     }
@@ -284,14 +284,14 @@ messages! {
     CLAMP_WITH_MANY_TEXTS: InvalidKeepOut {
         en: "{count} texts are inside the outline of this clamp or overlap it, the first are {texts}",
         de: "{count} Texte liegen im Umriss dieses Spannmittels oder überlappen ihn, die ersten sind {texts}",
-        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and what is only a note to another layer",
+        help_en: "each outline takes one text, its height; make the texts smaller or move them apart, and move mere notes to another layer",
         help_de: "zu jedem Umriss gehört ein Text, seine Höhe; die Texte verkleinern oder auseinanderschieben, bloße Notizen auf einen anderen Layer legen",
     }
     /// Too many elements around too many texts.
     TEXTS_IN_A_CROWD: LimitReached {
-        en: "too many elements lie around the texts of this path: the search for the element of each text was given up after {limit} comparisons",
+        en: "there are too many elements around the texts of this path: the search for the element of each text was stopped after {limit} comparisons",
         de: "um die Texte dieses Pfads liegen zu viele Elemente: die Suche nach dem Element jedes Textes wurde nach {limit} Vergleichen abgebrochen",
-        help_en: "make the texts smaller, or move them away from elements that are not theirs",
-        help_de: "die Texte verkleinern, oder sie von Elementen wegschieben, die nicht ihre sind",
+        help_en: "make the texts smaller, or move them away from elements that they do not belong to",
+        help_de: "die Texte verkleinern oder von Elementen wegschieben, zu denen sie nicht gehören",
     }
 }

@@ -10,15 +10,15 @@ messages! {
     }
     /// An unreadable directory.
     UNLISTABLE: UnreadableFile {
-        en: "cannot look into the directory: {reason}",
-        de: "das Verzeichnis lässt sich nicht einsehen: {reason}",
-        help_en: "give the user who runs pathbuild the right to read it; drawings in it may be missing here",
+        en: "cannot list the directory: {reason}",
+        de: "das Verzeichnis lässt sich nicht auflisten: {reason}",
+        help_en: "give the user who runs pathbuild permission to read it; drawings in it may be missing here",
         help_de: "dem Benutzer, der pathbuild aufruft, das Leserecht geben; hier können Zeichnungen daraus fehlen",
     }
     /// A drawing or directory whose name is not UTF-8.
     NAME_NOT_UTF_8: UnreadableFile {
-        en: "the name {name} in this directory is not in UTF-8; nothing under it is read",
-        de: "der Name {name} in diesem Verzeichnis ist nicht in UTF-8; was darunter steht, wird nicht gelesen",
+        en: "the name {name} in this directory is not valid UTF-8; the file or directory is not read",
+        de: "der Name {name} in diesem Verzeichnis ist kein gültiges UTF-8; die Datei oder das Verzeichnis wird nicht gelesen",
         help_en: "rename it",
         help_de: "umbenennen",
     }
@@ -59,8 +59,8 @@ messages! {
     WRONG_UNITS: WrongUnits {
         en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",
         de: "die Einheit der Zeichnung ist {unit}, nicht Millimeter ($INSUNITS ist {number})",
-        help_en: "set the drawing's units to millimetres, or `units` in pathbuild.toml: \"drawing\" converts, \"mm\" does not believe the header",
-        help_de: "die Einheit in der Zeichnung auf Millimeter stellen oder `units` in pathbuild.toml: \"drawing\" rechnet um, \"mm\" glaubt dem Kopf nicht",
+        help_en: "set the drawing's units to millimetres, or `units` in pathbuild.toml: \"drawing\" converts, \"mm\" ignores the header",
+        help_de: "die Einheit in der Zeichnung auf Millimeter stellen oder `units` in pathbuild.toml setzen: \"drawing\" rechnet um, \"mm\" beachtet den Kopf nicht",
     }
     /// A bug.
     INTERNAL: InternalError {
@@ -73,63 +73,63 @@ messages! {
     LIMIT: LimitReached {
         en: "{what} exceeds the limit of {limit}",
         de: "{what} überschreitet die Grenze von {limit}",
-        help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        help_en: "if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program with too many moves.
     TOO_MANY_MOVES: LimitReached {
-        en: "this path comes to {count} moves, which exceeds the limit of {limit}",
-        de: "dieser Pfad ergibt {count} Bewegungen, das überschreitet die Grenze von {limit}",
-        help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        en: "this path has {count} moves, which exceeds the limit of {limit}",
+        de: "dieser Pfad hat {count} Bewegungen und überschreitet damit die Grenze von {limit}",
+        help_en: "embed less in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program that would take too much memory.
     TOO_MUCH_MEMORY: LimitReached {
-        en: "this path comes to {count} moves, which take about {size} bytes of memory; the limit is {limit}",
-        de: "dieser Pfad ergibt {count} Bewegungen, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
-        help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        en: "this path has {count} moves, which take about {size} bytes of memory; the limit is {limit}",
+        de: "dieser Pfad hat {count} Bewegungen, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
+        help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// Ignore files that are too large in total.
     TOO_MANY_RULES: LimitReached {
-        en: "the .gitignore and .ignore files below {directory} have more than {limit} bytes together: nothing there is looked at",
-        de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: dort wird nichts angesehen",
+        en: "the .gitignore and .ignore files below {directory} have more than {limit} bytes together: the directory is skipped",
+        de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: das Verzeichnis wird übergangen",
         help_en: "name a directory further down; or raise `{key}` under [limits] in pathbuild.toml: all together may have 16 times as much",
         help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: zusammen darf es 16-mal so viel sein",
     }
     /// A line of output that is longer than any reader accepts, including this program.
     OUTPUT_LINE_TOO_LONG: LimitReached {
-        en: "line {line} of {name} comes to {length} bytes, which is more than {limit}; nothing is written",
-        de: "Zeile {line} von {name} wird {length} Byte lang, das ist mehr als {limit}; es wird nichts geschrieben",
+        en: "line {line} of {name} has {length} bytes, which exceeds the limit of {limit}; nothing is written",
+        de: "Zeile {line} von {name} hat {length} Byte und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
         help_en: "shorten the comment Q; with many probes, another `z-model` than \"plane\" writes four of them in a line",
         help_de: "den Kommentar Q kürzen; bei vielen Messpunkten schreibt ein anderes `z-model` als \"plane\" vier davon in eine Zeile",
     }
     /// A program that is too large to write.
     OUTPUT_TOO_LARGE: LimitReached {
-        en: "this program comes to more than {limit} bytes; it is not written",
-        de: "dieses Programm wird größer als {limit} Byte; es wird nicht geschrieben",
-        help_en: "check infeed I, depth B and the length of comments Q; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        en: "this program is larger than {limit} bytes; it is not written",
+        de: "dieses Programm ist größer als {limit} Byte; es wird nicht geschrieben",
+        help_en: "check infeed I, depth B and the length of comments Q; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I, Tiefe B und die Länge der Kommentare Q prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A setup sheet, a probing program or a file of measured values that is too large to write.
     FILE_TOO_LARGE: LimitReached {
-        en: "{name} comes to more than {limit} bytes; it is not written, nor is what belongs to it",
-        de: "{name} wird größer als {limit} Byte; das und was dazu gehört wird nicht geschrieben",
-        help_en: "if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        en: "{name} is larger than {limit} bytes; neither it nor the files that belong to it are written",
+        de: "{name} ist größer als {limit} Byte; weder diese Datei noch die zugehörigen werden geschrieben",
+        help_en: "if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program with too many paths.
     TOO_MANY_PATHS: LimitReached {
-        en: "the number of different paths (each with its values) that are embedded exceeds the limit of {limit}",
-        de: "die Zahl verschiedener Pfade (jeder mit seinen Werten), die eingebettet sind, überschreitet die Grenze von {limit}",
-        help_en: "embed less in one project; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        en: "the number of different embedded paths (each with its values) exceeds the limit of {limit}",
+        de: "die Zahl verschiedener eingebetteter Pfade (jeder mit seinen Werten) überschreitet die Grenze von {limit}",
+        help_en: "embed less in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "weniger in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A directory tree with too many entries.
     TOO_MANY_ENTRIES: LimitReached {
-        en: "there are more than {limit} files and directories below {directory}: nothing there is looked at",
-        de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: nichts davon wird angesehen",
-        help_en: "name a directory further down; or list what is no part of the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
+        en: "there are more than {limit} files and directories below {directory}: the directory is skipped",
+        de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: das Verzeichnis wird übergangen",
+        help_en: "name a directory further down; or list everything that does not belong to the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "ein Verzeichnis weiter unten nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A file that cannot be removed.
@@ -141,8 +141,8 @@ messages! {
     }
     /// A file name that would change the meaning of a make rule.
     UNNAMEABLE: CannotWrite {
-        en: "no rule for make can name {name}: it has one of `= % | * ? [`, begins with `~`, or ends with `)` or `\\`",
-        de: "keine Regel für make kann {name} nennen: darin steht `= % | * ?` oder `[`, am Anfang `~` oder am Ende `)` oder `\\`",
+        en: "{name} cannot be used in a make rule: it contains one of `= % | * ? [`, begins with `~`, or ends with `)` or `\\`",
+        de: "{name} kann in keiner make-Regel stehen: der Name enthält eines von `= % | * ? [`, beginnt mit `~` oder endet mit `)` oder `\\`",
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
@@ -155,9 +155,9 @@ messages! {
     }
     /// A program that is too long to read.
     PROGRAM_TOO_LONG: LimitReached {
-        en: "this program comes to more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
-        de: "dieses Programm ergibt mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
-        help_en: "check how often cycles repeat (L or K) and their step Q; or, if that is meant, raise `{key}` under [limits] in pathbuild.toml",
+        en: "this program has more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
+        de: "dieses Programm hat mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
+        help_en: "check how often cycles repeat (L or K) and their step Q; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "prüfen, wie oft Zyklen wiederholt werden (L oder K), und ihre Schrittweite Q; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
 }

@@ -7,21 +7,21 @@ messages! {
     ACTIVE_COMMENT: ActiveComment {
         en: "{dialect} obeys this comment: {word}",
         de: "{dialect} gehorcht diesem Kommentar: {word}",
-        help_en: "put another word in front, if it is only a remark",
+        help_en: "put another word in front if it is only a remark",
         help_de: "ein anderes Wort davorsetzen, wenn es nur eine Bemerkung ist",
     }
     /// A coordinate without a decimal point, such as `X10`, which may count as thousandths.
     NO_DECIMAL_POINT: DoubtfulSpelling {
-        en: "`{word}` has no decimal point: some controls of {dialect} count thousandths",
-        de: "`{word}` hat keinen Dezimalpunkt: manche Steuerungen von {dialect} zählen Tausendstel",
+        en: "`{word}` has no decimal point: some {dialect} controllers read it as thousandths",
+        de: "`{word}` hat keinen Dezimalpunkt: manche Steuerungen mit {dialect} lesen das als Tausendstel",
         help_en: "write `{word}.`",
         help_de: "`{word}.` schreiben",
     }
     /// Lower-case words such as `g0 f1000`, where only upper case is accepted.
     SMALL_LETTER: UnknownWord {
-        en: "common builds of {dialect} do not read small letters: write {letter}",
+        en: "common builds of {dialect} do not read lower-case letters: write {letter}",
         de: "übliche Ausgaben von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
-        help_en: "write all words in capitals",
+        help_en: "write all words in upper case",
         help_de: "alle Wörter in Großbuchstaben schreiben",
     }
     /// A CR inside a line that ends with LF.
@@ -147,8 +147,8 @@ messages! {
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool's length is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
-        help_en: "G43 H with the number that M6 put in; none in the native program",
-        help_de: "G43 H mit der Nummer, die M6 eingewechselt hat; im eigenen Programm keine",
+        help_en: "use G43 H with the number of the tool that M6 changed to; native programs use none",
+        help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht keines",
     }
     /// `verify --against`: another spindle direction or speed.
     SPINDLES_DIFFER: MovesDiffer {
@@ -180,21 +180,21 @@ messages! {
     }
     /// `M3 S0`.
     SPINDLE_WITHOUT_SPEED: SpindleOff {
-        en: "a cutting move with the spindle at speed 0",
-        de: "eine Fräsbewegung bei Spindeldrehzahl 0",
+        en: "this is a cutting move with the spindle at speed 0",
+        de: "das ist eine Fräsbewegung bei Spindeldrehzahl 0",
         help_en: "write the speed with S: `M3 S12000`",
         help_de: "die Drehzahl mit S angeben: `M3 S12000`",
     }
     /// An offset by G92 or G52 that is active at the end.
     OFFSET_LEFT_ON: OffsetLeftOn {
-        en: "{word} still holds at the end: the next program begins elsewhere",
-        de: "{word} gilt am Ende noch: das nächste Programm beginnt anderswo",
+        en: "{word} is still active at the end, so the next program starts elsewhere",
+        de: "{word} ist am Ende noch aktiv, das nächste Programm beginnt daher anderswo",
         help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
         help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
     }
     /// A file that does not look like G-code.
     NOT_G_CODE: NotGCode {
-        en: "this is no G-code: {found}",
+        en: "this is not G-code: {found}",
         de: "das ist kein G-Code: {found}",
         help_en: "name a program for the machine, a text file with words such as G01 X10",
         help_de: "ein Programm für die Maschine nennen, eine Textdatei mit Wörtern wie G01 X10",
@@ -208,7 +208,7 @@ messages! {
     }
     /// A character that cannot begin a word and that the dialect ignores.
     UNKNOWN_CHARACTER_PASSED: UnknownCharacter {
-        en: "`{found}` begins no word; it is passed over",
+        en: "`{found}` begins no word; it is ignored",
         de: "mit `{found}` beginnt kein Wort; es wird übergangen",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
@@ -222,7 +222,7 @@ messages! {
     }
     /// A malformed number such as `X1.2.3`.
     NO_NUMBER: InvalidWord {
-        en: "`{found}` is no number; the line is left out",
+        en: "`{found}` is not a number; the line is left out",
         de: "`{found}` ist keine Zahl; die Zeile bleibt unbeachtet",
         help_en: "numbers have a sign, digits and at most one point",
         help_de: "Zahlen bestehen aus Vorzeichen, Ziffern und höchstens einem Punkt",
@@ -250,8 +250,8 @@ messages! {
     }
     /// A comment inside a comment.
     NESTED_COMMENT: InvalidComment {
-        en: "a comment within a comment; the line is left out",
-        de: "ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
+        en: "this is a comment within a comment; the line is left out",
+        de: "das ist ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
         help_en: "write `[` and `]` within comments: {dialect} stops here",
         help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt hier stehen",
     }
@@ -292,8 +292,8 @@ messages! {
     }
     /// A line that is too long for the controller.
     LINE_TOO_LONG: LongLine {
-        en: "the line has {length} characters; {dialect} takes {most}",
-        de: "die Zeile hat {length} Zeichen; {dialect} nimmt {most}",
+        en: "the line has {length} characters; {dialect} accepts {most}",
+        de: "die Zeile hat {length} Zeichen; {dialect} nimmt höchstens {most} an",
         help_en: "split the line, or shorten its comments",
         help_de: "die Zeile teilen oder ihre Kommentare kürzen",
     }
@@ -306,15 +306,15 @@ messages! {
     }
     /// A space inside a number: `X1 2` means X12.
     BLANK_IN_NUMBER: DoubtfulSpelling {
-        en: "blanks mean nothing in G-code: this is read as {letter}{number}",
-        de: "Leerzeichen bedeuten in G-Code nichts: das wird als {letter}{number} gelesen",
+        en: "spaces have no meaning in G-code: this is read as {letter}{number}",
+        de: "Leerzeichen haben in G-Code keine Bedeutung: das wird als {letter}{number} gelesen",
         help_en: "if two words are meant, the second one's letter is missing",
         help_de: "wenn zwei Wörter gemeint sind, fehlt der Buchstabe des zweiten",
     }
     /// A space between letter and number in a dialect that may not accept it.
     BLANK_AFTER_LETTER: DoubtfulSpelling {
-        en: "a blank between letter and number: {dialect} may not take it",
-        de: "ein Leerzeichen zwischen Buchstabe und Zahl: {dialect} nimmt das vielleicht nicht",
+        en: "there is a space between letter and number, which {dialect} may not accept",
+        de: "zwischen Buchstabe und Zahl steht ein Leerzeichen, das {dialect} vielleicht nicht annimmt",
         help_en: "write the number right behind the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
@@ -334,8 +334,8 @@ messages! {
     }
     /// Text after `%`.
     TEXT_AFTER_PERCENT: DoubtfulSpelling {
-        en: "text behind `%` is taken as a comment",
-        de: "Text hinter `%` wird als Kommentar genommen",
+        en: "text behind `%` is read as a comment",
+        de: "Text hinter `%` wird als Kommentar gelesen",
         help_en: "leave `%` alone in its line",
         help_de: "`%` allein in der Zeile lassen",
     }
@@ -432,14 +432,14 @@ messages! {
     }
     /// A word that the dialect knows but ignores.
     IGNORED: IgnoredWord {
-        en: "{dialect} passes over {word}",
+        en: "{dialect} ignores {word}",
         de: "{dialect} übergeht {word}",
         help_en: "remove it, or switch it by hand",
         help_de: "entfernen oder von Hand schalten",
     }
     /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
-        en: "F is passed over, as asked: the layers' feeds hold",
+        en: "F is ignored as requested: the layers' feeds apply",
         de: "F wird wie verlangt übergangen: es gilt der Vorschub der Ebenen",
     }
     /// A speed that replaces an earlier one of the same layer.
@@ -458,7 +458,7 @@ messages! {
     }
     /// A repeated letter.
     LETTER_TWICE: ConflictingWords {
-        en: "{letter} is there twice in one line",
+        en: "{letter} occurs twice in one line",
         de: "{letter} kommt in einer Zeile zweimal vor",
         help_en: "put the second into a line of its own; a letter may be missing between them",
         help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt dazwischen ein Buchstabe",
@@ -479,8 +479,8 @@ messages! {
     }
     /// Coordinates without a motion mode.
     NO_MOTION: MissingWord {
-        en: "coordinates without a motion: none of G0 to G3 holds here",
-        de: "Koordinaten ohne Bewegung: hier gilt keines von G0 bis G3",
+        en: "there are coordinates without a motion: none of G0 to G3 is active here",
+        de: "hier stehen Koordinaten ohne Bewegung: keines von G0 bis G3 ist aktiv",
         help_en: "put G0 or G1 in front",
         help_de: "G0 oder G1 davorsetzen",
     }
@@ -519,8 +519,8 @@ messages! {
     }
     /// A parameter whose value only the machine knows.
     MACHINE_VALUE: MachineValue {
-        en: "only the machine knows #{parameter}; {value} is taken for it",
-        de: "nur die Maschine kennt #{parameter}; {value} wird dafür genommen",
+        en: "only the machine knows #{parameter}; {value} is assumed",
+        de: "nur die Maschine kennt #{parameter}; {value} wird angenommen",
         help_en: "what depends on it can be different at the machine",
         help_de: "was davon abhängt, kann an der Maschine anders sein",
     }
@@ -540,8 +540,8 @@ messages! {
     }
     /// A program that does not state its unit.
     UNITS_NOT_STATED: UnitsNotStated {
-        en: "no {inch} or {mm} before the first move; millimetres are taken",
-        de: "kein {inch} oder {mm} vor der ersten Bewegung; Millimeter werden angenommen",
+        en: "there is no {inch} or {mm} before the first move; millimetres are assumed",
+        de: "vor der ersten Bewegung fehlt {inch} oder {mm}; Millimeter werden angenommen",
         help_en: "state the unit: the control keeps that of the program before",
         help_de: "die Einheit angeben: die Steuerung behält die des vorigen Programms",
     }
@@ -554,8 +554,8 @@ messages! {
     }
     /// A program that does not state a mode such as G90 or G17.
     MODES_NOT_STATED: ModesNotStated {
-        en: "no {words} before the first move that depends on it; {taken} is taken",
-        de: "kein {words} vor der ersten Bewegung, die davon abhängt; {taken} wird angenommen",
+        en: "there is no {words} before the first move that depends on it; {taken} is assumed",
+        de: "vor der ersten Bewegung, die davon abhängt, fehlt {words}; {taken} wird angenommen",
         help_en: "state it: the control keeps that of the program before",
         help_de: "angeben: die Steuerung behält, was das vorige Programm gesetzt hat",
     }
@@ -603,8 +603,8 @@ messages! {
     }
     /// A formula in a program without probes.
     FORMULA_WITHOUT_PROBES: UncheckedFormula {
-        en: "a correction formula in a program without probes",
-        de: "eine Korrekturformel in einem Programm ohne Proben",
+        en: "the program has a correction formula, but no probes",
+        de: "das Programm hat eine Korrekturformel, aber keine Proben",
         help_en: "the program was edited: emit it again",
         help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
     }
@@ -640,7 +640,7 @@ messages! {
     OTHER_CUTTER_IN_TABLE: Disagreement {
         en: "the header says O{header}; T{index} of `[tool]` is {table} mm wide",
         de: "der Kopf sagt O{header}; T{index} in `[tool]` ist {table} mm breit",
-        help_en: "put the cutter in that the header names, or correct `[tool]`",
+        help_en: "use the cutter named in the header, or correct `[tool]`",
         help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen",
     }
     /// A cutter in the header that differs from that of an option.
@@ -687,22 +687,22 @@ messages! {
     }
     /// A helix in a dialect that may not support it.
     HELIX_DOUBTFUL: DoubtfulArc {
-        en: "an arc with Z: {dialect} is not known to take it",
-        de: "ein Bogen mit Z: von {dialect} ist nicht bekannt, dass es das nimmt",
+        en: "this is an arc with Z, which {dialect} is not known to accept",
+        de: "das ist ein Bogen mit Z, und es ist nicht bekannt, ob {dialect} das annimmt",
         help_en: "write short lines instead",
         help_de: "stattdessen kurze Strecken schreiben",
     }
     /// A cut without a feed.
     NO_FEED: MissingFeed {
-        en: "a cutting move without a feed",
-        de: "eine Fräsbewegung ohne Vorschub",
+        en: "this cutting move has no feed",
+        de: "diese Fräsbewegung hat keinen Vorschub",
         help_en: "write F in this line or before",
         help_de: "F in diese Zeile oder davor schreiben",
     }
     /// A cut without a feed after G94 cleared it.
     FEED_CLEARED: MissingFeed {
-        en: "a cutting move without a feed: {word} in line {line} has cleared F",
-        de: "eine Fräsbewegung ohne Vorschub: {word} in Zeile {line} hat F gelöscht",
+        en: "this cutting move has no feed: {word} in line {line} has cleared F",
+        de: "diese Fräsbewegung hat keinen Vorschub: {word} in Zeile {line} hat F gelöscht",
         help_en: "write F behind {word}",
         help_de: "F nach {word} schreiben",
     }
@@ -722,8 +722,8 @@ messages! {
     }
     /// An arc with different radii at its ends.
     RADII_DIFFER: ArcRadiiDiffer {
-        en: "the arc begins with the radius {start} and ends with {end}: {difference} mm more than {dialect} takes",
-        de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: {difference} mm mehr, als {dialect} nimmt",
+        en: "the arc begins with the radius {start} and ends with {end}: the difference is {difference} mm more than {dialect} accepts",
+        de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: der Unterschied ist {difference} mm größer, als {dialect} annimmt",
         help_en: "write I and J with more decimals, or check the centre",
         help_de: "I und J mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
     }
@@ -734,8 +734,8 @@ messages! {
     }
     /// An arc with both centre and radius.
     ARC_WITH_CENTRE_AND_RADIUS: InvalidArc {
-        en: "an arc with R and {centre}: one of them says otherwise than the other",
-        de: "ein Bogen mit R und {centre}: eins von beiden sagt anderes als das andere",
+        en: "the arc has both R and {centre}, which contradict each other",
+        de: "der Bogen hat R und {centre}, die einander widersprechen",
         help_en: "keep I and J: they are more exact",
         help_de: "I und J behalten: sie sind genauer",
     }
@@ -839,8 +839,8 @@ messages! {
     }
     /// A cut with the spindle off.
     SPINDLE_OFF: SpindleOff {
-        en: "a cutting move with the spindle off",
-        de: "eine Fräsbewegung bei stehender Spindel",
+        en: "this is a cutting move with the spindle off",
+        de: "das ist eine Fräsbewegung bei stehender Spindel",
         help_en: "switch it on with M3 before; a program without M3 to M5 is not asked for it",
         help_de: "sie vorher mit M3 einschalten; von einem Programm ohne M3 bis M5 wird das nicht verlangt",
     }
@@ -874,15 +874,15 @@ messages! {
     }
     /// A feed that exceeds the limit of an axis.
     FEED_TOO_HIGH: FeedTooHigh {
-        en: "a feed of {feed} mm/min, {axis} of which are more than the machine's {most}",
-        de: "ein Vorschub von {feed} mm/min, der in {axis} mehr ist als die {most} der Maschine",
+        en: "feed {feed} mm/min exceeds the machine's maximum of {most} in {axis}",
+        de: "der Vorschub {feed} mm/min überschreitet in {axis} das Maximum der Maschine von {most}",
         help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
         help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder die Geschwindigkeit unter [machine]",
     }
     /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MOST: FeedTooHigh {
-        en: "a feed of {feed} mm/min; the machine's largest is {most}",
-        de: "ein Vorschub von {feed} mm/min; der größte der Maschine ist {most}",
+        en: "feed {feed} mm/min exceeds the machine's maximum of {most}",
+        de: "der Vorschub {feed} mm/min überschreitet das Maximum der Maschine von {most}",
         help_en: "the control slows down, and times are longer; change F, or `maximum-feed` under [machine]",
         help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder `maximum-feed` unter [machine]",
     }
@@ -902,15 +902,15 @@ messages! {
     }
     /// A tool change below the surface.
     TOOL_CHANGE_AT_DEPTH: ToolChangeAtDepth {
-        en: "a tool change at Z {z}, below the material's surface at {surface}",
-        de: "ein Werkzeugwechsel auf Z {z}, unter der Oberfläche des Materials bei {surface}",
+        en: "the tool is changed at Z {z}, below the material's surface at {surface}",
+        de: "das Werkzeug wird auf Z {z} gewechselt, unter der Oberfläche des Materials bei {surface}",
         help_en: "raise the cutter before M6",
         help_de: "den Fräser vor M6 anheben",
     }
     /// A probing move that does not go down.
     USELESS_PROBE: UselessProbe {
-        en: "the probing move does not go down: it meets nothing",
-        de: "die Messbewegung führt nicht nach unten: sie trifft nichts",
+        en: "the probing move does not go down, so it touches nothing",
+        de: "die Messbewegung führt nicht nach unten und berührt daher nichts",
         help_en: "probe towards the material; G38.4 and G38.5 go away from it",
         help_de: "zum Material hin messen; G38.4 und G38.5 führen von ihm weg",
     }
@@ -953,12 +953,12 @@ messages! {
     }
     /// Note: one more occurrence is not shown.
     ONE_MORE: DoubtfulSpelling {
-        en: "this is said of one more line, which is not shown",
+        en: "the same applies to one more line, which is not shown",
         de: "das gilt für eine weitere Zeile, die nicht gezeigt wird",
     }
     /// Note: further occurrences are not shown.
     MORE: DoubtfulSpelling {
-        en: "this is said of {count} more lines, which are not shown",
+        en: "the same applies to {count} more lines, which are not shown",
         de: "das gilt für {count} weitere Zeilen, die nicht gezeigt werden",
     }
 }

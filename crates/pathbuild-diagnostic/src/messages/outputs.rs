@@ -3,14 +3,14 @@
 messages! {
     /// A drawing with several paths where one is needed.
     SEVERAL_PATHS: SeveralPaths {
-        en: "the drawing holds several paths: {names}",
+        en: "the drawing contains several paths: {names}",
         de: "die Zeichnung enthält mehrere Pfade: {names}",
         help_en: "name the paths to emit: pathbuild emit {first}",
         help_de: "die gewünschten Pfade nennen: pathbuild emit {first}",
     }
     /// A drawing without a path.
     NO_PATH: NoPath {
-        en: "the drawing holds no path",
+        en: "the drawing contains no path",
         de: "die Zeichnung enthält keinen Pfad",
         help_en: "a path's layer has a name that matches {pattern}",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht",
@@ -24,8 +24,8 @@ messages! {
     }
     /// Drawings without paths.
     NO_PATH_ANYWHERE: NothingFound {
-        en: "none of the drawings holds a path; drawings: {count}",
-        de: "keine der Zeichnungen enthält einen Pfad; Zeichnungen: {count}",
+        en: "none of the {count} drawings contains a path",
+        de: "keine der {count} Zeichnungen enthält einen Pfad",
         help_en: "a path's layer has a name that matches {pattern}; `path-pattern` in pathbuild.toml sets another pattern",
         help_de: "der Layer eines Pfads hat einen Namen, der {pattern} entspricht; `path-pattern` in pathbuild.toml setzt ein anderes Muster",
     }
@@ -88,22 +88,22 @@ messages! {
     }
     /// An output file that would no longer be written.
     STALE: StaleOutput {
-        en: "{name} was written earlier, and nothing would write it now",
-        de: "{name} wurde früher geschrieben, jetzt würde es nichts mehr schreiben",
-        help_en: "check that nobody needs it; emit --remove-stale removes such files",
-        help_de: "prüfen, ob es noch jemand braucht; emit --remove-stale entfernt solche Dateien",
+        en: "{name} was written earlier, but no path would write it now",
+        de: "{name} wurde früher geschrieben, aber kein Pfad würde es jetzt noch schreiben",
+        help_en: "check that it is no longer needed; emit --remove-stale removes such files",
+        help_de: "prüfen, ob es noch gebraucht wird; emit --remove-stale entfernt solche Dateien",
     }
     /// An output file that is older than the errors in its path.
     OLDER_OUTPUT: OlderOutput {
-        en: "path {path} was not written, and {name} is older",
-        de: "Pfad {path} wurde nicht geschrieben, und {name} ist älter",
-        help_en: "do not mill from {name} before the path's errors are fixed and it is written anew",
-        help_de: "nicht nach {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
+        en: "path {path} was not written, so {name} is out of date",
+        de: "Pfad {path} wurde nicht geschrieben, {name} ist daher veraltet",
+        help_en: "do not mill with {name} before the path's errors are fixed and it is written again",
+        help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
     /// A corrected program that was made from an older program.
     STALE_ADJUSTED: StaleOutput {
-        en: "{name} was made from another program than {clean} is now",
-        de: "{name} wurde aus einem anderen Programm gemacht, als {clean} jetzt ist",
+        en: "{name} was made from an older version of {clean}",
+        de: "{name} wurde aus einer älteren Fassung von {clean} gemacht",
         help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
     }
@@ -132,26 +132,26 @@ messages! {
     LACKS_PATH: QProjectLacksPath {
         en: "the Q-project does not embed path {name} of {drawing}",
         de: "das Q-Projekt bettet Pfad {name} aus {drawing} nicht ein",
-        help_en: "add it, or write the Q-project anew: pathbuild q-project {drawing}",
+        help_en: "add it, or write the Q-project again: pathbuild q-project {drawing}",
         help_de: "ihn hinzufügen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A value that differs from that of the proxy line.
     Q_VALUE_DIFFERS: QProjectDiffers {
         en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
         de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
-        help_en: "make both agree, or write the Q-project anew: pathbuild q-project {drawing}",
+        help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
         help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A length that differs from that of the proxy line.
     Q_LENGTH_DIFFERS: QProjectDiffers {
-        en: "the segment is {here} mm long, the proxy line of path {name} in {drawing} {there} mm",
-        de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} {there} mm",
-        help_en: "make both agree, or write the Q-project anew: pathbuild q-project {drawing}",
+        en: "the segment is {here} mm long, but the proxy line of path {name} in {drawing} is {there} mm long",
+        de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} aber {there} mm",
+        help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
         help_de: "beide in Übereinstimmung bringen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A proxy line for a path that does not exist.
     PROXY_OF_NOTHING: ProxyDiffers {
-        en: "the proxy line names {name}, which is no path of this drawing",
+        en: "the proxy line names {name}, which is not a path of this drawing",
         de: "die Stellvertreterlinie nennt {name}, das kein Pfad dieser Zeichnung ist",
         help_en: "the drawing's paths: {names}",
         help_de: "die Pfade der Zeichnung: {names}",

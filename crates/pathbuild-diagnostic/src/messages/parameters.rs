@@ -3,22 +3,22 @@
 messages! {
     /// A required value that is neither given nor inherited.
     MISSING: MissingParameter {
-        en: "{letter} missing",
+        en: "{letter} is missing",
         de: "{letter} fehlt",
         help_en: "{element} needs {letter}: write it on the element, or on the path's start marker",
         help_de: "{element} braucht {letter}: ans Element schreiben oder an die Anfangsmarke des Pfads",
     }
     /// A path without O or T.
     MISSING_AT_START: MissingParameter {
-        en: "{letter} missing at the path's start",
+        en: "{letter} is missing at the path's start",
         de: "{letter} fehlt am Pfadanfang",
         help_en: "every path needs O (cutter diameter) and T (thickness of the material) in the text of its start marker",
         help_de: "jeder Pfad braucht O (Fräserdurchmesser) und T (Materialdicke) im Text seiner Anfangsmarke",
     }
     /// A missing M where a path is embedded.
     MISSING_MATERIAL: MissingParameter {
-        en: "M missing: no material on {where}",
-        de: "M fehlt: kein Material bei {where}",
+        en: "M is missing: no material is given on {where}",
+        de: "M fehlt: bei {where} ist kein Material angegeben",
         help_en: "where a path is embedded, both it and the segment (or the embedding path) must name the material",
         help_de: "wo ein Pfad eingebettet wird, müssen er und das Segment (oder der einbettende Pfad) das Material nennen",
     }
@@ -52,7 +52,7 @@ messages! {
     }
     /// A text that is a remark.
     REMARK: UnknownParameter {
-        en: "\"{text}\" looks like a remark and holds no parameters",
+        en: "\"{text}\" looks like a remark and contains no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
         help_en: "move a remark to a layer that is no path layer; Q puts a comment into the program",
         help_de: "eine Bemerkung auf einen Layer legen, der kein Pfad-Layer ist; mit Q kommt ein Kommentar ins Programm",
@@ -61,27 +61,27 @@ messages! {
     ZERO_FOR_O: UnknownParameter {
         en: "{element} does not know \"0\"",
         de: "{element} kennt \"0\" nicht",
-        help_en: "a zero for the letter O? write \"{meant}\"",
-        help_de: "eine Null statt des Buchstabens O? \"{meant}\" schreiben",
+        help_en: "if the zero is meant as the letter O, write \"{meant}\"",
+        help_de: "ist die Null als Buchstabe O gemeint, \"{meant}\" schreiben",
     }
     /// A path name without `>`.
     NAME_WITHOUT_SIGN: UnknownParameter {
-        en: "a path's name without \">\" before it",
-        de: "ein Pfadname ohne \">\" davor",
+        en: "this is a path's name without \">\" before it",
+        de: "das ist ein Pfadname ohne \">\" davor",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
     /// A space between a letter and its number.
     VALUE_APART: UnknownParameter {
-        en: "a blank separates a letter from its value",
-        de: "ein Leerzeichen trennt einen Buchstaben von seinem Wert",
+        en: "there is a space between a letter and its value",
+        de: "zwischen einem Buchstaben und seinem Wert steht ein Leerzeichen",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
     /// A space between `>` and the name.
     NAME_APART_FROM_SIGN: UnknownParameter {
-        en: "a blank separates \">\" from the path's name",
-        de: "ein Leerzeichen trennt \">\" vom Namen des Pfads",
+        en: "there is a space between \">\" and the path's name",
+        de: "zwischen \">\" und dem Namen des Pfads steht ein Leerzeichen",
         help_en: "write \"{meant}\"",
         help_de: "\"{meant}\" schreiben",
     }
@@ -122,7 +122,7 @@ messages! {
     }
     /// Sweepless milling that begins above the surface.
     FIRST_DEPTH_IN_AIR: DoubtfulValue {
-        en: "W is {value}, above the surface T of {thickness}: the first pass mills air",
+        en: "W is {value}, above the surface T of {thickness}: the first pass cuts air",
         de: "W ist {value} und liegt über der Oberfläche T von {thickness}: der erste Durchgang fräst in der Luft",
         help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
         help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
@@ -157,36 +157,36 @@ messages! {
     }
     /// Marks with the path's D that cut through most of the material.
     DEEP_MARKS_OF_PATH: DoubtfulValue {
-        en: "marks without D have this one, {value}: they are {depth} mm deep in material of {thickness} mm",
-        de: "Markierungen ohne D haben dieses, {value}: sie sind {depth} mm tief in Material von {thickness} mm",
+        en: "marks without D of their own use {value}: they are {depth} mm deep in material of {thickness} mm",
+        de: "Markierungen ohne eigenes D verwenden {value}: sie sind {depth} mm tief in Material von {thickness} mm",
         help_en: "where this D is that of support bars, give each mark its own: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
         help_de: "wo dieses D das der Stützstege ist, jeder Markierung ein eigenes geben: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
     }
     /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MACHINE: DoubtfulValue {
-        en: "F is {value}, but the machine's largest feed is {limit}",
+        en: "F is {value}, but the machine's maximum feed is {limit}",
         de: "F ist {value}, der größte Vorschub der Maschine ist aber {limit}",
         help_en: "correct F, or `maximum-feed` under [machine]",
         help_de: "F berichtigen oder `maximum-feed` unter [machine]",
     }
     /// A feed from an option that exceeds the limit of the machine.
     FALLBACK_FEED_ABOVE_MACHINE: DoubtfulValue {
-        en: "the feed {value} that holds for this path, which has no F, is above the machine's largest, {limit}",
-        de: "der Vorschub {value}, der für diesen Pfad ohne F gilt, liegt über dem größten der Maschine, {limit}",
+        en: "the path has no F, and the feed {value} used for it exceeds the machine's maximum of {limit}",
+        de: "der Pfad hat kein F, und der für ihn geltende Vorschub {value} überschreitet das Maximum der Maschine von {limit}",
         help_en: "lower `feed` (--feed), write F into the path, or correct `maximum-feed` under [machine]",
         help_de: "`feed` (--feed) senken, F in den Pfad schreiben oder `maximum-feed` unter [machine] berichtigen",
     }
     /// A default sweep height that is too low.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
-        en: "the sweep height {value} that holds for this path is not greater than T, which is {limit}",
+        en: "the sweep height {value} used for this path is not greater than T, which is {limit}",
         de: "die für diesen Pfad geltende Leerfahrthöhe {value} ist nicht größer als T mit {limit}",
         help_en: "give the path an S, or raise sweep-height",
         help_de: "dem Pfad ein S geben oder sweep-height erhöhen",
     }
     /// Material or a probe that H raises to the sweep height.
     RAISED_INTO_SWEEPS: ParameterOutOfRange {
-        en: "what stands here reaches up to {limit}, and sweeps of this path run at {value}: rapid moves would run into it",
-        de: "was hier steht, reicht bis {limit}, und Leerfahrten dieses Pfades laufen auf {value}: Eilgangbewegungen führen hinein",
+        en: "the material here reaches up to {limit}, but this path sweeps at {value}: rapid moves would hit it",
+        de: "das Material hier reicht bis {limit}, die Leerfahrten dieses Pfads laufen aber auf {value}: Eilgangbewegungen würden damit kollidieren",
         help_en: "give this path a greater S, or raise the material less (H)",
         help_de: "diesem Pfad ein größeres S geben oder das Material weniger anheben (H)",
     }
@@ -222,7 +222,7 @@ messages! {
     NON_BREAKING_SPACE: NotANumber {
         en: "{letter} needs a number, not \"{value}\": \u{2423} is a non-breaking space, which separates nothing",
         de: "{letter} braucht eine Zahl, nicht \"{value}\": \u{2423} ist ein geschütztes Leerzeichen und trennt nicht",
-        help_en: "type a plain blank in its place",
+        help_en: "type an ordinary space instead",
         help_de: "dafür ein gewöhnliches Leerzeichen schreiben",
     }
     /// A value that is not an integer.

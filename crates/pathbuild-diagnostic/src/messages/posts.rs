@@ -10,8 +10,8 @@ messages! {
     }
     /// A definition with a byte order mark of UTF-16 and malformed content.
     POST_NOT_UTF16: InvalidPost {
-        en: "the definition begins as UTF-16 text, but is none",
-        de: "die Definition beginnt wie UTF-16-Text, ist aber keiner",
+        en: "the definition begins like UTF-16 text, but is not valid UTF-16",
+        de: "die Definition beginnt wie UTF-16-Text, ist aber kein gültiges UTF-16",
         help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
         help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
     }
@@ -24,8 +24,8 @@ messages! {
     }
     /// A macro without `$`, such as `{units}`.
     MACRO_WITHOUT_SIGN: UnknownMacro {
-        en: "{macro} in {section} would be written as it stands",
-        de: "{macro} in {section} würde so geschrieben, wie es dasteht",
+        en: "{macro} in {section} would be written literally",
+        de: "{macro} in {section} würde wörtlich geschrieben",
         help_en: "a macro has a dollar sign: {nearest}",
         help_de: "ein Makro hat ein Dollarzeichen: {nearest}",
     }
@@ -36,20 +36,20 @@ messages! {
     }
     /// A definition that is too large.
     POST_TOO_LARGE: InvalidPost {
-        en: "the definition has {size} bytes; {limit} is the limit",
-        de: "die Definition hat {size} Bytes; {limit} ist die Grenze",
+        en: "the definition has {size} bytes; the limit is {limit}",
+        de: "die Definition hat {size} Bytes; die Grenze ist {limit}",
     }
     /// An XML file with another root element.
     POST_WRONG_ROOT: InvalidPost {
-        en: "the file holds <{found}>, not <PostProcessor>",
+        en: "the file contains <{found}>, not <PostProcessor>",
         de: "die Datei enthält <{found}>, nicht <PostProcessor>",
         help_en: "a CamBam definition begins with <PostProcessor>",
         help_de: "eine CamBam-Definition beginnt mit <PostProcessor>",
     }
     /// An invalid value of an option.
     POST_OPTION: InvalidPost {
-        en: "{option} is \"{value}\", not {expected}",
-        de: "{option} ist \"{value}\", nicht {expected}",
+        en: "{option} is \"{value}\", but must be {expected}",
+        de: "{option} ist \"{value}\", muss aber {expected} sein",
     }
     /// An unclosed macro.
     POST_UNCLOSED_MACRO: InvalidPost {
@@ -79,24 +79,24 @@ messages! {
     }
     /// An element that neither CamBam nor pathbuild knows.
     POST_UNKNOWN_ELEMENT: DoubtfulPost {
-        en: "<{element}> is not known and left out",
+        en: "<{element}> is unknown and ignored",
         de: "<{element}> ist unbekannt und wird übergangen",
     }
     /// A repeated element.
     POST_REPEATED_ELEMENT: DoubtfulPost {
-        en: "<{element}> stands here again; the last one holds",
-        de: "<{element}> steht hier noch einmal; das letzte gilt",
+        en: "<{element}> occurs again; the last one applies",
+        de: "<{element}> kommt noch einmal vor; das letzte gilt",
     }
     /// A malformed line of `PostProcessorMacros`.
     POST_MACRO_LINE: DoubtfulPost {
-        en: "\"{text}\" defines no macro and is left out",
+        en: "\"{text}\" defines no macro and is ignored",
         de: "\"{text}\" definiert kein Makro und wird übergangen",
         help_en: "a macro is defined as $name=value",
         help_de: "ein Makro wird als $name=Wert definiert",
     }
     /// A user macro with the name of a built-in one.
     POST_SHADOWED_MACRO: DoubtfulPost {
-        en: "{macro} is built in; its definition is left out",
+        en: "{macro} is built in; its definition is ignored",
         de: "{macro} ist eingebaut; die Definition wird übergangen",
     }
     /// Macros that contain each other.
@@ -106,8 +106,8 @@ messages! {
     }
     /// A section that contains itself, such as `{$mops}` in MOP.
     BLOCK_WITHIN_ITSELF: EndlessMacro {
-        en: "{macro} in {section}: this section is itself a part of what {macro} stands for",
-        de: "{macro} in {section}: dieser Abschnitt ist selbst ein Teil dessen, wofür {macro} steht",
+        en: "{macro} in {section}: this section is itself part of the text that {macro} stands for",
+        de: "{macro} in {section}: dieser Abschnitt ist selbst ein Teil des Textes, für den {macro} steht",
         help_en: "$mops belongs into PostFile, $blocks into MOP, once each",
         help_de: "$mops gehört in PostFile, $blocks in MOP, je einmal",
     }
@@ -141,8 +141,8 @@ messages! {
     VALUE_MISSING_OPEN: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
-        help_en: "no drawing says it: write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros",
-        help_de: "keine Zeichnung sagt ihn: \"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben",
+        help_en: "drawings do not contain it: write \"{name}\" = \"...\" under [macros] of pathbuild.toml, or ${name}=... in PostProcessorMacros",
+        help_de: "Zeichnungen enthalten ihn nicht: \"{name}\" = \"...\" unter [macros] in pathbuild.toml oder ${name}=... in PostProcessorMacros schreiben",
     }
     /// A hole for which nothing is written.
     DRILLING_LOST: LostDrilling {
@@ -167,8 +167,8 @@ messages! {
     }
     /// A line of output that is not G-code.
     LINE_UNREADABLE: UnreadableLine {
-        en: "the post writes \"{line}\", which is no G-code; what it does to the machine is not followed",
-        de: "der Postprozessor schreibt \"{line}\", das kein G-Code ist; was es an der Maschine bewirkt, wird nicht verfolgt",
+        en: "the post writes \"{line}\", which is not G-code; its effect on the machine is unknown",
+        de: "der Postprozessor schreibt \"{line}\", das kein G-Code ist; seine Wirkung an der Maschine ist unbekannt",
         help_en: "if that is meant, set SuppressParserErrors in the post",
         help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
     }
@@ -200,7 +200,7 @@ messages! {
     }
     /// A coordinate or feed that is NaN or infinite.
     JOB_NOT_FINITE: NothingToPost {
-        en: "{operation} has a coordinate or feed that is no number",
+        en: "{operation} has a coordinate or feed that is not a number",
         de: "{operation} hat eine Koordinate oder einen Vorschub, der keine Zahl ist",
     }
     /// Unknown post, without a suggestion.
@@ -224,8 +224,8 @@ messages! {
     }
     /// Note: the output was not verified.
     POST_UNCHECKED: DoubtfulPost {
-        en: "unchecked = true: nothing checked that the output moves as the program does",
-        de: "unchecked = true: nichts hat geprüft, ob die Ausgabe sich bewegt wie das Programm",
+        en: "unchecked = true: the output was not compared with the program",
+        de: "unchecked = true: die Ausgabe wurde nicht mit dem Programm verglichen",
     }
     /// A name that the controller would execute.
     TEXT_AMONG_WORDS: RejectedWord {
@@ -312,12 +312,12 @@ messages! {
     }
     /// Unknown key of a TOML definition, without a suggestion.
     POST_UNKNOWN_KEY: InvalidPost {
-        en: "the key {key} is not known",
+        en: "the key {key} is unknown",
         de: "der Schlüssel {key} ist unbekannt",
     }
     /// Unknown key of a TOML definition, with a suggestion.
     POST_UNKNOWN_KEY_NEAREST: InvalidPost {
-        en: "the key {key} is not known",
+        en: "the key {key} is unknown",
         de: "der Schlüssel {key} ist unbekannt",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
@@ -423,7 +423,7 @@ messages! {
     }
     /// A malformed number in a term.
     TERM_NUMBER: InvalidControlText {
-        en: "{text}, line {line}, column {column}: \"{found}\" is no number",
+        en: "{text}, line {line}, column {column}: \"{found}\" is not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist keine Zahl",
     }
     /// A text where a number is needed.
@@ -509,10 +509,10 @@ messages! {
     }
     /// A text for something that programs do not contain.
     TEXT_NEVER_CALLED: InvalidControlText {
-        en: "{text} is never called: no program has what it is for",
-        de: "{text} wird nie aufgerufen: kein Programm hat, wofür er da ist",
-        help_en: "delete it, so that nobody takes what it writes for granted",
-        help_de: "ihn löschen, damit niemand mit dem rechnet, was er schreibt",
+        en: "{text} is never called: programs contain nothing that it is for",
+        de: "{text} wird nie aufgerufen: Programme enthalten nichts, wofür er da ist",
+        help_en: "delete it, so that its output is not relied on",
+        help_de: "ihn löschen, damit sich niemand auf seine Ausgabe verlässt",
     }
     /// A text that another one replaces.
     TEXT_NOT_CALLED: InvalidControlText {
@@ -530,8 +530,8 @@ messages! {
     DIALECT_UNKNOWN: InvalidPost {
         en: "there is no dialect {name}",
         de: "es gibt keinen Dialekt {name}",
-        help_en: "one of {known}",
-        help_de: "einer von {known}",
+        help_en: "valid dialects are {known}",
+        help_de: "gültig sind {known}",
     }
     /// Unknown dialect, with a suggestion.
     DIALECT_UNKNOWN_NEAREST: InvalidPost {
@@ -549,8 +549,8 @@ messages! {
     }
     /// A line of output that is too long.
     LINE_TOO_LONG: LineTooLong {
-        en: "line {line} of the output has {length} characters; {dialect} takes {longest}",
-        de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt {longest} an",
+        en: "line {line} of the output has {length} characters; {dialect} accepts {longest}",
+        de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt höchstens {longest} an",
         help_en: "give the post's number format fewer decimals, or its texts several lines",
         help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seinen Texten mehrere Zeilen",
     }
@@ -558,20 +558,20 @@ messages! {
     POST_DIFFERS: PostDiffers {
         en: "line {line} of the output does not do what the program says",
         de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
-        help_en: "look at the post's text for this line; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
-        help_de: "den Text im Postprozessor für diese Zeile ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
+        help_en: "check the post's text for this line; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
+        help_de: "den Text im Postprozessor für diese Zeile prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
     /// Output that ends too early.
     MOVES_LOST: PostDiffers {
-        en: "the output ends before all moves of the program are made",
-        de: "die Ausgabe endet, bevor alle Bewegungen des Programms gemacht sind",
-        help_en: "look at the post's texts for moves; if you answer for the output yourself, set unchecked = true in [post] of pathbuild.toml",
-        help_de: "die Texte für Bewegungen im Postprozessor ansehen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
+        en: "the output ends before all moves of the program are complete",
+        de: "die Ausgabe endet, bevor alle Bewegungen des Programms ausgeführt sind",
+        help_en: "check the post's texts for moves; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
+        help_de: "die Texte für Bewegungen im Postprozessor prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
     /// A cut at an unknown position, which cannot be compared.
     CUT_AT_UNKNOWN_PLACE: PostDiffers {
-        en: "step {step} of the program cuts from or to a place that is not known",
-        de: "Schritt {step} des Programms fräst von oder zu einem unbekannten Ort",
+        en: "step {step} of the program cuts from or to an unknown position",
+        de: "Schritt {step} des Programms fräst von oder zu einer unbekannten Position",
         help_en: "begin the program with absolute moves in Z, X and Y",
         help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
     }
@@ -582,8 +582,8 @@ messages! {
     }
     /// Note: the spindle turns in the wrong direction.
     SPINDLE_OTHER_WAY: PostDiffers {
-        en: "here the spindle turns the other way round than `direction` of the tool says",
-        de: "hier dreht sich die Spindel andersherum, als es `direction` des Werkzeugs sagt",
+        en: "here the spindle turns in the opposite direction of the tool's `direction`",
+        de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
     }
     /// Note: a laser beam that is on during a rapid move.
     BEAM_ON: PostDiffers {
@@ -612,8 +612,8 @@ messages! {
     }
     /// Note: a move after the last cut.
     GOES_TOO_FAR: PostDiffers {
-        en: "this is {found} to {place}, but the program has made its last cut",
-        de: "das ist {found} nach {place}, aber das Programm hat seinen letzten Schnitt schon gemacht",
+        en: "this is {found} to {place} after the program's last cut",
+        de: "das ist {found} nach {place} hinter dem letzten Schnitt des Programms",
     }
     /// Note: a different way between two cuts.
     WAY_NOT_FREE: PostDiffers {
@@ -622,15 +622,15 @@ messages! {
     }
     /// An M word or axis in a text without a dialect.
     WORD_NOT_FOLLOWED: DoubtfulPost {
-        en: "the output has {word}, and without a dialect nothing says what it does",
-        de: "die Ausgabe hat {word}, und ohne Dialekt sagt nichts, was das bewirkt",
+        en: "the output contains {word}, whose effect is unknown without a dialect",
+        de: "die Ausgabe enthält {word}, dessen Wirkung ohne Dialekt unbekannt ist",
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
     }
     /// A work offset such as G55.
     OFFSET_CHOSEN: DoubtfulPost {
-        en: "the output chooses an offset of the machine ({word}): the drawing's zero is where that offset puts it",
-        de: "die Ausgabe wählt einen Versatz der Maschine ({word}): der Nullpunkt der Zeichnung liegt, wo dieser ihn hinlegt",
+        en: "the output selects a work offset of the machine ({word}), which determines the position of the drawing's zero",
+        de: "die Ausgabe wählt einen Nullpunktversatz der Maschine ({word}), der die Lage des Zeichnungsnullpunkts bestimmt",
     }
     /// Note: the line of the unwritten output that contains the problem.
     IN_OUTPUT: PostDiffers {
@@ -644,8 +644,8 @@ messages! {
     }
     /// Note: the default section that wrote the line.
     WRITTEN_BY: PostDiffers {
-        en: "it is written by {section}, as it is when the definition does not have it",
-        de: "sie wird von {section} geschrieben, so wie es gilt, wenn die Definition es nicht hat",
+        en: "it is written by the default text of {section}, which the definition does not contain",
+        de: "sie wird vom vorgegebenen Text von {section} geschrieben, den die Definition nicht enthält",
     }
     /// A program in several work offsets.
     JOB_SYSTEM: NothingToPost {
@@ -654,15 +654,15 @@ messages! {
     }
     /// A cut from an unknown position, for example after G91.
     JOB_PLACE_UNKNOWN: NothingToPost {
-        en: "a cut from or to a place that is not known cannot be written through a post",
-        de: "einen Schnitt von oder zu einem unbekannten Ort kann kein Postprozessor schreiben",
-        help_en: "before its first cut the program must go to X, Y and Z once by absolute coordinates (G90)",
+        en: "a cut from or to an unknown position cannot be written through a post",
+        de: "einen Schnitt von oder zu einer unbekannten Position kann kein Postprozessor schreiben",
+        help_en: "before its first cut, the program must move to X, Y and Z once with absolute coordinates (G90)",
         help_de: "vor seinem ersten Schnitt muss das Programm X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
     }
     /// M6 without T in the middle of a program.
     JOB_TOOL_UNNAMED: NothingToPost {
-        en: "the tool is changed here, but the program does not say to which one",
-        de: "hier wird das Werkzeug gewechselt, aber das Programm sagt nicht, welches kommt",
+        en: "the tool is changed here, but the program does not name the new one",
+        de: "hier wird das Werkzeug gewechselt, aber das Programm nennt das neue nicht",
         help_en: "put T and the tool's number in front of M6",
         help_de: "T und die Nummer des Werkzeugs vor M6 setzen",
     }
@@ -675,8 +675,8 @@ messages! {
     }
     /// G28, G30 or G53.
     JOB_NAMED_PLACE: NothingToPost {
-        en: "a move to a place that only the machine knows cannot be written through a post",
-        de: "eine Bewegung an einen Ort, den nur die Maschine kennt, kann kein Postprozessor schreiben",
+        en: "a move to a position that only the machine knows cannot be written through a post",
+        de: "eine Bewegung an eine Position, die nur die Maschine kennt, kann kein Postprozessor schreiben",
     }
     /// Arcs of several turns, or probing moves other than G38.2.
     JOB_MOVE: NothingToPost {

@@ -24,36 +24,36 @@ messages! {
     }
     /// A probe with two lines.
     PROBE_TWICE: InvalidProbeLine {
-        en: "#{probe} is in line {first} already",
+        en: "#{probe} already occurs in line {first}",
         de: "#{probe} steht schon in Zeile {first}",
         help_en: "keep the line with the right value",
         help_de: "die Zeile mit dem richtigen Wert behalten",
     }
     /// A value that differs from the one in the log.
     VALUE_DIFFERS_FROM_LOG: InvalidProbeLine {
-        en: "#{probe} has a value here, and {measured} in the log",
-        de: "#{probe} hat hier einen Wert und im Log {measured}",
-        help_en: "remove the one that is wrong: the value here, or --log",
-        help_de: "das entfernen, was falsch ist: den Wert hier oder --log",
+        en: "#{probe} has a value here, but {measured} in the log",
+        de: "#{probe} hat hier einen Wert, im Log aber {measured}",
+        help_en: "remove the wrong one: the value here, or --log",
+        help_de: "das Falsche entfernen: den Wert hier oder --log",
     }
     /// A probe without contact.
     PROBE_FAILED: InvalidProbeLine {
         en: "this probe made no contact",
-        de: "Antastung ohne Kontakt",
-        help_en: "probe again; remove lines from the log that are of other probes or of an earlier run",
+        de: "diese Probe hatte keinen Kontakt",
+        help_en: "probe again; remove lines of other probes or of earlier runs from the log",
         help_de: "noch einmal messen; aus dem Log Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
     }
     /// A malformed line of a log.
     BROKEN_LOG_LINE: InvalidProbeLine {
-        en: "this is not a result of a probe",
-        de: "das ist kein Ergebnis einer Probe",
+        en: "this line is not a probe result",
+        de: "diese Zeile ist kein Ergebnis einer Probe",
         help_en: "a result is [PRB:X,Y,Z:1]",
         help_de: "ein Ergebnis ist [PRB:X,Y,Z:1]",
     }
     /// A log with another number of results.
     LOG_COUNT: InvalidProbeLine {
-        en: "the log has {found} results of probes, {file} has {expected} probes",
-        de: "das Log hat {found} Ergebnisse von Proben, {file} hat {expected} Proben",
+        en: "the log has {found} probe results, but {file} has {expected} probes",
+        de: "das Log hat {found} Ergebnisse von Proben, {file} aber {expected} Proben",
         help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
         help_de: "das Log muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Probenlaufs, und kein anderes",
     }
@@ -108,8 +108,8 @@ messages! {
     }
     /// A missing operator in a formula.
     OPERATOR_EXPECTED: InvalidFormula {
-        en: "the formula cannot go on like this",
-        de: "so kann die Formel nicht weitergehen",
+        en: "the formula is malformed here",
+        de: "die Formel ist hier fehlerhaft",
         help_en: "between values stands one of + - * /, and a bracket is closed by the one that belongs to it: ( ) or [ ]",
         help_de: "zwischen Werten steht eines von + - * /, und zu jeder Klammer gehört die passende: ( ) oder [ ]",
     }
@@ -129,15 +129,15 @@ messages! {
     }
     /// A formula that is nested too deeply.
     TOO_DEEP: InvalidFormula {
-        en: "more than {limit} nested brackets",
-        de: "mehr als {limit} verschachtelte Klammern",
+        en: "the formula has more than {limit} nested brackets",
+        de: "die Formel hat mehr als {limit} verschachtelte Klammern",
         help_en: "no formula of pathbuild has more than one: emit again and use the new program",
         help_de: "keine Formel von pathbuild hat mehr als eine: noch einmal ausgeben und das neue Programm verwenden",
     }
     /// A division by zero.
     DIVISION_BY_ZERO: InvalidFormula {
-        en: "this divides by 0",
-        de: "hier wird durch 0 geteilt",
+        en: "the formula divides by 0 here",
+        de: "die Formel teilt hier durch 0",
     }
     /// A result that is too large.
     NOT_FINITE: InvalidFormula {
@@ -153,7 +153,7 @@ messages! {
     }
     /// Measured values that would be overwritten.
     VALUES_PRESENT: ProbeValuesPresent {
-        en: "{name} holds measured values that belong to other probes",
+        en: "{name} contains measured values that belong to other probes",
         de: "{name} enthält gemessene Werte, die zu anderen Proben gehören",
         help_en: "the drawing's probes have changed since; nothing was written for this path. Measure anew and use --force",
         help_de: "die Proben der Zeichnung haben sich seither geändert; für diesen Pfad wurde nichts geschrieben. Neu messen und --force verwenden",
@@ -167,9 +167,9 @@ messages! {
     }
     /// A probe that differs from its neighbours.
     ODD: OddProbe {
-        en: "#{probe} is {off} mm {direction} than its neighbours let expect",
+        en: "#{probe} is {off} mm {direction} than expected from its neighbours",
         de: "#{probe} ist {off} mm {direction}, als nach den Nachbarn zu erwarten wäre",
-        help_en: "measure this probe again; if the value is right, nothing is to be done",
+        help_en: "measure this probe again; if the value is right, nothing needs to be done",
         help_de: "diese Probe noch einmal messen; wenn der Wert stimmt, ist nichts zu tun",
     }
     /// A measured height without an effect.
@@ -195,7 +195,7 @@ messages! {
     }
     /// A program that is older than its drawing.
     OLD_PROGRAM: OldProgram {
-        en: "{name} is out of date: {drawing} gives other moves now",
+        en: "{name} is out of date: {drawing} now produces different moves",
         de: "{name} ist veraltet: {drawing} ergibt jetzt andere Bewegungen",
         help_en: "run emit again, then adjust with the same options (--feed, --sweep-height)",
         help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--feed, --sweep-height)",

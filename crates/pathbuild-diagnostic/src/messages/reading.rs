@@ -3,8 +3,8 @@
 messages! {
     /// A line that is not a group code.
     BAD_GROUP_CODE: InvalidDxf {
-        en: "a group code should stand here, not \"{found}\"",
-        de: "hier sollte ein Gruppencode stehen, nicht \"{found}\"",
+        en: "expected a group code here, not \"{found}\"",
+        de: "hier wird ein Gruppencode erwartet, nicht \"{found}\"",
         help_en: "a line was lost, or a text holds a line break: from here on codes and values are out of step; save the drawing again",
         help_de: "eine Zeile fehlt, oder ein Text enthält einen Zeilenumbruch: ab hier passen Codes und Werte nicht zusammen; die Zeichnung noch einmal speichern",
     }
@@ -17,8 +17,8 @@ messages! {
     }
     /// A file without an ENTITIES section and without an end.
     NO_ENTITIES: InvalidDxf {
-        en: "the file ends before any section ENTITIES",
-        de: "die Datei endet vor einem Abschnitt ENTITIES",
+        en: "the file ends before the section ENTITIES",
+        de: "die Datei endet vor dem Abschnitt ENTITIES",
         help_en: "save the drawing again; perhaps the CAD is still writing it, or it was copied only in part",
         help_de: "die Zeichnung noch einmal speichern; vielleicht schreibt das CAD noch, oder sie wurde nur teilweise kopiert",
     }
@@ -31,15 +31,15 @@ messages! {
     }
     /// Something between two sections.
     SECTION_EXPECTED: InvalidDxf {
-        en: "a section or the end of the file should stand here, not \"{found}\"",
-        de: "hier sollte ein Abschnitt oder das Ende der Datei stehen, nicht \"{found}\"",
+        en: "expected a section or the end of the file here, not \"{found}\"",
+        de: "hier wird ein Abschnitt oder das Ende der Datei erwartet, nicht \"{found}\"",
         help_en: "the file is broken; save the drawing again",
         help_de: "die Datei ist beschädigt; die Zeichnung noch einmal speichern",
     }
     /// A value that is not a number.
     VALUE_NOT_A_NUMBER: InvalidDxf {
-        en: "{entity}: group {code} should hold a number, not \"{value}\"",
-        de: "{entity}: Gruppe {code} sollte eine Zahl enthalten, nicht \"{value}\"",
+        en: "{entity}: group {code} must be a number, not \"{value}\"",
+        de: "{entity}: Gruppe {code} muss eine Zahl sein, nicht \"{value}\"",
         help_en: "the program that wrote the file wrote a broken entity; draw it anew, or save the drawing again",
         help_de: "das Programm, das die Datei schrieb, hat ein beschädigtes Element geschrieben; das Element neu zeichnen oder die Zeichnung noch einmal speichern",
     }
@@ -52,7 +52,7 @@ messages! {
     }
     /// A number that is not finite: nan, inf, 1e400.
     NUMBER_NOT_FINITE: InvalidDxf {
-        en: "{entity}: \"{value}\" in group {code} is no finite number",
+        en: "{entity}: \"{value}\" in group {code} is not a finite number",
         de: "{entity}: \"{value}\" in Gruppe {code} ist keine endliche Zahl",
         help_en: "the program that wrote the file wrote a broken entity; draw it anew",
         help_de: "das Programm, das die Datei schrieb, hat ein beschädigtes Element geschrieben; das Element neu zeichnen",
@@ -143,7 +143,7 @@ messages! {
     }
     /// An INSERT of a missing block.
     BLOCK_MISSING: UnsupportedCurve {
-        en: "block {block} is left out: the file does not hold it",
+        en: "block {block} is left out: the file does not contain it",
         de: "Block {block} wird ausgelassen: die Datei enthält ihn nicht",
         help_en: "bind external references before saving, or delete the insertion",
         help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
@@ -157,8 +157,8 @@ messages! {
     }
     /// An entity that is marked invisible.
     INVISIBLE: LayerNotVisible {
-        en: "{entity} is marked invisible, but counts",
-        de: "{entity} ist als unsichtbar markiert, zählt aber",
+        en: "{entity} is marked invisible, but is used nevertheless",
+        de: "{entity} ist als unsichtbar markiert, gilt aber trotzdem",
         help_en: "show all hidden objects in the CAD and delete what is not meant to be milled",
         help_de: "im CAD alle verborgenen Objekte anzeigen und löschen, was nicht gefräst werden soll",
     }

@@ -24,17 +24,17 @@ messages! {
     }
     /// A name that is only part of a word.
     NAME_GOES_ON: InvalidPathName {
-        en: "\"{value}\" is not a path name: only its part {name} is one",
-        de: "\"{value}\" ist kein Pfadname: nur der Teil {name} ist einer",
+        en: "\"{value}\" is not a path name, only its part {name}",
+        de: "\"{value}\" ist kein Pfadname, nur der Teil {name}",
         help_en: "write the name of the path, and a space before what follows",
         help_de: "den Namen des Pfads schreiben und vor dem, was folgt, ein Leerzeichen",
     }
     /// A path that is not found.
     NOT_FOUND: PathNotFound {
-        en: "path {name} is not found",
-        de: "Pfad {name} ist nicht zu finden",
-        help_en: "looked in {directories}; files that may hold it by their names: {files}",
-        help_de: "gesucht in {directories}; Dateien, die ihn dem Namen nach enthalten können: {files}",
+        en: "path {name} was not found",
+        de: "Pfad {name} wurde nicht gefunden",
+        help_en: "searched in {directories}; files whose names admit it: {files}",
+        help_de: "gesucht in {directories}; Dateien, deren Namen ihn zulassen: {files}",
     }
     /// Note: similar names.
     NEAR_NAMES: PathNotFound {
@@ -48,7 +48,7 @@ messages! {
     }
     /// Note: the path is elsewhere in the library.
     ELSEWHERE: PathNotFound {
-        en: "the library holds it in {file}: add {directory} to `search`",
+        en: "the library contains it in {file}: add {directory} to `search`",
         de: "die Bibliothek enthält ihn in {file}: {directory} zu `search` hinzufügen",
     }
     /// A path that is defined twice.
@@ -116,8 +116,8 @@ messages! {
     }
     /// A segment with a greater T than the embedding path.
     T_BELOW: PathTBelowSubpathT {
-        en: "T of this path is {path}, less than the subpath's {segment}",
-        de: "T dieses Pfads ist {path}, weniger als das des Unterpfads mit {segment}",
+        en: "T of this path is {path}, which is less than the subpath's {segment}",
+        de: "T dieses Pfads ist {path} und damit kleiner als {segment} beim Unterpfad",
         help_en: "the outer path's sweeps would run through the inner path's material; raise the path's T",
         help_de: "die Leerfahrten des äußeren Pfads würden durch das Material des inneren laufen; T des Pfads erhöhen",
     }

@@ -10,9 +10,9 @@ messages! {
     }
     /// A range from a greater to a lesser number.
     REVERSED_RANGE: InvalidVariableDefinition {
-        en: "the range \"{definition}\" ends before it begins",
-        de: "der Bereich \"{definition}\" endet, bevor er beginnt",
-        help_en: "write the lesser number first",
+        en: "the range \"{definition}\" ends below its beginning",
+        de: "der Bereich \"{definition}\" endet unter seinem Anfang",
+        help_en: "write the smaller number first",
         help_de: "die kleinere Zahl zuerst schreiben",
     }
     /// A list with an empty element.
@@ -66,8 +66,8 @@ messages! {
     }
     /// A cyclic reference.
     ENDLESS: EndlessVariable {
-        en: "the value of \"{variable}\" leads back to itself",
-        de: "der Wert von \"{variable}\" führt auf sich selbst zurück",
+        en: "the value of \"{variable}\" refers to itself",
+        de: "der Wert von \"{variable}\" verweist auf sich selbst",
         help_en: "a value may refer to other variables, but not in a circle",
         help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis",
     }
@@ -90,8 +90,8 @@ messages! {
     }
     /// References that are nested too deeply; they may be cyclic.
     TOO_DEEP: EndlessVariable {
-        en: "the value of \"{variable}\" leads back to itself, or values refer to others more than {limit} deep",
-        de: "der Wert von \"{variable}\" führt auf sich selbst zurück, oder Werte verweisen mehr als {limit} tief auf andere",
+        en: "the value of \"{variable}\" refers to itself, or values refer to others more than {limit} deep",
+        de: "der Wert von \"{variable}\" verweist auf sich selbst, oder Werte verweisen mehr als {limit} tief auf andere",
         help_en: "a value may refer to other variables, but not in a circle; write long chains of them as one value",
         help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis; lange Ketten davon als einen Wert schreiben",
     }

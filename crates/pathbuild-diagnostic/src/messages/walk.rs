@@ -48,12 +48,12 @@ messages! {
     }
     /// Note: a duplicate segment.
     DUPLICATE: NothingContinues {
-        en: "{element} at {point} lies on one that was already traversed: it is drawn twice",
+        en: "{element} at {point} lies on top of one that was already traversed: it is drawn twice",
         de: "{element} bei {point} liegt auf einem schon durchlaufenen: es ist doppelt gezeichnet",
     }
     /// Note: a curve that was left out (PB111).
     LEFT_OUT_HERE: NothingContinues {
-        en: "a curve that is no part of the path ({kind}) lies at {point}",
+        en: "there is a curve at {point} that does not belong to the path ({kind})",
         de: "bei {point} liegt eine Kurve ({kind}), die nicht zum Pfad gehört",
     }
     /// Segments left over at the end.
@@ -107,30 +107,30 @@ messages! {
     }
     /// Support bars that are too close to each other.
     NO_ROOM_BETWEEN_BARS: NoRoomBetweenBars {
-        en: "between support bars there are {gap} mm, too little for the cutter, O{tool}; bars: {count}",
-        de: "zwischen den Stützstegen sind {gap} mm, zu wenig für den Fräser, O{tool}; Stege: {count}",
-        help_en: "raise U, the least distance between bars, or shorten P",
+        en: "there are only {gap} mm between support bars, too little for the cutter, O{tool}; bars: {count}",
+        de: "zwischen den Stützstegen sind nur {gap} mm, zu wenig für den Fräser, O{tool}; Stege: {count}",
+        help_en: "raise U, the minimum distance between bars, or shorten P",
         help_de: "U, den Mindestabstand der Stege, erhöhen oder P verkleinern",
     }
     /// Support bars without any gap.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
-        en: "all of it is left standing up to D {top}: {length} mm are shorter than P + U, {pitch} mm",
-        de: "alles bleibt bis D {top} stehen: {length} mm sind kürzer als P + U, {pitch} mm",
-        help_en: "lower U, the least distance between bars, for a gap; what shall be milled to D only has line type DIVIDE, what shall be milled through CONTINUOUS",
-        help_de: "U, den Mindestabstand der Stege, für eine Lücke verkleinern; was nur bis D gefräst werden soll, hat Linientyp DIVIDE, was ganz gefräst werden soll, CONTINUOUS",
+        en: "everything is left standing up to D {top}: {length} mm is shorter than P + U, which is {pitch} mm",
+        de: "alles bleibt bis D {top} stehen: {length} mm ist kürzer als P + U mit {pitch} mm",
+        help_en: "for a gap, lower U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
+        help_de: "für eine Lücke U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
     /// A program that moves into a clamp, reported at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
-        en: "the tool, O{tool}, comes into the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "der Fräser, O{tool}, kommt in das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
-        help_en: "raise S to {height} or more (rapids at S go straight), draw cuts half of O and more away from the outline, or move the clamp",
-        help_de: "S auf {height} oder mehr legen (Eilgänge auf S gehen geradeaus), Schnitte um O/2 und mehr vom Umriss entfernt zeichnen oder das Spannmittel versetzen",
+        en: "the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        help_en: "raise S to {height} or more (rapids at S are straight), keep cuts at least half of O away from the outline, or move the clamp",
+        help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade), Schnitte mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen",
     }
     /// A G-code program that moves into a clamp, reported at its line.
     LINE_INTO_CLAMP: InsideKeepOut {
-        en: "here the tool, O{tool}, comes into the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
-        de: "hier kommt der Fräser, O{tool}, in das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
-        help_en: "the clamp stands there by the drawing; do not run this program",
+        en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
+        de: "hier trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
+        help_en: "according to the drawing, the clamp is there; do not run this program",
         help_de: "nach der Zeichnung steht dort das Spannmittel; dieses Programm nicht ausführen",
     }
 }

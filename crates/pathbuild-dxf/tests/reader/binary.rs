@@ -120,7 +120,7 @@ fn a_code_of_unknown_type_is_an_error() {
     let ascii =
         file("", "", "", "0 CIRCLE\n8 A\n10 1\n20 0\n40 2.5\n600 x\n0 CIRCLE\n8 A\n10 1\n20 0\n40 2.5");
     let drawing = read_all(binary(&ascii, Codes::TwoBytes));
-    assert!(file_faults(&drawing)[0].starts_with("PB002 35 a group code should stand here"), "{drawing:?}");
+    assert!(file_faults(&drawing)[0].starts_with("PB002 35 expected a group code here"), "{drawing:?}");
 }
 
 #[test]

@@ -250,7 +250,7 @@ fn a_block_that_the_file_lacks_is_left_out_on_its_layer() {
     let drawing = drawing("", "0 INSERT\n8 P\n2 B\n10 7\n20 8");
     assert_eq!(
         drawing.left_out[0].diagnostic.text(Lang::En),
-        "block B is left out: the file does not hold it"
+        "block B is left out: the file does not contain it"
     );
     assert_eq!(drawing.left_out[0].point, Some(Point::new(7.0, 8.0)));
     let text = file("", "", "", "0 INSERT\n8 X\n2 B\n10 7\n20 8");

@@ -85,7 +85,7 @@ fn a_missing_coordinate_is_a_fault_of_the_layer() {
 #[test]
 fn a_broken_entity_does_not_hide_the_next() {
     let drawing = read_all(entities("0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n0 CIRCLE\n8 A\n10 0\n20 0\n40 1"));
-    assert_eq!(faults(&drawing), ["PB002 10 A: CIRCLE: group 10 should hold a number, not \"x\""]);
+    assert_eq!(faults(&drawing), ["PB002 10 A: CIRCLE: group 10 must be a number, not \"x\""]);
     assert_eq!(drawing.entities.len(), 1);
 }
 
@@ -94,7 +94,7 @@ fn numbers_of_unwanted_layers_are_not_looked_at() {
     let text = entities("0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n0 CIRCLE\n8 B\n10 y\n20 0\n40 1");
     let options = pathbuild_dxf::Options { keep_layer: &|name| name == "B", ..options() };
     let drawing = pathbuild_dxf::read(text.as_bytes(), &options);
-    assert_eq!(faults(&drawing), ["PB002 20 B: CIRCLE: group 10 should hold a number, not \"y\""]);
+    assert_eq!(faults(&drawing), ["PB002 20 B: CIRCLE: group 10 must be a number, not \"y\""]);
     assert_eq!(drawing.layers.len(), 1);
 }
 

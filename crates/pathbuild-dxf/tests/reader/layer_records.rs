@@ -116,7 +116,7 @@ fn what_is_broken_in_its_own_record_is_an_error() {
         let broken = text.replacen(&own, &(kept.join("\n") + "\n"), 1);
         let said = line_types(broken);
         assert!(
-            said.starts_with("PB002") && said.contains("a group code should stand here"),
+            said.starts_with("PB002") && said.contains("expected a group code here"),
             "{line}: {said}"
         );
     }
@@ -129,7 +129,7 @@ fn a_record_whose_beginning_is_lost_is_an_error_where_all_are_read() {
         drawing(&table("0 LAYER\n2 \\U+00E4\n0 LAYER\n5 1A\n2 1000.1P\n6 DOT\n0 LAYER\n2 Y"), &["1000.1P"]);
     assert_eq!(line_types(&text), "DOT");
     let said = line_types(text.replacen("LAYER\n  5\n1A", "  5\n1A", 1));
-    assert!(said.starts_with("PB002") && said.contains("a group code should stand here"), "{said}");
+    assert!(said.starts_with("PB002") && said.contains("expected a group code here"), "{said}");
 }
 
 /// These would take hours if anything were examined twice.

@@ -87,19 +87,19 @@ fn a_blank_line_for_a_code_is_an_error_of_the_file() {
     let file = entities(LINE).replace(" 20\n", "\n");
     let drawing = read_all(file);
     assert!(drawing.entities.is_empty());
-    assert_eq!(file_faults(&drawing), ["PB002 11 a group code should stand here, not \"\""]);
+    assert_eq!(file_faults(&drawing), ["PB002 11 expected a group code here, not \"\""]);
 }
 
 #[test]
 fn a_text_with_a_line_break_is_an_error_of_the_file() {
     let file = entities("0 TEXT\n8 A\n10 1\n20 2\n40 1\n1 first").replace("first", "first\nsecond");
-    assert_eq!(file_faults(&read_all(file)), ["PB002 17 a group code should stand here, not \"second\""]);
+    assert_eq!(file_faults(&read_all(file)), ["PB002 17 expected a group code here, not \"second\""]);
 }
 
 #[test]
 fn a_blank_value_is_a_value() {
     let drawing = read_all(entities("0 LINE\n8 A\n10 \n20 2\n11 3\n21 4"));
-    assert_eq!(faults(&drawing), ["PB002 10 A: LINE: group 10 should hold a number, not \"\""]);
+    assert_eq!(faults(&drawing), ["PB002 10 A: LINE: group 10 must be a number, not \"\""]);
 }
 
 #[test]

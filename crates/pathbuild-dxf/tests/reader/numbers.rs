@@ -41,7 +41,7 @@ fn usual_forms_are_read() {
 fn other_forms_are_errors() {
     for text in ["", " ", "x", "1x", "1 2", "-", ".", "-.", "1.2.3", "--1", "1e", "0x10", "1_000", "D2", "1D"]
     {
-        let fault = format!("PB002 10 A: TEXT: group 50 should hold a number, not \"{}\"", text.trim());
+        let fault = format!("PB002 10 A: TEXT: group 50 must be a number, not \"{}\"", text.trim());
         assert_eq!(number(text), Err(fault), "{text:?}");
     }
 }
@@ -50,7 +50,7 @@ fn other_forms_are_errors() {
 fn a_decimal_comma_is_named_as_such() {
     let fault = "PB002 10 A: TEXT: \"1,5\" in group 50 has a decimal comma, DXF numbers have a point";
     assert_eq!(number("1,5"), Err(fault.into()));
-    assert_eq!(number("1,5,0"), Err("PB002 10 A: TEXT: group 50 should hold a number, not \"1,5,0\"".into()));
+    assert_eq!(number("1,5,0"), Err("PB002 10 A: TEXT: group 50 must be a number, not \"1,5,0\"".into()));
     let drawing = read_all(entities("0 CIRCLE\n8 A\n10 1,5\n20 0\n40 1"));
     let text = drawing.faults[0].diagnostic.text.as_ref().expect("the value");
     assert_eq!((&*text.text, text.span()), ("1,5", 1..2));
@@ -59,7 +59,7 @@ fn a_decimal_comma_is_named_as_such() {
 #[test]
 fn numbers_that_are_not_finite_are_errors() {
     for text in ["nan", "NaN", "inf", "-inf", "infinity", "1e400", "-1e400", "1D999"] {
-        let fault = format!("PB002 10 A: TEXT: \"{text}\" in group 50 is no finite number");
+        let fault = format!("PB002 10 A: TEXT: \"{text}\" in group 50 is not a finite number");
         assert_eq!(number(text), Err(fault), "{text:?}");
     }
     assert_eq!(number("1e308"), Ok(1e308));

@@ -193,19 +193,19 @@ fn three_dimensional_polylines_and_meshes_are_left_out() {
 #[test]
 fn broken_vertices_break_the_polyline() {
     for (groups, fault) in [
-        ("10 0\n20 0\n10 x\n20 0", "PB002 16 A: LWPOLYLINE: group 10 should hold a number, not \"x\""),
+        ("10 0\n20 0\n10 x\n20 0", "PB002 16 A: LWPOLYLINE: group 10 must be a number, not \"x\""),
         ("10 0\n20 0\n10 1\n10 2\n20 0", "PB002 5 A: LWPOLYLINE: group 20 is missing"),
         ("10 0\n20 0\n10 1", "PB002 5 A: LWPOLYLINE: group 20 is missing"),
         ("10 0\n42 1\n10 1\n20 0", "PB002 5 A: LWPOLYLINE: group 20 is missing"),
         ("42 1\n10 0\n20 0\n10 1\n20 0", "PB002 5 A: LWPOLYLINE: group 10 is missing"),
         ("20 1\n10 0\n20 0", "PB002 5 A: LWPOLYLINE: group 10 is missing"),
-        ("10 0\n20 0\n42 x", "PB002 16 A: LWPOLYLINE: group 42 should hold a number, not \"x\""),
+        ("10 0\n20 0\n42 x", "PB002 16 A: LWPOLYLINE: group 42 must be a number, not \"x\""),
     ] {
         let drawing = light(groups);
         assert_eq!(faults(&drawing), [fault], "{groups}");
         assert!(drawing.entities.is_empty());
     }
     let drawing = heavy("", &["10 0\n20 0", "10 1\n20 x", "10 y\n20 0"]);
-    assert_eq!(faults(&drawing), ["PB002 28 A: POLYLINE: group 20 should hold a number, not \"x\""]);
+    assert_eq!(faults(&drawing), ["PB002 28 A: POLYLINE: group 20 must be a number, not \"x\""]);
     assert!(drawing.entities.is_empty());
 }

@@ -41,8 +41,8 @@ fn noise_is_refused_in_no_time() {
 fn a_file_of_other_sections_is_an_empty_drawing_if_it_ends() {
     let header = section("HEADER", "9 $ACADVER\n1 AC1015");
     assert_eq!(said(format!("{header}  0\nEOF\n")), "");
-    assert_eq!(said(&header), "PB002 11 the file ends before any section ENTITIES");
-    assert_eq!(said("  0\nSECTION\n"), "PB002 3 the file ends before any section ENTITIES");
+    assert_eq!(said(&header), "PB002 11 the file ends before the section ENTITIES");
+    assert_eq!(said("  0\nSECTION\n"), "PB002 3 the file ends before the section ENTITIES");
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn only_sections_follow_each_other() {
     assert_eq!(said(&text), "PB002 1 this is not a DXF file: a text without sections");
     assert_eq!(
         said(section("HEADER", "") + &text),
-        "PB002 7 a section or the end of the file should stand here, not \"LINE\""
+        "PB002 7 expected a section or the end of the file here, not \"LINE\""
     );
 }
 

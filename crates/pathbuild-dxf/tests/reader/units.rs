@@ -102,7 +102,7 @@ fn units_without_a_factor_are_an_error_even_then() {
 #[test]
 fn a_broken_number_of_units_is_an_error() {
     let drawing = drawing("9 $INSUNITS\n70 x", Units::Header);
-    assert_eq!(file_faults(&drawing), ["PB002 8 $INSUNITS: group 70 should hold a number, not \"x\""]);
+    assert_eq!(file_faults(&drawing), ["PB002 8 $INSUNITS: group 70 must be a number, not \"x\""]);
 }
 
 #[test]

@@ -63,8 +63,8 @@ fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
         let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
         raw.diagnostics.iter().map(|found| found.text(pathbuild_diagnostic::Lang::En)).next().unwrap()
     };
-    assert_eq!(said("1.0001"), "a PHANTOM circle of 1.0001 mm diameter means nothing");
-    assert_eq!(said("1.25"), "a PHANTOM circle of 1.25 mm diameter means nothing");
+    assert_eq!(said("1.0001"), "a PHANTOM circle with a diameter of 1.0001 mm has no meaning");
+    assert_eq!(said("1.25"), "a PHANTOM circle with a diameter of 1.25 mm has no meaning");
 }
 
 /// Two starts belong to one path even on different layers of it.

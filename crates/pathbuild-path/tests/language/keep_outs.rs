@@ -104,13 +104,13 @@ fn heights_are_numbers_greater_than_0() {
         assert_eq!(right(&SQUARE.replace("Z25", text))[0].height, height);
     }
     for text in ["25", "z25", "Z", "Z0", "Z-3", "Z25 B0", "Z25mm", "Z=h", "clamp"] {
-        assert_wrong(&SQUARE.replace("Z25", text), &["does not say how high"]);
+        assert_wrong(&SQUARE.replace("Z25", text), &["does not give the height"]);
     }
 }
 
 #[test]
 fn each_outline_has_one_text_inside_or_overlapping_it() {
-    assert_wrong("layer clamps\ncircle 0,0 d 10\n", &["no text says how high"]);
+    assert_wrong("layer clamps\ncircle 0,0 d 10\n", &["no text gives the height"]);
     assert_wrong(&format!("{SQUARE}text 12,7 \"Z30\"\n"), &["several texts"]);
     // Three are listed, the others are counted.
     let texts = |count: usize| format!("{SQUARE}{}", "text 12,7 \"Z30\"\n".repeat(count - 1));
@@ -125,7 +125,7 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
     // The circle of the text, of 2.57 mm, touches the outline from outside, or just not.
     let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
     assert_eq!(right(&beside(10.0 - 2.25 - 2.57)).len(), 1);
-    assert_wrong(&beside(10.0 - 2.25 - 2.58), &["inside the outline of none", "no text says how high"]);
+    assert_wrong(&beside(10.0 - 2.25 - 2.58), &["neither inside an outline nor overlapping one", "no text gives the height"]);
     // A text shared by two outlines counts for both.
     let neighbour = "line 20.5,0 30,0 30,10 20.5,10 20.5,0\n";
     let shared =
@@ -137,13 +137,13 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
 fn an_outline_that_does_not_close_is_an_error() {
     let gap = |to: &str| format!("layer clamps\nline 10,0 20,0 20,10 10,10 {to}\ntext 12,4 \"Z25\"\n");
     assert_eq!(right(&gap("10,0.00003")).len(), 1);
-    let text = "inside the outline of none";
+    let text = "neither inside an outline nor overlapping one";
     assert_wrong(&gap("10,0.00004"), &["does not close", text]);
     assert_wrong(&gap("10,1"), &["ends at (10, 1) and at (10, 0), 1 mm apart", text]);
     assert_wrong("layer clamps\narc 5,0 to 0,5 centre 0,0\n", &["does not close"]);
     assert_wrong(
         &format!("{SQUARE}line 20,0 20,10\n"),
-        &["at (20, 0) more than two", "at (20, 10) more than two", "inside the outline of none"],
+        &["at (20, 0) more than two", "at (20, 10) more than two", "neither inside an outline nor overlapping one"],
     );
     assert_wrong("layer clamps\nline 0,0 5,0 5,5 0,0\nline 5,5 9,9\n", &["more than two"]);
     // Closed polylines may touch.

@@ -44,7 +44,7 @@ fn commas_between_parameters_are_one_error() {
 
 #[test]
 fn a_zero_may_be_meant_as_o() {
-    assert_one(&of_text("02 T2", ElementClass::PathStart), "PB202 ", "a zero for the letter O? write \"O2\"");
+    assert_one(&of_text("02 T2", ElementClass::PathStart), "PB202 ", "if the zero is meant as the letter O, write \"O2\"");
     assert_one(&of_text("02", ElementClass::Mill), "PB202 ", "values follow their letter without a space");
     assert_one(
         &of_text("12 T2", ElementClass::PathStart),
@@ -57,7 +57,7 @@ fn a_zero_may_be_meant_as_o() {
 fn a_path_is_embedded_with_its_sign() {
     assert_one(
         &of_text("2050.1P", ElementClass::Subpath),
-        "PB202 a path's name without",
+        "PB202 this is a path's name without",
         "write \">2050.1P\"",
     );
     assert_one(
@@ -94,7 +94,7 @@ fn a_non_breaking_space_is_named() {
     assert_one(
         &found,
         "PB205 B needs a number, not \"1\u{2423}F100\": \u{2423} is a non-breaking space",
-        "in its place",
+        "an ordinary space instead",
     );
 }
 

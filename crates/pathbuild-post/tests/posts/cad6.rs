@@ -285,9 +285,9 @@ fn aliases_are_other_names() {
 fn unknown_keys_are_errors_that_name_the_nearest() {
     let definition = "[post]\ndezimals = 3\n[text]\nprogramm-start = ''\n[other]\n";
     let expected = [
-        "2: PB750 the key post.dezimals is not known (did you mean decimals?)",
-        "4: PB750 the key text.programm-start is not known (did you mean program-start?)",
-        "5: PB750 the key other is not known",
+        "2: PB750 the key post.dezimals is unknown (did you mean decimals?)",
+        "4: PB750 the key text.programm-start is unknown (did you mean program-start?)",
+        "5: PB750 the key other is unknown",
     ];
     let mut errors = texts(&Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());
     errors.sort();
@@ -298,9 +298,9 @@ fn unknown_keys_are_errors_that_name_the_nearest() {
 fn wrong_values_and_broken_toml_are_errors_with_their_place() {
     let errors =
         |definition: &str| texts(&Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());
-    assert_eq!(errors("[post]\ndecimals = 10"), ["2: PB750 decimals is \"10\", not a whole number up to 9"]);
-    assert_eq!(errors("[post]\nunits = \"cm\""), ["2: PB750 units is \"cm\", not mm or inch"]);
-    assert_eq!(errors("[text]\nline = 5"), ["2: PB750 line is \"5\", not a text"]);
+    assert_eq!(errors("[post]\ndecimals = 10"), ["2: PB750 decimals is \"10\", but must be a whole number up to 9"]);
+    assert_eq!(errors("[post]\nunits = \"cm\""), ["2: PB750 units is \"cm\", but must be mm or inch"]);
+    assert_eq!(errors("[text]\nline = 5"), ["2: PB750 line is \"5\", but must be a text"]);
     assert!(errors("[post\n")[0].starts_with("1: PB750 the definition cannot be read"));
 }
 
@@ -358,9 +358,9 @@ fn texts_that_no_program_calls_are_errors() {
         Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).map(drop).map_err(|errors| texts(&errors))
     };
     for (text, expected) in [
-        ("bezier = 'a'", "bezier is never called: no program has what it is for"),
-        ("subprogram-start = 'a'", "subprogram-start is never called: no program has what it is for"),
-        ("subprogram-end = 'a'", "subprogram-end is never called: no program has what it is for"),
+        ("bezier = 'a'", "bezier is never called: programs contain nothing that it is for"),
+        ("subprogram-start = 'a'", "subprogram-start is never called: programs contain nothing that it is for"),
+        ("subprogram-end = 'a'", "subprogram-end is never called: programs contain nothing that it is for"),
         (
             "contour-start = 'a'\nrapid = 'b'",
             "contour-start is never called, because the definition has rapid",

@@ -62,14 +62,14 @@ fn a_byte_order_mark_and_any_line_ends_are_fine() {
 #[test]
 fn an_unknown_element_is_a_warning() {
     let written = output(&bare("<Wobble>1</Wobble>"), &job(vec![]), &PostOptions::default()).unwrap();
-    assert_eq!(texts(&written.warnings), ["3: PB752 <Wobble> is not known and left out"]);
+    assert_eq!(texts(&written.warnings), ["3: PB752 <Wobble> is unknown and ignored"]);
 }
 
 #[test]
 fn a_repeated_element_is_a_warning_and_the_last_one_holds() {
     let text = bare("<G0>G00</G0>\n<G0>G000</G0>");
     let written = output(&text, &job(vec![]), &PostOptions::default()).unwrap();
-    assert_eq!(texts(&written.warnings), ["4: PB752 <G0> stands here again; the last one holds"]);
+    assert_eq!(texts(&written.warnings), ["4: PB752 <G0> occurs again; the last one applies"]);
     assert_eq!(lines(&text, &job(vec![]))[0], "G000 Z5.0");
 }
 
@@ -77,8 +77,8 @@ fn a_repeated_element_is_a_warning_and_the_last_one_holds() {
 fn an_option_with_a_wrong_value_is_an_error_with_its_line() {
     let text = definition("\n<UpperCase>perhaps</UpperCase>\n<ArcToLinesTolerance>0</ArcToLinesTolerance>");
     let expected = [
-        "4: PB750 UpperCase is \"perhaps\", not true or false",
-        "5: PB750 ArcToLinesTolerance is \"0\", not a number above 0",
+        "4: PB750 UpperCase is \"perhaps\", but must be true or false",
+        "5: PB750 ArcToLinesTolerance is \"0\", but must be a number above 0",
     ];
     assert_eq!(texts(&read(&text).unwrap_err()), expected);
 }
@@ -121,7 +121,7 @@ fn what_is_no_definition_is_refused() {
     assert_eq!(
         texts(&read("<Other/>").unwrap_err()),
         [
-            "PB750 the file holds <Other>, not <PostProcessor> (a CamBam definition begins with <PostProcessor>)"
+            "PB750 the file contains <Other>, not <PostProcessor> (a CamBam definition begins with <PostProcessor>)"
         ]
     );
     assert_eq!(read("<PostProcessor>").unwrap_err()[0].code().to_string(), "PB750");
@@ -168,8 +168,8 @@ fn lines_that_define_no_macro_and_built_in_names_are_warnings() {
     let text = bare("<PostProcessorMacros>o=1\n$x=2</PostProcessorMacros>");
     let written = output(&text, &job(vec![]), &PostOptions::default()).unwrap();
     let expected = [
-        "3: PB752 \"o=1\" defines no macro and is left out (a macro is defined as $name=value)",
-        "4: PB752 $x is built in; its definition is left out",
+        "3: PB752 \"o=1\" defines no macro and is ignored (a macro is defined as $name=value)",
+        "4: PB752 $x is built in; its definition is ignored",
     ];
     assert_eq!(texts(&written.warnings), expected);
 }
@@ -192,7 +192,7 @@ fn macros_may_contain_each_other_sixteen_deep() {
 
 #[test]
 fn the_program_is_no_part_of_itself() {
-    let within = "this section is itself a part of what";
+    let within = "this section is itself part of the text that";
     let found = errors(&definition("<MOP>{$mops}</MOP>"), &job(vec![]));
     assert!(
         found[0].contains(&format!("PB753 {{$mops}} in MOP: {within} {{$mops}} stands for")),
@@ -224,7 +224,7 @@ fn an_element_within_a_text_is_a_warning() {
     let post = read(&text).unwrap();
     let options = PostOptions { unchecked: true, ..PostOptions::default() };
     let warnings = texts(&post.write(&job(vec![]), &options).unwrap().warnings);
-    let expected = ["3: PB752 <b> is not known and left out", "3: PB752 <i> is not known and left out"];
+    let expected = ["3: PB752 <b> is unknown and ignored", "3: PB752 <i> is unknown and ignored"];
     assert_eq!(warnings[..2], expected, "{warnings:?}");
 }
 
@@ -252,7 +252,7 @@ fn macros_that_multiply_come_to_an_end() {
 fn a_value_that_the_program_lacks_is_an_error() {
     let text = definition("<PostFile>\n{$stock_x} {$tool.length}</PostFile>");
     let found = errors(&text, &job(vec![]));
-    assert!(found[0].starts_with("4: PB754 {$stock_x} in PostFile has no value in mill (no drawing says it"));
+    assert!(found[0].starts_with("4: PB754 {$stock_x} in PostFile has no value in mill (drawings do not contain it"));
 }
 
 #[test]
@@ -288,7 +288,7 @@ fn an_empty_program_is_refused() {
         arc(1.0, 0.0, 1.0, Some(nan)),
     ] {
         let found = errors(&bare(""), &job(vec![broken]));
-        assert_eq!(found, ["PB765 mill has a coordinate or feed that is no number"]);
+        assert_eq!(found, ["PB765 mill has a coordinate or feed that is not a number"]);
     }
 }
 

@@ -41,7 +41,7 @@ fn a_finding_names_the_text_that_wrote_the_line() {
         .unwrap_err();
     assert!(
         notes(&found)
-            .contains(&"it is written by ToolChange, as it is when the definition does not have it".into()),
+            .contains(&"it is written by the default text of ToolChange, which the definition does not contain".into()),
         "{:?}",
         notes(&found)
     );

@@ -125,7 +125,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     let start = "G21 G90 G54 G0 X0 Y0 Z5\n";
     assert!(
         errors(&format!("{start}G28"))[0]
-            .starts_with("2: PB765 a move to a place that only the machine knows")
+            .starts_with("2: PB765 a move to a position that only the machine knows")
     );
     assert!(
         errors(&format!("{start}G55 G0 X1"))[0]
@@ -359,7 +359,7 @@ fn a_cut_from_or_to_an_unknown_place_is_an_error() {
         match written {
             Ok(_) => assert!(is_known, "{cut}"),
             Err(errors) => {
-                assert!(!is_known && errors[0].contains("PB765 a cut from or to a place"), "{errors:?}");
+                assert!(!is_known && errors[0].contains("PB765 a cut from or to an unknown position"), "{errors:?}");
             }
         }
     }

@@ -110,9 +110,9 @@ fn a_bare_number_is_a_tool_where_the_target_knows_that() {
 fn lines_are_as_long_as_the_target_takes_them() {
     let line = |letters: usize| format!("G0 (a remark) X{}", "0".repeat(letters));
     assert!(write_with(&dialect("grbl"), &line(76), &PostOptions::default()).is_ok());
-    assert_eq!(refused("grbl", &line(77)), ["line 1 of the output has 80 characters; grbl takes 79"]);
+    assert_eq!(refused("grbl", &line(77)), ["line 1 of the output has 80 characters; grbl accepts 79"]);
     assert!(write_with(&dialect("rs274"), &line(240), &PostOptions::default()).is_ok());
-    assert_eq!(refused("rs274", &line(242)), ["line 1 of the output has 257 characters; rs274 takes 256"]);
+    assert_eq!(refused("rs274", &line(242)), ["line 1 of the output has 257 characters; rs274 accepts 256"]);
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn what_somebody_answers_for_is_not_read_back_and_a_note_says_so() {
         assert!(post.write(&program, &options).is_err(), "the moves are lost");
         let notes = post.write(&program, &PostOptions { unchecked: true, ..options }).unwrap().notes;
         let notes: Vec<String> = notes.iter().map(|note| note.text(Lang::En)).collect();
-        assert_eq!(notes, ["unchecked = true: nothing checked that the output moves as the program does"]);
+        assert_eq!(notes, ["unchecked = true: the output was not compared with the program"]);
     }
 }
 
@@ -275,9 +275,9 @@ fn a_program_that_breaks_a_rule_of_verify_is_not_written() {
     assert_eq!(run_on(any(), "M3 S1000", "M5"), Ok(()));
     assert_eq!(run_on(any(), "", ""), Ok(()), "the operator sees to the spindle");
     for (before, behind, code) in [
-        ("M5", "", "PB745 a cutting move with the spindle off"),
+        ("M5", "", "PB745 this is a cutting move with the spindle off"),
         ("", "M5", "PB745 "),
-        ("M3 S0", "M5", "PB745 a cutting move with the spindle at speed 0"),
+        ("M3 S0", "M5", "PB745 this is a cutting move with the spindle at speed 0"),
         ("M3", "M5", "PB745 "),
     ] {
         let errors = run_on(any(), before, behind).unwrap_err();
@@ -312,7 +312,7 @@ fn somebody_who_answers_for_the_moves_does_not_answer_for_rules() {
 #[test]
 fn what_the_reader_refuses_is_not_written() {
     let errors = read_back("<MOP>G1 X1\n{$blocks}</MOP>", vec![feed(0.0, 0.0, -1.0)]).unwrap_err();
-    assert!(errors[0].contains("a cutting move without a feed"), "{errors:?}");
+    assert!(errors[0].contains("this cutting move has no feed"), "{errors:?}");
 }
 
 /// Real definitions declare no dialect; their output is followed as far as all controls agree.
