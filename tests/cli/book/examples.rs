@@ -60,8 +60,8 @@ fn shown(of: Code, example: &str, lang: Lang) -> String {
     let said: String = runs.iter().map(|(command, findings)| said(of, command, findings, lang)).collect();
     assert!(!said.is_empty(), "{of} is not said");
     let means = match lang {
-        Lang::En => format!("\n{of} means what stands in « ».\n"),
-        Lang::De => format!("\n{of} meint, was in « » steht.\n"),
+        Lang::En => format!("\n{of} concerns the part in « ».\n"),
+        Lang::De => format!("\n{of} betrifft den Teil in « ».\n"),
     };
     format!("{files}{}{said}", if files.contains('«') { means } else { String::new() })
 }
