@@ -154,16 +154,16 @@ mod tests {
 
     #[test]
     fn the_systems_words_stand_only_where_there_are_none() {
-        let said = |error: Error, lang| reason(&error).render(lang);
+        let reason_text = |error: Error, lang| reason(&error).render(lang);
         let denied = || Error::from(ErrorKind::PermissionDenied);
-        assert_eq!(said(denied(), Lang::En), "permission denied");
-        assert_eq!(said(denied(), Lang::De), "keine Berechtigung");
-        assert_eq!(said(error(ErrorKind::Other, &IS_LINK), Lang::De), IS_LINK.de);
-        assert_eq!(said(Error::other("By a library."), Lang::De), "„By a library.“");
-        assert_eq!(said(ErrorKind::TimedOut.into(), Lang::En), "timed out");
-        assert_eq!(said(ErrorKind::TimedOut.into(), Lang::De), "„timed out“");
+        assert_eq!(reason_text(denied(), Lang::En), "permission denied");
+        assert_eq!(reason_text(denied(), Lang::De), "keine Berechtigung");
+        assert_eq!(reason_text(error(ErrorKind::Other, &IS_LINK), Lang::De), IS_LINK.de);
+        assert_eq!(reason_text(Error::other("By a library."), Lang::De), "„By a library.“");
+        assert_eq!(reason_text(ErrorKind::TimedOut.into(), Lang::En), "timed out");
+        assert_eq!(reason_text(ErrorKind::TimedOut.into(), Lang::De), "„timed out“");
         // A number that no system has.
-        let unknown = said(Error::from_raw_os_error(54_321), Lang::En);
+        let unknown = reason_text(Error::from_raw_os_error(54_321), Lang::En);
         assert!(!unknown.contains("os error") && !unknown.ends_with('.'), "{unknown}");
     }
 }

@@ -199,8 +199,8 @@ mod tests {
     }
 
     fn sweep(arc: Arc, to: [f64; 3]) -> f64 {
-        let it = along(arc, to);
-        arc.sweep(&it.from, &it.to)
+        let movement = along(arc, to);
+        arc.sweep(&movement.from, &movement.to)
     }
 
     #[test]

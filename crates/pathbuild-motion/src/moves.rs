@@ -183,12 +183,14 @@ impl Move {
 
     /// Splits it into equal parts. The last one ends exactly at the end of the move.
     pub fn split(&self, count: u32) -> impl Iterator<Item = Self> + use<> {
-        let (it, course) = (*self, self.course());
-        let mut from = it.from;
+        let (movement, course) = (*self, self.course());
+        let mut from = movement.from;
         (1..=count).map(move |number| {
             let share = f64::from(number) / f64::from(count);
-            let at = course.filter(|_| number < count).map_or_else(|| it.point(share), |it| it.point(share));
-            let piece = Self { from, to: Position { at, ..it.to }, ..it };
+            let at = course
+                .filter(|_| number < count)
+                .map_or_else(|| movement.point(share), |movement| movement.point(share));
+            let piece = Self { from, to: Position { at, ..movement.to }, ..movement };
             from = piece.to;
             piece
         })

@@ -16,14 +16,14 @@ pub struct Step {
 
 impl Step {
     /// Creates a move in a program without tool changes.
-    pub fn of_move(line: u32, it: Move) -> Self {
-        Self { line, action: Action::Move(it), stated: Axes::ALL }
+    pub fn of_move(line: u32, movement: Move) -> Self {
+        Self { line, action: Action::Move(movement), stated: Axes::ALL }
     }
 
     /// The move and its line, if the step is a move.
     pub fn as_move(&self) -> Option<(u32, Move)> {
         match self.action {
-            Action::Move(it) => Some((self.line, it)),
+            Action::Move(movement) => Some((self.line, movement)),
             _ => None,
         }
     }

@@ -25,10 +25,10 @@ pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
 }
 
 /// If the centre of an arc is almost equidistant from start and end, moves it so that it is.
-pub(crate) fn centre(it: &mut Move) {
-    let Path::Arc(arc) = &mut it.path else { return };
-    let difference = (arc.radius(&it.from) - arc.radius(&it.to)).abs();
-    let [from, to] = [it.from, it.to].map(|end| arc.plane.project(&end.at));
+pub(crate) fn centre(movement: &mut Move) {
+    let Path::Arc(arc) = &mut movement.path else { return };
+    let difference = (arc.radius(&movement.from) - arc.radius(&movement.to)).abs();
+    let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
     let chord = [to[0] - from[0], to[1] - from[1]];
     let square = chord[0] * chord[0] + chord[1] * chord[1];
     if !(WIDEST_OF_MM..=WIDEST_OF_INCHES).contains(&difference) || square == 0.0 {
@@ -56,16 +56,17 @@ pub(crate) struct Rounding<'r> {
 
 impl Rounding<'_> {
     /// Whether the arc would be read as a full circle because its ends are equal after rounding.
-    pub(crate) fn closes(&self, it: &Move) -> bool {
-        let Path::Arc(arc) = it.path else { return false };
-        let alike = |axis: usize| (self.length)(it.from.at[axis]) == (self.length)(it.to.at[axis]);
-        arc.sweep(&it.from, &it.to) < PI && arc.plane.axes().into_iter().all(alike)
+    pub(crate) fn closes(&self, movement: &Move) -> bool {
+        let Path::Arc(arc) = movement.path else { return false };
+        let alike =
+            |axis: usize| (self.length)(movement.from.at[axis]) == (self.length)(movement.to.at[axis]);
+        arc.sweep(&movement.from, &movement.to) < PI && arc.plane.axes().into_iter().all(alike)
     }
 
     /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::fit`].
-    pub(crate) fn fitted(&self, it: &Move, units: Units) -> Result<Move, Box<Diagnostic>> {
-        let Path::Arc(mut arc) = it.path else { return Ok(*it) };
-        let [from, to] = [it.from, it.to].map(|end| arc.plane.project(&end.at));
+    pub(crate) fn fitted(&self, movement: &Move, units: Units) -> Result<Move, Box<Diagnostic>> {
+        let Path::Arc(mut arc) = movement.path else { return Ok(*movement) };
+        let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
         let origin = if self.is_absolute { [0.0; 2] } else { from };
         let written = WrittenArc {
             from,
@@ -75,14 +76,15 @@ impl Rounding<'_> {
             is_absolute: self.is_absolute,
             unit: units.millimetres(),
         };
-        let by = written.fit().map_err(|radii| not_round(it, radii))?;
+        let by = written.fit().map_err(|radii| not_round(movement, radii))?;
         arc.centre = [arc.centre[0] + by[0], arc.centre[1] + by[1]];
-        Ok(Move { path: Path::Arc(arc), ..*it })
+        Ok(Move { path: Path::Arc(arc), ..*movement })
     }
 }
 
-fn not_round(it: &Move, radii: [f64; 2]) -> Box<Diagnostic> {
+fn not_round(movement: &Move, radii: [f64; 2]) -> Box<Diagnostic> {
     let [start, end] = radii.map(|radius| format!("{radius:.4}"));
-    let diagnostic = Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(it.to.x(), it.to.y()));
+    let diagnostic =
+        Diagnostic::new(&posts::ARC_ROUNDED).with("place", Point::new(movement.to.x(), movement.to.y()));
     Box::new(diagnostic.quoting("start", start).quoting("end", end))
 }

@@ -256,7 +256,7 @@ impl Post {
         options: &PostOptions<'_>,
         output: &mut Output,
     ) -> Result<(String, Vec<Unfollowed>, Vec<LineOrigin>), Vec<Diagnostic>> {
-        let cambam::Written { text: written, post_build, leaves_out_coolant } =
+        let cambam::EngineOutput { text: written, post_build, leaves_out_coolant } =
             cambam::write(definition, &self.file, job, target, options)?;
         output.text = written.text.into_bytes();
         output.warnings.extend(written.warnings);
@@ -328,8 +328,8 @@ fn unknown_dialect(name: &str) -> Diagnostic {
 impl Output {
     /// Adds notes on what the job switches but the called texts do not. `switches` are the switch variables in those texts.
     fn note_switches(&mut self, switches: &[&str], job: &Job, spin_up: f64) {
-        let cools = job.operations.iter().any(|it| it.coolant.is_some_and(Coolant::is_on));
-        let turns = job.operations.iter().any(|it| it.spindle.is_some_and(Turning::is_on));
+        let cools = job.operations.iter().any(|operation| operation.coolant.is_some_and(Coolant::is_on));
+        let turns = job.operations.iter().any(|operation| operation.spindle.is_some_and(Turning::is_on));
         let uses = |variable| switches.contains(&variable);
         if cools && !uses("ToolControl1") && !uses("ToolControl2") {
             self.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");

@@ -124,9 +124,13 @@ struct Builder {
 impl Builder {
     fn new(name: &str, steps: &[motion::Step], dialect: Dialect) -> Self {
         let has_layers = dialect.rules().layers;
-        let rapids = steps.iter().filter_map(motion::Step::as_move).filter(|(_, it)| it.pace == Pace::Rapid);
-        let heights =
-            rapids.filter(|(_, it)| it.to.known.has(Axes::Z) && it.named.is_none()).map(|(_, it)| it.to.z());
+        let rapids = steps
+            .iter()
+            .filter_map(motion::Step::as_move)
+            .filter(|(_, movement)| movement.pace == Pace::Rapid);
+        let heights = rapids
+            .filter(|(_, movement)| movement.to.known.has(Axes::Z) && movement.named.is_none())
+            .map(|(_, movement)| movement.to.z());
         let tool = has_layers.then_some(1);
         let state = State { tool, spindle: None, speed: None, coolant: None, plane: Plane::Xy };
         Self {
@@ -148,7 +152,7 @@ impl Builder {
 
     fn step(&mut self, step: &motion::Step, remark: &dyn Fn(&str) -> Remark<'_>) {
         match &step.action {
-            Action::Move(it) => self.go(step.line, it),
+            Action::Move(movement) => self.go(step.line, movement),
             Action::Dwell(seconds) => self.push(Step::Dwell { seconds: *seconds }),
             Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(step.line, Some(*tool)),
             Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
@@ -302,11 +306,11 @@ impl Builder {
         operation.steps.push(Step::rapid([x, y, None]));
     }
 
-    fn go(&mut self, line: u32, it: &Move) {
-        if it.named.is_some() {
+    fn go(&mut self, line: u32, movement: &Move) {
+        if movement.named.is_some() {
             return self.refuse(line, &posts::JOB_NAMED_PLACE);
         }
-        match (it.path, it.pace) {
+        match (movement.path, movement.pace) {
             (Path::Line, Pace::Rapid | Pace::Feed(_) | Pace::Probe { toward: true, .. }) => {}
             (Path::Arc(arc), _) if arc.extra_turns == 0 => {
                 self.state.plane = arc.plane;
@@ -314,22 +318,22 @@ impl Builder {
             }
             _ => return self.refuse(line, &posts::JOB_MOVE),
         }
-        let step = Step::Move(*it);
-        if it.pace == Pace::Rapid {
-            if it.to.z() != it.from.z() {
-                let [x, y, _] = it.to.axes();
+        let step = Step::Move(*movement);
+        if movement.pace == Pace::Rapid {
+            if movement.to.z() != movement.from.z() {
+                let [x, y, _] = movement.to.axes();
                 self.leave_change([x, y]);
             }
             self.push(step);
         } else {
-            if !is_known(it, self.has_probed) {
+            if !is_known(movement, self.has_probed) {
                 return self.refuse(line, &posts::JOB_PLACE_UNKNOWN);
             }
             self.was_changed_low = false;
             self.cutting().steps.push(step);
         }
-        self.has_probed = matches!(it.pace, Pace::Probe { .. });
-        self.at = it.to;
+        self.has_probed = matches!(movement.pace, Pace::Probe { .. });
+        self.at = movement.to;
     }
 
     fn finish(mut self) -> Result<Job, Vec<Diagnostic>> {
@@ -370,6 +374,6 @@ fn numbered(tool: Option<u32>) -> Tool {
 }
 
 /// Whether both ends of a cut are known.
-fn is_known(it: &Move, has_probed: bool) -> bool {
-    it.to.known == Axes::ALL && (it.from.known == Axes::ALL || has_probed)
+fn is_known(movement: &Move, has_probed: bool) -> bool {
+    movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed)
 }

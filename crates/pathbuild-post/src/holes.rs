@@ -64,7 +64,7 @@ mod tests {
         let hole =
             Hole { at: [1.0, 2.0], level, retract: 10.0, bottom: 4.0, exit: 20.0, feed: Some(60.0), kind };
         let z = |step: &Step| match step {
-            Step::Move(it) => Some(it.to.z()),
+            Step::Move(movement) => Some(movement.to.z()),
             _ => None,
         };
         moves(&hole).unwrap().iter().filter_map(z).collect()

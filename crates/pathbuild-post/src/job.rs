@@ -91,7 +91,7 @@ impl Job {
         for operation in &mut self.operations {
             for step in &mut operation.steps {
                 match step {
-                    Step::Move(it) => it.pace.set_missing_feed(feed),
+                    Step::Move(movement) => movement.pace.set_missing_feed(feed),
                     Step::Hole(hole) => _ = hole.feed.get_or_insert(feed),
                     Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
                 }
@@ -103,8 +103,8 @@ impl Job {
     /// the tolerance for arcs in millimetres.
     pub fn centre_arcs(&mut self) {
         for step in self.operations.iter_mut().flat_map(|operation| &mut operation.steps) {
-            if let Step::Move(it) = step {
-                arcs::centre(it);
+            if let Step::Move(movement) = step {
+                arcs::centre(movement);
             }
         }
     }
@@ -235,7 +235,7 @@ impl Operation {
     /// The first position reached by the moves. Each coordinate is that of the first move that specifies it, otherwise that of the entry.
     pub fn first_point(&self) -> Position {
         let target = |step: &Step| match step {
-            Step::Move(it) => Some(it.to.axes()),
+            Step::Move(movement) => Some(movement.to.axes()),
             Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].map(Some)),
             Step::Dwell { .. } | Step::Stop | Step::Comment(_) => None,
         };
@@ -349,7 +349,7 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     operation.retract = operation.surface;
     let depth_of = |step: &Step| match step {
         Step::Hole(hole) => Some(hole.bottom),
-        _ => step.as_cut().and_then(|it| it.to.axes()[2]),
+        _ => step.as_cut().and_then(|movement| movement.to.axes()[2]),
     };
     let feed_where = |is_meant: &dyn Fn(&Step, &Step) -> bool| {
         operation
@@ -373,10 +373,10 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
 /// Whether a step descends at feed at the position where the previous one ended.
 fn is_straight_down(before: &Step, step: &Step) -> bool {
     let end_of = |step: &Step| match step {
-        Step::Move(it) if !matches!(it.pace, Pace::Probe { .. }) => it.to.axes(),
+        Step::Move(movement) if !matches!(movement.pace, Pace::Probe { .. }) => movement.to.axes(),
         _ => [None; 3],
     };
     let (from, to) = (end_of(before), end_of(step));
-    let is_line = step.as_cut().is_some_and(|it| it.path == Path::Line);
+    let is_line = step.as_cut().is_some_and(|movement| movement.path == Path::Line);
     is_line && from[..2] == to[..2] && to[2] < from[2]
 }

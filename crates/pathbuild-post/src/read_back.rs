@@ -64,7 +64,9 @@ pub(super) fn check(
             (wanted, found, clearance) = (flat(&wanted), flat(&found), 0.0);
             problems.extend(spindle::check_beam(&read.steps).map(as_post_s));
         }
-        problems.extend(ways::check(&found, &wanted, clearance, tolerance).err().map(|it| as_post_s(*it)));
+        problems.extend(
+            ways::check(&found, &wanted, clearance, tolerance).err().map(|movement| as_post_s(*movement)),
+        );
         for word in *unfollowed {
             let found =
                 Diagnostic::new(&gcode::NOT_FOLLOWED).quoting("word", &*word.word).at_line(word.line, None);
@@ -90,8 +92,10 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
         at.known = at.known.with(Axes::Z);
         at
     };
-    let seen = moves.iter().map(|(line, it)| (*line, Move { from: level(it.from), to: level(it.to), ..*it }));
-    seen.filter(|(_, it)| !it.is_nothing() || it.from.known != it.to.known).collect()
+    let seen = moves.iter().map(|(line, movement)| {
+        (*line, Move { from: level(movement.from), to: level(movement.to), ..*movement })
+    });
+    seen.filter(|(_, movement)| !movement.is_nothing() || movement.from.known != movement.to.known).collect()
 }
 
 /// Reports words that select the origin of the program, about which the job says nothing.
@@ -169,11 +173,11 @@ fn says_line(problem: &Diagnostic) -> bool {
 }
 
 /// Treats all probing words as equal. They differ between controls in whether a missing contact is an error, but the move is the same.
-fn answered((line, mut it): (u32, Move)) -> (u32, Move) {
-    if let Pace::Probe { must_answer, .. } = &mut it.pace {
+fn answered((line, mut movement): (u32, Move)) -> (u32, Move) {
+    if let Pace::Probe { must_answer, .. } = &mut movement.pace {
         *must_answer = true;
     }
-    (line, it)
+    (line, movement)
 }
 
 fn as_post_s(found: Diagnostic) -> Diagnostic {
@@ -241,9 +245,9 @@ impl Mover {
 
     fn step(&mut self, step: &Step) -> Result<(), Box<Diagnostic>> {
         match step {
-            Step::Move(it) => {
-                self.go(it.to.axes(), it.path, it.pace);
-                if matches!(it.pace, Pace::Probe { .. }) {
+            Step::Move(movement) => {
+                self.go(movement.to.axes(), movement.path, movement.pace);
+                if matches!(movement.pace, Pace::Probe { .. }) {
                     // Only the machine knows where the probe stops.
                     self.at.known = Axes::NONE;
                 }

@@ -12,7 +12,7 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     }
     let mut moves = Moves { line: first.line, steps };
     let mut level = None;
-    while let Some(way) = moves.take(|it| it.pace == Pace::Rapid) {
+    while let Some(way) = moves.take(|movement| movement.pace == Pace::Rapid) {
         level = Some(if way.to.z() < way.from.z() && is_vertical(&way) { way.from.z() } else { way.to.z() });
     }
     let first = moves.take(is_drilling)?;
@@ -22,7 +22,9 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     }
     let dwell = moves.dwell();
     let retract = first.from.z();
-    let exit = moves.take(|it| it.pace == Pace::Rapid && is_vertical(it) && it.to.z() >= retract)?;
+    let exit = moves.take(|movement| {
+        movement.pace == Pace::Rapid && is_vertical(movement) && movement.to.z() >= retract
+    })?;
     let kind = match (pecks, dwell) {
         (false, None) => HoleKind::Plain,
         (false, Some(seconds)) => HoleKind::Dwell { seconds },
@@ -51,20 +53,21 @@ impl<'a> Moves<'a> {
     /// Takes the next move, if it is straight, leads to a known position and satisfies the condition.
     fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
         let (step, rest) = self.next()?;
-        let Action::Move(it) = step.action else { return None };
-        let is_plain = it.path == Path::Line && it.named.is_none() && it.to.known == Axes::ALL;
-        (is_plain && is_wanted(&it)).then(|| {
+        let Action::Move(movement) = step.action else { return None };
+        let is_plain =
+            movement.path == Path::Line && movement.named.is_none() && movement.to.known == Axes::ALL;
+        (is_plain && is_wanted(&movement)).then(|| {
             self.steps = rest;
-            it
+            movement
         })
     }
 
     /// Takes the moves of a peck: out of the hole, back down, and deeper.
     fn peck(&mut self, retract: f64) -> Option<Move> {
         let before = self.steps;
-        let is_rapid = |it: &Move| it.pace == Pace::Rapid && is_vertical(it);
-        let deeper = self.take(|it| is_rapid(it) && it.to.z() == retract).and_then(|_| {
-            self.take(|it| is_rapid(it) && it.to.z() <= retract);
+        let is_rapid = |movement: &Move| movement.pace == Pace::Rapid && is_vertical(movement);
+        let deeper = self.take(|movement| is_rapid(movement) && movement.to.z() == retract).and_then(|_| {
+            self.take(|movement| is_rapid(movement) && movement.to.z() <= retract);
             self.take(is_drilling)
         });
         if deeper.is_none() {
@@ -86,13 +89,13 @@ impl<'a> Moves<'a> {
     }
 }
 
-fn is_vertical(it: &Move) -> bool {
-    it.from.at[..2] == it.to.at[..2]
+fn is_vertical(movement: &Move) -> bool {
+    movement.from.at[..2] == movement.to.at[..2]
 }
 
-fn is_drilling(it: &Move) -> bool {
-    matches!(it.pace, Pace::Feed(_))
-        && is_vertical(it)
-        && it.to.z() < it.from.z()
-        && it.from.known == Axes::ALL
+fn is_drilling(movement: &Move) -> bool {
+    matches!(movement.pace, Pace::Feed(_))
+        && is_vertical(movement)
+        && movement.to.z() < movement.from.z()
+        && movement.from.known == Axes::ALL
 }

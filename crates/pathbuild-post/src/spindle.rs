@@ -20,7 +20,7 @@ pub(super) fn check(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnost
     for step in steps {
         match &step.action {
             Action::Spindle(spindle) => now = spindle.turning,
-            Action::Move(it) if is_cut(it, surface) => {
+            Action::Move(movement) if is_cut(movement, surface) => {
                 let wanted = *expected.get(index)?;
                 if now == wanted {
                     continue;
@@ -51,7 +51,7 @@ pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
             Action::Spindle(spindle) => {
                 is_on = spindle.turning.is_on();
             }
-            Action::Move(it) if is_on && it.pace == Pace::Rapid && !it.is_nothing() => {
+            Action::Move(movement) if is_on && movement.pace == Pace::Rapid && !movement.is_nothing() => {
                 return Some(Diagnostic::new(&posts::BEAM_ON).at_line(step.line, None));
             }
             _ => {}
@@ -73,6 +73,8 @@ pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
     [&gcode::SPINDLE_OFF, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINDLE_LEFT_ON].contains(&problem.message)
 }
 
-fn is_cut(it: &Move, surface: f64) -> bool {
-    matches!(it.pace, Pace::Feed(_)) && !it.is_nothing() && it.from.z().min(it.to.z()) < surface
+fn is_cut(movement: &Move, surface: f64) -> bool {
+    matches!(movement.pace, Pace::Feed(_))
+        && !movement.is_nothing()
+        && movement.from.z().min(movement.to.z()) < surface
 }

@@ -80,7 +80,7 @@ impl Step {
     /// The move, if it cuts.
     pub(super) fn as_cut(&self) -> Option<&Move> {
         match self {
-            Self::Move(it) if matches!(it.pace, Pace::Feed(_)) => Some(it),
+            Self::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Some(movement),
             _ => None,
         }
     }
@@ -88,7 +88,7 @@ impl Step {
     /// The feed in mm/min, if the step specifies one.
     pub(super) fn stated_feed(&self) -> Option<f64> {
         match self {
-            Self::Move(it) => it.pace.stated_feed(),
+            Self::Move(movement) => movement.pace.stated_feed(),
             Self::Hole(hole) => hole.feed,
             Self::Dwell { .. } | Self::Stop | Self::Comment(_) => None,
         }
@@ -97,7 +97,7 @@ impl Step {
     /// Whether all its numbers are finite.
     pub(super) fn is_finite(&self) -> bool {
         match self {
-            Self::Move(it) => it.is_finite(),
+            Self::Move(movement) => movement.is_finite(),
             Self::Hole(hole) => hole.is_finite(),
             Self::Dwell { seconds } => seconds.is_finite(),
             Self::Stop | Self::Comment(_) => true,

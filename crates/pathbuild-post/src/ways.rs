@@ -39,7 +39,7 @@ pub(crate) fn check(
         let Some(next) = cuts.first() else { return way.is_last(found, has_cut) };
         let length = way.length(found, next)?;
         way.check(&found[..length])?;
-        let (run, rest) = split(cuts, |it| !is_rapid(it));
+        let (run, rest) = split(cuts, |movement| !is_rapid(movement));
         found = &found[length..];
         found = &found[cut(found, run, tolerance)?..];
         expected = rest;
@@ -51,23 +51,23 @@ pub(crate) fn check(
 /// the move away from there is compared by its end.
 fn blind_cut(moves: Moves<'_>) -> Option<u32> {
     let mut has_probed = false;
-    for (number, it) in moves {
-        let is_known = it.to.known == Axes::ALL && (it.from.known == Axes::ALL || has_probed);
-        if !is_rapid(it) && !is_known {
+    for (number, movement) in moves {
+        let is_known = movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed);
+        if !is_rapid(movement) && !is_known {
             return Some(*number);
         }
-        has_probed = matches!(it.pace, Pace::Probe { .. });
+        has_probed = matches!(movement.pace, Pace::Probe { .. });
     }
     None
 }
 
-fn is_rapid(it: &Move) -> bool {
-    it.pace == Pace::Rapid
+fn is_rapid(movement: &Move) -> bool {
+    movement.pace == Pace::Rapid
 }
 
 /// Splits off the moves at the beginning that satisfy a condition.
 fn split(moves: Moves<'_>, is_wanted: impl Fn(&Move) -> bool) -> (Moves<'_>, Moves<'_>) {
-    let length = moves.iter().take_while(|(_, it)| is_wanted(it)).count();
+    let length = moves.iter().take_while(|(_, movement)| is_wanted(movement)).count();
     moves.split_at(length)
 }
 
@@ -76,11 +76,13 @@ fn without_excursions(moves: Moves<'_>, slack: f64) -> Vec<(u32, Move)> {
     let mut kept = Vec::with_capacity(moves.len());
     let mut rest = moves;
     while let Some((_, first)) = rest.first() {
-        let (run, behind) = split(rest, |it| is_rapid(it) == is_rapid(first));
+        let (run, behind) = split(rest, |movement| is_rapid(movement) == is_rapid(first));
         rest = behind;
         let returns = is_rapid(first)
-            && run.iter().all(|(_, it)| {
-                it.named.is_none() && it.from.known == Axes::ALL && is_above(&it.to, &first.from, slack)
+            && run.iter().all(|(_, movement)| {
+                movement.named.is_none()
+                    && movement.from.known == Axes::ALL
+                    && is_above(&movement.to, &first.from, slack)
             })
             && run.last().is_some_and(|(_, last)| last.to.z() <= first.from.z() + slack);
         if !returns {
@@ -102,20 +104,20 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
 /// Number of moves at the beginning that make these cuts.
 fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<usize> {
     // A move to an unknown position is not a cut of the job. The check of ways decides whether it is allowed.
-    let (run, _) = split(found, |it| !is_rapid(it) && it.to.known == Axes::ALL);
+    let (run, _) = split(found, |movement| !is_rapid(movement) && movement.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
         None => Ok(run.len()),
         // The remaining moves may be a way that the post follows at feed.
         Some(Difference { found: Some(next), expected: None, .. }) => {
-            Ok(run.iter().position(|it| *it == next).unwrap_or(run.len()))
+            Ok(run.iter().position(|movement| *movement == next).unwrap_or(run.len()))
         }
-        Some(difference) => Err(Box::new(said(&difference))),
+        Some(difference) => Err(Box::new(describe(&difference))),
     }
 }
 
 /// Converts a difference to a diagnostic. The job, which the text is compared with, has no lines.
-fn said(difference: &Difference) -> Diagnostic {
-    let said = match (&difference.found, &difference.expected) {
+fn describe(difference: &Difference) -> Diagnostic {
+    let diagnostic = match (&difference.found, &difference.expected) {
         (Some((_, found)), Some((_, expected))) => match difference.kind {
             DifferenceKind::Place if place(found) == place(expected) => {
                 Diagnostic::new(&posts::GOES_ANOTHER_WAY).with("place", place(found))
@@ -137,20 +139,20 @@ fn said(difference: &Difference) -> Diagnostic {
         (None, _) => Diagnostic::new(&posts::MOVES_LOST),
     };
     match difference.found {
-        Some((line, _)) => said.at_line(line, None),
-        None => said,
+        Some((line, _)) => diagnostic.at_line(line, None),
+        None => diagnostic,
     }
 }
 
 /// Reports a cut after the last one of the job.
 fn too_far(cut: (u32, Move)) -> Box<Diagnostic> {
     let found = Some(cut);
-    Box::new(said(&Difference { kind: DifferenceKind::Place, found, expected: None }))
+    Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected: None }))
 }
 
 /// The end of a move, without unknown axes.
-fn place(it: &Move) -> Value {
-    place_of(&it.to)
+fn place(movement: &Move) -> Value {
+    place_of(&movement.to)
 }
 
 fn place_of(at: &Position) -> Value {
@@ -176,13 +178,16 @@ impl<'m> Way<'m> {
     fn new(expected: Moves<'m>, clearance: f64, slack: f64) -> Self {
         // Repeated moves add no information.
         let mut seen = HashSet::new();
-        let mut is_new = |it: &Move| {
-            let places = [it.from, it.to].map(|at| (at.known, at.at.map(f64::to_bits)));
-            seen.insert((places, it.named.is_some()))
+        let mut is_new = |movement: &Move| {
+            let places = [movement.from, movement.to].map(|at| (at.known, at.at.map(f64::to_bits)));
+            seen.insert((places, movement.named.is_some()))
         };
-        let indexed = expected.iter().enumerate().filter(|(_, (_, it))| is_new(it));
-        let place = |(index, (_, it)): (usize, &(u32, Move))| {
-            GeomWithData::new(Rectangle::from_corners(in_plane(&it.from), in_plane(&it.to)), index)
+        let indexed = expected.iter().enumerate().filter(|(_, (_, movement))| is_new(movement));
+        let place = |(index, (_, movement)): (usize, &(u32, Move))| {
+            GeomWithData::new(
+                Rectangle::from_corners(in_plane(&movement.from), in_plane(&movement.to)),
+                index,
+            )
         };
         let places = RTree::bulk_load(indexed.map(place).collect());
         Self { expected, clearance, slack, places }
@@ -208,10 +213,10 @@ impl<'m> Way<'m> {
                 && (at.z() - begin.z()).abs() <= self.slack
         };
         let place = |index: usize| match found.get(index) {
-            Some((_, it)) => Some(it.from),
-            None => found.last().map(|(_, it)| it.to),
+            Some((_, movement)) => Some(movement.from),
+            None => found.last().map(|(_, movement)| movement.to),
         };
-        let goes_on = |index: usize| found.get(index).is_some_and(|(_, it)| is_rapid(it));
+        let goes_on = |index: usize| found.get(index).is_some_and(|(_, movement)| is_rapid(movement));
         let is_end = |index: &usize| !goes_on(*index) && place(*index).as_ref().is_some_and(is_there);
         let begins = (0..=found.len()).find(is_end);
         begins.ok_or_else(|| self.difference(found.first().copied(), Some(*next)))
@@ -219,38 +224,38 @@ impl<'m> Way<'m> {
 
     fn difference(&self, found: Option<(u32, Move)>, expected: Option<(u32, Move)>) -> Box<Diagnostic> {
         let expected = expected.or_else(|| self.expected.last().copied());
-        Box::new(said(&Difference { kind: DifferenceKind::Place, found, expected }))
+        Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected }))
     }
 
     /// Checks that moves touch nothing that the job does not touch.
     fn check(&self, found: Moves<'_>) -> Checked<()> {
         let mut is_home = false;
-        for &(line, it) in found {
-            let is_fine = match it.named {
-                Some(_) => self.is_lift(&it) || self.is_free(&it, is_home),
-                None if self.is_expected(&it) => true,
+        for &(line, movement) in found {
+            let is_fine = match movement.named {
+                Some(_) => self.is_lift(&movement) || self.is_free(&movement, is_home),
+                None if self.is_expected(&movement) => true,
                 None => {
-                    matches!(it.pace, Pace::Rapid | Pace::Feed(_))
-                        && it.path == Path::Line
-                        && self.is_free(&it, is_home)
+                    matches!(movement.pace, Pace::Rapid | Pace::Feed(_))
+                        && movement.path == Path::Line
+                        && self.is_free(&movement, is_home)
                 }
             };
             if !is_fine {
-                return Err(self.not_free(line, &it));
+                return Err(self.not_free(line, &movement));
             }
             // After a move to a machine position the height is unknown, but above everything.
-            is_home = !it.to.known.has(Axes::Z) && (it.named.is_some() || is_home);
+            is_home = !movement.to.known.has(Axes::Z) && (movement.named.is_some() || is_home);
         }
         Ok(())
     }
 
     /// Reports a move between two cuts that the job does not contain and that may hit material.
-    fn not_free(&self, line: u32, it: &Move) -> Box<Diagnostic> {
-        if !is_rapid(it) && self.expected.is_empty() {
-            return too_far((line, *it));
+    fn not_free(&self, line: u32, movement: &Move) -> Box<Diagnostic> {
+        if !is_rapid(movement) && self.expected.is_empty() {
+            return too_far((line, *movement));
         }
-        let diagnostic = Diagnostic::new(&posts::WAY_NOT_FREE).with("found", it.pace.word());
-        let diagnostic = diagnostic.with("from", place_of(&it.from)).with("to", place(it));
+        let diagnostic = Diagnostic::new(&posts::WAY_NOT_FREE).with("found", movement.pace.word());
+        let diagnostic = diagnostic.with("from", place_of(&movement.from)).with("to", place(movement));
         Box::new(diagnostic.at_line(line, None))
     }
 
@@ -258,49 +263,51 @@ impl<'m> Way<'m> {
     /// cuts,
     /// a rapid of the job may be written as a feed.
     fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
-        let is_high = |it: &Move| it.from.z().min(it.to.z()) >= self.clearance - self.slack;
-        if let Some(cut) = found.iter().find(|(_, it)| !is_rapid(it) && is_high(it)) {
+        let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
+        if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {
             return Err(too_far(*cut));
         }
         self.check(found)?;
         let Some((_, expected)) = self.expected.last().filter(|_| has_cut) else { return Ok(()) };
-        let is_high = found.last().is_some_and(|(_, it)| {
-            !it.to.known.has(Axes::Z) || it.to.z() >= expected.to.z().min(self.clearance) - self.slack
+        let is_high = found.last().is_some_and(|(_, movement)| {
+            !movement.to.known.has(Axes::Z)
+                || movement.to.z() >= expected.to.z().min(self.clearance) - self.slack
         });
         if is_high { Ok(()) } else { Err(self.difference(found.last().copied(), None)) }
     }
 
     /// Whether a move is one of the job's own rapids, regardless of its start.
-    fn is_expected(&self, it: &Move) -> bool {
+    fn is_expected(&self, movement: &Move) -> bool {
         let is_same = |a: &Position, b: &Position| {
             let is_near =
                 |axis: usize| (a.at[axis] - b.at[axis]).abs() <= self.slack || !a.known.has(Axes::of(axis));
             a.known == b.known && (0..3).all(is_near)
         };
-        let end = in_plane(&it.to);
-        is_rapid(it)
-            && self
-                .near([end, end])
-                .any(|expected| is_same(&expected.from, &it.from) && is_same(&expected.to, &it.to))
+        let end = in_plane(&movement.to);
+        is_rapid(movement)
+            && self.near([end, end]).any(|expected| {
+                is_same(&expected.from, &movement.from) && is_same(&expected.to, &movement.to)
+            })
     }
 
     /// Whether a move leads straight up to a machine position.
-    fn is_lift(&self, it: &Move) -> bool {
-        let stays = it.to.known.has(Axes::XY) && is_over(&it.from.at, &it.to.at, self.slack);
-        let is_unknown = !it.from.known.has(Axes::XY) && !it.to.known.has(Axes::XY);
-        (stays || is_unknown) && !it.to.known.has(Axes::Z)
+    fn is_lift(&self, movement: &Move) -> bool {
+        let stays =
+            movement.to.known.has(Axes::XY) && is_over(&movement.from.at, &movement.to.at, self.slack);
+        let is_unknown = !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
+        (stays || is_unknown) && !movement.to.known.has(Axes::Z)
     }
 
     /// Whether a straight move is free of obstacles.
-    fn is_free(&self, it: &Move, is_home: bool) -> bool {
+    fn is_free(&self, movement: &Move, is_home: bool) -> bool {
         let height = |at: &Position| {
             if at.known.has(Axes::Z) { Some(at.z()) } else { is_home.then_some(f64::INFINITY) }
         };
-        let is_upright = it.from.known.has(Axes::XY)
-            && it.to.known.has(Axes::XY)
-            && is_over(&it.from.at, &it.to.at, self.slack)
-            || !it.from.known.has(Axes::XY) && !it.to.known.has(Axes::XY);
-        let lowest = match (height(&it.from), height(&it.to)) {
+        let is_upright = movement.from.known.has(Axes::XY)
+            && movement.to.known.has(Axes::XY)
+            && is_over(&movement.from.at, &movement.to.at, self.slack)
+            || !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
+        let lowest = match (height(&movement.from), height(&movement.to)) {
             (Some(from), Some(to)) => from.min(to),
             // From an unknown height: up to the clearance plane, or straight up or down.
             (None, Some(to)) => to,
@@ -309,32 +316,35 @@ impl<'m> Way<'m> {
         if lowest >= self.clearance - self.slack {
             return true;
         }
-        if it.from.known.and(it.to.known) != Axes::ALL {
+        if movement.from.known.and(movement.to.known) != Axes::ALL {
             // Above a known position, coming from a height above everything.
-            return it.to.known == Axes::ALL
+            return movement.to.known == Axes::ALL
                 && is_upright
-                && self.floor(&it.to.at).is_some_and(|floor| lowest >= floor - self.slack);
+                && self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
         }
         if is_upright {
-            if it.to.z() >= it.from.z() {
+            if movement.to.z() >= movement.from.z() {
                 return true;
             }
-            return self.floor(&it.to.at).is_some_and(|floor| lowest >= floor - self.slack);
+            return self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
         }
-        self.is_covered(&it.from.at, &it.to.at)
+        self.is_covered(&movement.from.at, &movement.to.at)
     }
 
     /// The straight moves of the job between known positions that may pass over the rectangle between two corners.
     fn legs(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         self.near(corners)
-            .filter(|it| it.from.known.and(it.to.known) == Axes::ALL && it.named.is_none())
-            .map(|it| (it.from.at, it.to.at))
+            .filter(|movement| {
+                movement.from.known.and(movement.to.known) == Axes::ALL && movement.named.is_none()
+            })
+            .map(|movement| (movement.from.at, movement.to.at))
     }
 
     /// The lowest height of the job above a position.
     fn floor(&self, place: &[f64; 3]) -> Option<f64> {
         let here = [[place[0], place[1]]; 2];
-        let ends = self.near(here).map(|it| it.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
+        let ends =
+            self.near(here).map(|movement| movement.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
         let begins = self.legs(here).map(|(from, _)| from);
         let over = ends.chain(begins).filter(|at| is_over(at, place, self.slack)).map(|at| at[2]);
         let along = self.legs(here).filter_map(|(from, to)| {

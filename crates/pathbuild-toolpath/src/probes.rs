@@ -80,9 +80,9 @@ mod tests {
 
     #[test]
     fn the_nearest_is_found_wherever_it_lies() {
-        let grid = (0..400).map(|it| (it % 20 - 7, it / 20 - 7));
-        let anywhere = (0..500).map(|it| (it * 7919 % 613, it * 104_729 % 577));
-        let one_place = (0..50).map(|it| (5, it % 2));
+        let grid = (0..400).map(|index| (index % 20 - 7, index / 20 - 7));
+        let anywhere = (0..500).map(|index| (index * 7919 % 613, index * 104_729 % 577));
+        let one_place = (0..50).map(|index| (5, index % 2));
         for points in [grid.collect::<Vec<_>>(), anywhere.collect(), one_place.collect(), Vec::new()] {
             let probes: Vec<ProbePoint> =
                 points.into_iter().enumerate().map(|(number, at)| probe(at, number)).collect();

@@ -69,19 +69,27 @@ impl Check<'_, '_> {
             let file = self.inputs.program.file.file_name().unwrap_or_default();
             line.line.fault(message, all).with("probe", u64::from(line.probe)).quoting("file", file)
         };
-        let Some(made) = self.table.probes.get(&line.probe) else {
+        let Some(program_probe) = self.table.probes.get(&line.probe) else {
             return Err(Box::new(fault(&messages::PROBE_OF_OTHER_PROGRAM)));
         };
         let is_other = |(a, b): (f64, f64)| (a - b).abs() > DIFFERENT;
-        let height = line.height.unwrap_or(made.height);
-        let pairs = [(line.place[0], made.place[0]), (line.place[1], made.place[1]), (height, made.height)];
+        let height = line.height.unwrap_or(program_probe.height);
+        let pairs = [
+            (line.place[0], program_probe.place[0]),
+            (line.place[1], program_probe.place[1]),
+            (height, program_probe.height),
+        ];
         let is_moved =
-            line.at.zip(made.at).is_some_and(|(a, b)| is_other((a.x, b.x)) || is_other((a.y, b.y)));
+            line.at.zip(program_probe.at).is_some_and(|(a, b)| is_other((a.x, b.x)) || is_other((a.y, b.y)));
         if is_moved || pairs.into_iter().any(is_other) {
-            let there = described(made.place, made.height, made.at.filter(|_| line.at.is_some()));
+            let position = described(
+                program_probe.place,
+                program_probe.height,
+                program_probe.at.filter(|_| line.at.is_some()),
+            );
             let here = described(line.place, height, line.at);
             return Err(Box::new(
-                fault(&messages::OTHER_PROBE).quoting("here", here).quoting("there", there),
+                fault(&messages::OTHER_PROBE).quoting("here", here).quoting("there", position),
             ));
         }
         Ok(())
@@ -89,8 +97,8 @@ impl Check<'_, '_> {
 
     /// The heights at which the probe was drawn. In the older form of the file these only follow from the formulas.
     fn expected(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
-        let made = self.table.probes.get(&line.probe).map(|made| made.height);
-        if let Some(height) = line.height.or(made) {
+        let program_probe = self.table.probes.get(&line.probe).map(|program_probe| program_probe.height);
+        if let Some(height) = line.height.or(program_probe) {
             return Ok(vec![height]);
         }
         match self.survey.probes.get(&line.probe) {

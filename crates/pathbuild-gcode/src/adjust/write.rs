@@ -88,8 +88,8 @@ impl Writer<'_> {
     fn height(&mut self, line: Line<'_>, spot: &Spot) -> Result<f64, Box<Diagnostic>> {
         let formula = &line.content()[spot.formula.clone()];
         let told = |fault: Fault| Box::new(located(line, &fault));
-        let height =
-            formula::value(formula, &mut Measured(self.values)).map_err(|it| told(in_line(&it, spot)))?;
+        let height = formula::value(formula, &mut Measured(self.values))
+            .map_err(|fault| told(in_line(&fault, spot)))?;
         if !height.is_finite() {
             return Err(told(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
         }

@@ -30,7 +30,7 @@ pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
     let mut ways: Vec<Way> = Vec::new();
     for step in steps {
         match &step.action {
-            Action::Move(it) => ways.extend(Way::of(it, kinematics)),
+            Action::Move(movement) => ways.extend(Way::of(movement, kinematics)),
             Action::Dwell(pause) => {
                 seconds += profile::seconds(&ways, kinematics) + pause;
                 ways.clear();

@@ -21,46 +21,46 @@ pub(super) struct Way {
 
 impl Way {
     /// Converts a move; `None` if it does not move.
-    pub(super) fn of(it: &Move, kinematics: &Kinematics) -> Option<Self> {
-        let length = it.length();
+    pub(super) fn of(movement: &Move, kinematics: &Kinematics) -> Option<Self> {
+        let length = movement.length();
         if !(length > 0.0 && length.is_finite()) {
             return None;
         }
-        let shares = it.axis_shares();
+        let shares = movement.axis_shares();
         let limit = |limits: &[f64; 3]| {
             let along = limits.iter().zip(shares).filter(|(_, share)| *share > 0.0);
             along.map(|(limit, share)| limit / share).fold(f64::INFINITY, f64::min)
         };
         let acceleration = limit(&kinematics.accelerations);
         let fastest = limit(&kinematics.rates) / 60.0;
-        let wanted = it.pace.feed().filter(|feed| *feed > 0.0).map_or(fastest, |feed| feed / 60.0);
-        let (begin, end) = directions(it, length);
+        let wanted = movement.pace.feed().filter(|feed| *feed > 0.0).map_or(fastest, |feed| feed / 60.0);
+        let (begin, end) = directions(movement, length);
         Some(Self {
             length,
-            speed: wanted.min(fastest).min(turning_speed(it, kinematics)),
+            speed: wanted.min(fastest).min(turning_speed(movement, kinematics)),
             acceleration,
             begin,
             end,
-            stops: matches!(it.pace, Pace::Probe { .. }),
+            stops: matches!(movement.pace, Pace::Probe { .. }),
         })
     }
 }
 
 /// Speed in mm/s at which the axes of an arc's plane can still keep the tool on it.
-fn turning_speed(it: &Move, kinematics: &Kinematics) -> f64 {
-    let Path::Arc(arc) = it.path else { return f64::INFINITY };
+fn turning_speed(movement: &Move, kinematics: &Kinematics) -> f64 {
+    let Path::Arc(arc) = movement.path else { return f64::INFINITY };
     let weakest =
         arc.plane.axes().map(|axis| kinematics.accelerations[axis]).into_iter().fold(f64::INFINITY, f64::min);
-    libm::sqrt(weakest * arc.radius(&it.from).max(arc.radius(&it.to)))
+    libm::sqrt(weakest * arc.radius(&movement.from).max(arc.radius(&movement.to)))
 }
 
-fn directions(it: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
-    let known = it.from.known.and(it.to.known);
+fn directions(movement: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
+    let known = movement.from.known.and(movement.to.known);
     let way: [f64; 3] = std::array::from_fn(|axis| {
         let is_known = known.has(pathbuild_motion::Axes::of(axis));
-        if is_known { it.to.at[axis] - it.from.at[axis] } else { 0.0 }
+        if is_known { movement.to.at[axis] - movement.from.at[axis] } else { 0.0 }
     });
-    let Path::Arc(arc) = it.path else {
+    let Path::Arc(arc) = movement.path else {
         let direction = way.map(|axis| axis / length);
         return (direction, direction);
     };
@@ -74,5 +74,5 @@ fn directions(it: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
         direction[arc.plane.third()] = across;
         direction
     };
-    (tangent(&it.from.at), tangent(&it.to.at))
+    (tangent(&movement.from.at), tangent(&movement.to.at))
 }

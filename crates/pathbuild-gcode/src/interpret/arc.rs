@@ -44,13 +44,13 @@ impl Interpreter<'_> {
             self.report(block, &say::RADIUS_ZERO, whole_line(block), |d| d);
             return self.leave_out(to);
         }
-        let mut it = Move { from, to, path: Path::Arc(arc), pace: Pace::Feed(0.0), named: None };
+        let mut movement = Move { from, to, path: Path::Arc(arc), pace: Pace::Feed(0.0), named: None };
         if from.known.and(to.known).has(plane.axes_of_plane()) {
             self.check_radii(block, &arc, &from, &to);
-            self.check_ends(block, &arc, &it);
+            self.check_ends(block, &arc, &movement);
         }
-        it.pace = Pace::Feed(self.feed(block, &it));
-        self.emit_move(block, it);
+        movement.pace = Pace::Feed(self.feed(block, &movement));
+        self.emit_move(block, movement);
     }
 
     /// Omits an impossible arc. The tool is assumed to be at its end.
@@ -182,11 +182,11 @@ impl Interpreter<'_> {
         }
     }
 
-    fn check_ends(&mut self, block: &Block<'_>, arc: &Arc, it: &Move) {
-        let (start, end) = (arc.plane.project(&it.from.at), arc.plane.project(&it.to.at));
+    fn check_ends(&mut self, block: &Block<'_>, arc: &Arc, movement: &Move) {
+        let (start, end) = (arc.plane.project(&movement.from.at), arc.plane.project(&movement.to.at));
         let gap = libm::hypot(end[0] - start[0], end[1] - start[1]);
-        if gap > 0.0 && gap <= NEAR_ENDS && arc.sweep(&it.from, &it.to) > std::f64::consts::PI {
-            let degrees = libm::round(arc.sweep(&it.from, &it.to).to_degrees());
+        if gap > 0.0 && gap <= NEAR_ENDS && arc.sweep(&movement.from, &movement.to) > std::f64::consts::PI {
+            let degrees = libm::round(arc.sweep(&movement.from, &movement.to).to_degrees());
             self.report(block, &say::NEAR_FULL_CIRCLE, whole_line(block), |d| {
                 d.with("gap", gap).with("degrees", degrees)
             });

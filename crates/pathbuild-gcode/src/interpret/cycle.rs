@@ -171,14 +171,14 @@ impl Interpreter<'_> {
     }
 
     fn feed_to(&mut self, block: &Block<'_>, z: f64) {
-        let it = self.vertical(Pace::Feed(0.0), z);
-        let feed = self.feed(block, &it);
-        self.emit_move(block, Move { pace: Pace::Feed(feed), ..it });
+        let movement = self.vertical(Pace::Feed(0.0), z);
+        let feed = self.feed(block, &movement);
+        self.emit_move(block, Move { pace: Pace::Feed(feed), ..movement });
     }
 
     fn lift_to(&mut self, block: &Block<'_>, z: f64) {
-        let it = self.vertical(Pace::Rapid, z);
-        self.emit_move(block, it);
+        let movement = self.vertical(Pace::Rapid, z);
+        self.emit_move(block, movement);
     }
 
     fn vertical(&self, pace: Pace, z: f64) -> Move {

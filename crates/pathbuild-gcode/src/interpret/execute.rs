@@ -98,17 +98,17 @@ impl<'i> Interpreter<'i> {
         self.out.push(Step { line: block.line, action, stated: self.state.stated_axes });
     }
 
-    pub(super) fn emit_move(&mut self, block: &Block<'_>, it: Move) {
-        let begins_lost = it.from.known != Axes::ALL && it.pace != Pace::Rapid;
+    pub(super) fn emit_move(&mut self, block: &Block<'_>, movement: Move) {
+        let begins_lost = movement.from.known != Axes::ALL && movement.pace != Pace::Rapid;
         if let Some((line, code)) = self.state.lost.filter(|_| begins_lost) {
             let word = codes::name('G', code);
             self.problems.add_at_line(&say::POSITION_UNKNOWN, line, |d| d.quoting("word", word));
         }
-        if begins_lost || it.to.known == Axes::ALL {
+        if begins_lost || movement.to.known == Axes::ALL {
             self.state.lost = None;
         }
-        self.state.position = it.to;
-        self.step(block, Action::Move(it));
+        self.state.position = movement.to;
+        self.step(block, Action::Move(movement));
     }
 
     pub(super) fn report(

@@ -93,16 +93,16 @@ impl Interpreter<'_> {
     }
 
     /// The feed of a cutting move in mm/min, or 0 with a report if there is none.
-    pub(super) fn feed(&mut self, block: &Block<'_>, it: &Move) -> f64 {
+    pub(super) fn feed(&mut self, block: &Block<'_>, movement: &Move) -> f64 {
         let per_minute = match self.state.feed_unit {
             FeedUnit::PerMinute => self.state.feed,
             FeedUnit::PerTurn => self.state.feed * self.state.spindle.speed,
-            FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * it.length(),
+            FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * movement.length(),
             FeedUnit::InverseTime => 0.0,
         };
         // The feeds of the layers apply, which are not in the file.
         let is_layers = self.rules.layers && self.options.ignore_feed;
-        if per_minute == 0.0 && !it.is_nothing() && !is_layers {
+        if per_minute == 0.0 && !movement.is_nothing() && !is_layers {
             self.report_missing_feed(block);
         }
         per_minute

@@ -130,9 +130,9 @@ impl Values {
 
     /// Letters that have not been used.
     pub(super) fn unused(&self) -> impl Iterator<Item = (u8, Span)> + '_ {
-        let left = self.given & !self.used;
+        let remaining = self.given & !self.used;
         (b'A'..=b'Z')
-            .filter(move |letter| left & bit(*letter) != 0)
+            .filter(move |letter| remaining & bit(*letter) != 0)
             .map(|letter| (letter, self.slots[usize::from(letter - b'A')].span))
     }
 }

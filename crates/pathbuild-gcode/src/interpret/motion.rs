@@ -144,18 +144,18 @@ impl Interpreter<'_> {
         let to = if is_machine { self.machine_target(block, coordinates) } else { self.target(coordinates) };
         let from = self.state.position;
         let named = is_machine.then_some(Named::Machine);
-        let mut it = Move { from, to, path: Path::Line, pace, named };
-        it.pace = match pace {
+        let mut movement = Move { from, to, path: Path::Line, pace, named };
+        movement.pace = match pace {
             Pace::Rapid => {
                 self.rapid_feed(block);
                 Pace::Rapid
             }
-            Pace::Feed(_) => Pace::Feed(self.feed(block, &it)),
+            Pace::Feed(_) => Pace::Feed(self.feed(block, &movement)),
             Pace::Probe { toward, must_answer, .. } => {
-                Pace::Probe { feed: self.feed(block, &it), toward, must_answer }
+                Pace::Probe { feed: self.feed(block, &movement), toward, must_answer }
             }
         };
-        self.emit_move(block, it);
+        self.emit_move(block, movement);
         if matches!(pace, Pace::Probe { .. }) {
             let moved = (0..3)
                 .filter(|axis| coordinates[*axis].is_some())

@@ -16,8 +16,9 @@ use crate::provenance::Provenance;
 pub fn formula_differences(text: &[u8], program: &Program, correction: Correction) -> Vec<Diagnostic> {
     let mut found = formula_texts(text);
     let Some(formulas) = Formulas::new(program, correction) else {
-        let first =
-            found.next().map(|it| Diagnostic::new(&say::FORMULA_WITHOUT_PROBES).at_line(it.line, None));
+        let first = found
+            .next()
+            .map(|formula| Diagnostic::new(&say::FORMULA_WITHOUT_PROBES).at_line(formula.line, None));
         return first.into_iter().collect();
     };
     let steps = correction.steps(program);

@@ -47,9 +47,9 @@ pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
 fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
     let mut is_rounded = false;
     interpret_each(text, dialect, &Options::default(), &mut |step| {
-        let Some((_, it)) = step.as_move() else { return };
-        let Path::Arc(arc) = it.path else { return };
-        is_rounded |= libm::fabs(arc.radius(&it.from) - arc.radius(&it.to)) > EXACT;
+        let Some((_, movement)) = step.as_move() else { return };
+        let Path::Arc(arc) = movement.path else { return };
+        is_rounded |= libm::fabs(arc.radius(&movement.from) - arc.radius(&movement.to)) > EXACT;
     });
     is_rounded
 }

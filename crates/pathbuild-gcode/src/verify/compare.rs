@@ -163,18 +163,18 @@ impl Difference {
 }
 
 fn between(kind: DifferenceKind, found: &(u32, Move), expected: &(u32, Move)) -> Diagnostic {
-    let said = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
+    let report = |message: &'static Message| Diagnostic::new(message).with("line", u64::from(expected.0));
     match kind {
-        DifferenceKind::Place => said(&say::PATHS_DIFFER)
+        DifferenceKind::Place => report(&say::PATHS_DIFFER)
             .quoting("found", place(&found.1.to))
             .quoting("expected", place(&expected.1.to)),
-        DifferenceKind::Shape => said(&say::SHAPES_DIFFER),
-        DifferenceKind::Pace => said(&say::KINDS_DIFFER)
+        DifferenceKind::Shape => report(&say::SHAPES_DIFFER),
+        DifferenceKind::Pace => report(&say::KINDS_DIFFER)
             .with("found", found.1.pace.word())
             .with("expected", expected.1.pace.word()),
         DifferenceKind::Feed => {
-            let feed = |it: &Move| it.pace.feed().unwrap_or(0.0);
-            said(&say::FEEDS_DIFFER).with("found", feed(&found.1)).with("expected", feed(&expected.1))
+            let feed = |movement: &Move| movement.pace.feed().unwrap_or(0.0);
+            report(&say::FEEDS_DIFFER).with("found", feed(&found.1)).with("expected", feed(&expected.1))
         }
     }
 }
@@ -193,12 +193,12 @@ fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -
 
 /// The moves to be compared: those to known positions, with those at the ends as required by the tolerance.
 fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
-    let is_known = |(_, it): &(u32, Move)| it.to.known == Axes::ALL;
-    let is_cut = |it: &(u32, Move)| is_known(it) && it.1.pace != Pace::Rapid;
+    let is_known = |(_, movement): &(u32, Move)| movement.to.known == Axes::ALL;
+    let is_cut = |movement: &(u32, Move)| is_known(movement) && movement.1.pace != Pace::Rapid;
     let (first, end) = match ends {
         // The position becomes known axis by axis; how does not matter.
         Ends::All => {
-            let begins = |it: &(u32, Move)| is_known(it) && it.1.from.known == Axes::ALL;
+            let begins = |movement: &(u32, Move)| is_known(movement) && movement.1.from.known == Axes::ALL;
             (moves.iter().position(begins), moves.len())
         }
         Ends::Cutting => {
@@ -210,7 +210,7 @@ fn counting(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     if counting.iter().all(is_known) {
         Cow::Borrowed(counting)
     } else {
-        counting.iter().filter(|it| is_known(it)).copied().collect()
+        counting.iter().filter(|movement| is_known(movement)).copied().collect()
     }
 }
 
@@ -254,7 +254,7 @@ fn step(
     theirs: &Stretch,
     tolerance: &Tolerance,
 ) -> Result<(), DifferenceKind> {
-    check_pace(&ours.it, &theirs.it, tolerance)?;
+    check_pace(&ours.movement, &theirs.movement, tolerance)?;
     if ours.end_together(theirs, tolerance.place) {
         check_shape(ours, 1.0, theirs, 1.0, tolerance)?;
         found.finish_move();

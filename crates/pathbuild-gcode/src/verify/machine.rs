@@ -70,11 +70,11 @@ impl<'m> Limits<'m> {
 
     pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
         match &step.action {
-            Action::Move(it) => {
+            Action::Move(movement) => {
                 if let Some(travel) = &self.machine.travel {
-                    self.reach.check(step.line, it, travel, problems);
+                    self.reach.check(step.line, movement, travel, problems);
                 }
-                check_feed(step.line, it, self.machine, &mut self.last_feed, problems);
+                check_feed(step.line, movement, self.machine, &mut self.last_feed, problems);
             }
             Action::Spindle(spindle) if spindle.turning != Turning::Off => {
                 check_speed(step.line, spindle.speed, self.machine, problems);
@@ -92,8 +92,8 @@ struct Reach {
 }
 
 impl Reach {
-    fn check(&mut self, line: u32, it: &Move, travel: &Travel, problems: &mut Problems) {
-        for (axis, extent) in it.extent().into_iter().enumerate() {
+    fn check(&mut self, line: u32, movement: &Move, travel: &Travel, problems: &mut Problems) {
+        for (axis, extent) in movement.extent().into_iter().enumerate() {
             let Some((low, high)) = extent else { continue };
             let known = self.extent[axis].get_or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));
@@ -137,14 +137,20 @@ impl Reach {
 }
 
 /// Reports a feed whose component along an axis is too high; once until the feed changes.
-fn check_feed(line: u32, it: &Move, machine: &Machine, last: &mut Option<f64>, problems: &mut Problems) {
-    let Some(feed) = it.pace.feed().filter(|feed| Some(*feed) != *last) else { return };
+fn check_feed(
+    line: u32,
+    movement: &Move,
+    machine: &Machine,
+    last: &mut Option<f64>,
+    problems: &mut Problems,
+) {
+    let Some(feed) = movement.pace.feed().filter(|feed| Some(*feed) != *last) else { return };
     if let Some(most) = machine.feed.filter(|most| feed > *most) {
         *last = Some(feed);
         return problems
             .add_at_line(&say::FEED_ABOVE_MOST, line, |d| d.with("feed", feed).with("most", most));
     }
-    let shares = it.axis_shares();
+    let shares = movement.axis_shares();
     for (axis, share) in shares.into_iter().enumerate() {
         if let Some(most) = machine.rates[axis].filter(|most| feed * share > most * (1.0 + 1e-9)) {
             *last = Some(feed);

@@ -29,7 +29,7 @@ const VISITS: f64 = 3.0;
 /// the map, to find where there is material, and to remove it.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     let mut extent = Extent::default();
-    each_known_move(program, &mut |line, it| extent.add(line, it, stock));
+    each_known_move(program, &mut |line, movement| extent.add(line, movement, stock));
     if extent.pieces > stock.most_pieces() {
         let (line, limit) = (extent.line, stock.most_pieces());
         return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
@@ -40,19 +40,19 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
     let mut bench = Bench::new(stock, resolution, stock.cells());
     let mut reached = 0;
     let mut each = |take: &mut dyn FnMut(&mut Bench<'_>, u32, &Move)| {
-        each_known_move(program, &mut |line, it| {
+        each_known_move(program, &mut |line, movement| {
             if !bench.map.is_exhausted() {
                 reached = line;
-                take(&mut bench, line, it);
+                take(&mut bench, line, movement);
             }
         });
     };
-    each(&mut |bench, line, it| bench.lay(line, it));
-    each(&mut |bench, line, it| {
-        bench.dips(line, it, problems);
-        match it.pace {
-            Pace::Rapid => bench.pass(line, it, problems),
-            Pace::Feed(_) | Pace::Probe { .. } => bench.mill(line, it),
+    each(&mut |bench, line, movement| bench.lay(line, movement));
+    each(&mut |bench, line, movement| {
+        bench.dips(line, movement, problems);
+        match movement.pace {
+            Pace::Rapid => bench.pass(line, movement, problems),
+            Pace::Feed(_) | Pace::Probe { .. } => bench.mill(line, movement),
         }
     });
     if bench.map.is_exhausted() {
@@ -70,7 +70,7 @@ fn too_large(line: u32, stock: &Stock, problems: &mut Problems) {
 /// `false` if the number of cells does not suffice.
 pub(super) fn has_room<'c>(
     line: u32,
-    it: &Move,
+    movement: &Move,
     surface: f64,
     cuts: impl IntoIterator<Item = &'c (u32, Move)>,
     stock: &Stock,
@@ -78,21 +78,23 @@ pub(super) fn has_room<'c>(
 ) -> bool {
     let Some(piece) = stock.at(line) else { return true };
     let mut bench = Bench::new(stock, stock.resolution(), cells);
-    for part in bench.parts(it) {
+    for part in bench.parts(movement) {
         bench.map.add(&capsule(&part, piece.cutter / 2.0), surface);
     }
-    let height = it.from.z().min(it.to.z()) + RESIDUE;
+    let height = movement.from.z().min(movement.to.z()) + RESIDUE;
     for (line, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
         bench.mill(*line, cut);
     }
     let mut problems = Problems::default();
-    bench.pass(line, it, &mut problems);
+    bench.pass(line, movement, &mut problems);
     problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
 }
 
 fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, &Move)) {
     program.each(&mut |step| match &step.action {
-        Action::Move(it) if it.from.known.and(it.to.known) == Axes::ALL => take(step.line, it),
+        Action::Move(movement) if movement.from.known.and(movement.to.known) == Axes::ALL => {
+            take(step.line, movement)
+        }
         _ => {}
     });
 }
@@ -114,17 +116,17 @@ struct Extent {
 }
 
 impl Extent {
-    fn add(&mut self, line: u32, it: &Move, stock: &Stock) {
-        if let Some(piece) = stock.at(line).filter(|_| is_low_rapid(it, stock)) {
-            self.passed += covered_area(it, piece.cutter);
+    fn add(&mut self, line: u32, movement: &Move, stock: &Stock) {
+        if let Some(piece) = stock.at(line).filter(|_| is_low_rapid(movement, stock)) {
+            self.passed += covered_area(movement, piece.cutter);
             self.passes += 1.0;
         }
-        let Some(piece) = cutting_piece(line, it, stock) else { return };
+        let Some(piece) = cutting_piece(line, movement, stock) else { return };
         self.line = line;
-        self.area += covered_area(it, piece.cutter);
-        self.pieces += u64::from(pieces::count(it, stock.resolution() / CHORDS)) - 1;
+        self.area += covered_area(movement, piece.cutter);
+        self.pieces += u64::from(pieces::count(movement, stock.resolution() / CHORDS)) - 1;
         let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
-        for (side, extent) in sides.iter_mut().zip(it.extent()) {
+        for (side, extent) in sides.iter_mut().zip(movement.extent()) {
             let Some((low, high)) = extent else { continue };
             *side = (side.0.min(low - piece.cutter), side.1.max(high + piece.cutter));
         }
@@ -159,9 +161,9 @@ impl<'s> Bench<'s> {
     }
 
     /// Adds material within O of a cutting move.
-    fn lay(&mut self, line: u32, it: &Move) {
-        let Some(piece) = cutting_piece(line, it, self.stock) else { return };
-        for part in self.parts(it) {
+    fn lay(&mut self, line: u32, movement: &Move) {
+        let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
+        for part in self.parts(movement) {
             if part.lowest() < piece.surface {
                 self.map.add(&capsule(&part, piece.cutter), piece.surface);
             }
@@ -169,39 +171,39 @@ impl<'s> Bench<'s> {
     }
 
     /// Handles rapid moves down and up again without any cut there, as if a hole were drilled with them.
-    fn dips(&mut self, line: u32, it: &Move, problems: &mut Problems) {
-        let stays = it.pace == Pace::Rapid && it.from.at[..2] == it.to.at[..2];
-        let (from, to) = (it.from.z(), it.to.z());
+    fn dips(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+        let stays = movement.pace == Pace::Rapid && movement.from.at[..2] == movement.to.at[..2];
+        let (from, to) = (movement.from.z(), movement.to.z());
         if let Some((dipped, down)) = self.dip.take().filter(|_| stays && to > from) {
             problems.add_at_line(&say::RAPID_DIP, dipped, |d| d.with("z", down.to.z()));
         }
         let Some(piece) = self.stock.at(line).filter(|_| stays && to < from) else { return };
         let below = to < piece.surface - RESIDUE;
-        let place = [it.to.x(), it.to.y()];
+        let place = [movement.to.x(), movement.to.y()];
         let tip = Capsule::new(place, place, piece.cutter / 2.0);
         if below && self.map.highest_above(&tip, f64::NEG_INFINITY).is_none() {
-            self.dip = Some((line, *it));
+            self.dip = Some((line, *movement));
         }
     }
 
     /// Removes the material along a cutting move. Cells that are only touched count as removed, so that the grid never causes a false
     /// report.
-    fn mill(&mut self, line: u32, it: &Move) {
-        let Some(piece) = cutting_piece(line, it, self.stock) else { return };
+    fn mill(&mut self, line: u32, movement: &Move) {
+        let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
-        for part in self.parts(it).filter(|part| part.lowest() < highest) {
+        for part in self.parts(movement).filter(|part| part.lowest() < highest) {
             self.map.cut(&capsule(&part, piece.cutter / 2.0 + self.slack()), part.lowest());
         }
     }
 
     /// Reports material along a rapid move. Cells that are only touched do not count.
-    fn pass(&mut self, line: u32, it: &Move, problems: &mut Problems) {
+    fn pass(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         let Some(piece) = self.stock.at(line) else { return };
-        if !is_low_rapid(it, self.stock) {
+        if !is_low_rapid(movement, self.stock) {
             return;
         }
-        let is_plunge = it.from.at[..2] == it.to.at[..2];
-        let met = self.parts(it).find_map(|part| {
+        let is_plunge = movement.from.at[..2] == movement.to.at[..2];
+        let met = self.parts(movement).find_map(|part| {
             let z = if is_plunge { part.lowest() } else { part.highest() };
             let cutter = capsule(&part, piece.cutter / 2.0 - self.slack());
             self.map.highest_above(&cutter, z + RESIDUE).map(|(height, place)| (z, height, place))
@@ -226,8 +228,8 @@ impl<'s> Bench<'s> {
         self.resolution
     }
 
-    fn parts(&self, it: &Move) -> impl Iterator<Item = MovePiece> + use<> {
-        pieces::pieces(it, self.resolution / CHORDS)
+    fn parts(&self, movement: &Move) -> impl Iterator<Item = MovePiece> + use<> {
+        pieces::pieces(movement, self.resolution / CHORDS)
     }
 }
 
@@ -237,22 +239,22 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
 }
 
 /// The stock at a cutting move; `None` if it is unknown or the move does not cut below the surface.
-pub(super) fn cutting_piece(line: u32, it: &Move, stock: &Stock) -> Option<stock::StockSpan> {
-    let is_known = it.from.known.and(it.to.known) == Axes::ALL;
-    let piece = stock.at(line).filter(|_| is_known && matches!(it.pace, Pace::Feed(_)))?;
-    (it.from.z().min(it.to.z()) < piece.surface).then_some(*piece)
+pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option<stock::StockSpan> {
+    let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+    let piece = stock.at(line).filter(|_| is_known && matches!(movement.pace, Pace::Feed(_)))?;
+    (movement.from.z().min(movement.to.z()) < piece.surface).then_some(*piece)
 }
 
 /// Whether a rapid move can hit material: it is not above all of it, and not straight up.
-fn is_low_rapid(it: &Move, stock: &Stock) -> bool {
-    let is_above = stock.highest().is_none_or(|highest| it.from.z().min(it.to.z()) >= highest);
-    let goes_up = it.from.at[..2] == it.to.at[..2] && it.to.z() >= it.from.z();
-    it.pace == Pace::Rapid && !is_above && !goes_up
+fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
+    let is_above = stock.highest().is_none_or(|highest| movement.from.z().min(movement.to.z()) >= highest);
+    let goes_up = movement.from.at[..2] == movement.to.at[..2] && movement.to.z() >= movement.from.z();
+    movement.pace == Pace::Rapid && !is_above && !goes_up
 }
 
 /// Upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.
-fn covered_area(it: &Move, cutter: f64) -> f64 {
-    let widest = it.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
-    let tips = 2.0 * cutter * pieces::slopes(it);
-    2.0 * cutter * (it.length().max(widest) + tips)
+fn covered_area(movement: &Move, cutter: f64) -> f64 {
+    let widest = movement.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
+    let tips = 2.0 * cutter * pieces::slopes(movement);
+    2.0 * cutter * (movement.length().max(widest) + tips)
 }

@@ -26,20 +26,19 @@ impl MovePiece {
 }
 
 /// Number of parts required because a move is not level, at least 1.
-pub(super) fn slopes(it: &Move) -> f64 {
-    let is_plunge = it.from.at[..2] == it.to.at[..2] && matches!(it.path, Path::Line);
-    let rise = libm::fabs(it.to.z() - it.from.z());
+pub(super) fn slopes(movement: &Move) -> f64 {
+    let is_plunge = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.path, Path::Line);
+    let rise = libm::fabs(movement.to.z() - movement.from.z());
     if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
 }
 
 /// Number of parts into which a move is divided, at least 1.
-pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
-    let slope = slopes(it);
-    let count = match it.path {
+pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
+    let slope = slopes(movement);
+    let count = match movement.path {
         Path::Line => slope,
-        Path::Arc(arc) => {
-            slope.max(arc.sweep(&it.from, &it.to) / widest_chord(arc.radius(&it.from), sagitta))
-        }
+        Path::Arc(arc) => slope
+            .max(arc.sweep(&movement.from, &movement.to) / widest_chord(arc.radius(&movement.from), sagitta)),
     };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]
     let count = count.ceil().clamp(1.0, MOST) as u32;
@@ -47,6 +46,6 @@ pub(super) fn count(it: &Move, sagitta: f64) -> u32 {
 }
 
 /// The parts of a move. Arcs become chords at a distance of at most `sagitta` mm.
-pub(super) fn pieces(it: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
-    it.split(count(it, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
+pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
+    movement.split(count(movement, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
 }

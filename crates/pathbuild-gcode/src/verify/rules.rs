@@ -75,7 +75,7 @@ impl<'c> Rules<'c> {
             limits.step(step, &mut self.problems);
         }
         match &step.action {
-            Action::Move(it) => self.moves(line, it),
+            Action::Move(movement) => self.moves(line, movement),
             Action::Spindle(spindle) => self.switch(line, *spindle),
             Action::Change(Change::Offsets { code, are_shifted: Some(are_shifted) }) => {
                 self.shifted = are_shifted.then_some((line, *code, self.has_cut));
@@ -92,25 +92,25 @@ impl<'c> Rules<'c> {
         self.problems.into_diagnostics()
     }
 
-    fn moves(&mut self, line: u32, it: &Move) {
+    fn moves(&mut self, line: u32, movement: &Move) {
         self.line = line;
-        self.first_move(line, it);
-        self.diagonal(line, it);
-        self.home(line, it);
-        probe(line, it, &mut self.problems);
-        self.after_probe(line, it);
-        self.cutting(line, it);
-        self.at = it.to;
+        self.first_move(line, movement);
+        self.diagonal(line, movement);
+        self.home(line, movement);
+        probe(line, movement, &mut self.problems);
+        self.after_probe(line, movement);
+        self.cutting(line, movement);
+        self.at = movement.to;
     }
 
     /// Checks moves to machine positions, which lead there by a straight rapid from the position of the tool.
-    fn home(&mut self, line: u32, it: &Move) {
-        let stays = it.to.known.has(Axes::XY) && it.from.at[..2] == it.to.at[..2];
-        if it.named.is_none() || stays || !it.from.known.has(Axes::Z) {
+    fn home(&mut self, line: u32, movement: &Move) {
+        let stays = movement.to.known.has(Axes::XY) && movement.from.at[..2] == movement.to.at[..2];
+        if movement.named.is_none() || stays || !movement.from.known.has(Axes::Z) {
             return;
         }
-        if let Some(surface) = self.surface_above(line, it.from.z()) {
-            let z = it.from.z();
+        if let Some(surface) = self.surface_above(line, movement.from.z()) {
+            let z = movement.from.z();
             self.problems
                 .add_at_line(&say::HOME_FROM_DEPTH, line, |d| d.with("z", z).with("surface", surface));
         }
@@ -136,30 +136,33 @@ impl<'c> Rules<'c> {
         (z < surface - SAME_HEIGHT).then_some(surface)
     }
 
-    fn first_move(&mut self, line: u32, it: &Move) {
+    fn first_move(&mut self, line: u32, movement: &Move) {
         if self.is_raised {
             return;
         }
-        self.is_raised = it.to.known.has(Axes::Z);
-        let moves_in_plane = !it.to.known.and(Axes::XY).is_empty();
+        self.is_raised = movement.to.known.has(Axes::Z);
+        let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty();
         if moves_in_plane && !self.is_raised {
             self.is_raised = true;
             self.problems.add_at_line(&say::START_NOT_RAISED, line, |d| d);
         }
     }
 
-    fn diagonal(&mut self, line: u32, it: &Move) {
-        let is_known = it.from.known.and(it.to.known) == Axes::ALL;
-        let is_diagonal = it.from.at[..2] != it.to.at[..2] && it.to.z() < it.from.z();
-        if it.pace == Pace::Rapid && is_known && is_diagonal && self.surface_above(line, it.to.z()).is_some()
+    fn diagonal(&mut self, line: u32, movement: &Move) {
+        let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+        let is_diagonal = movement.from.at[..2] != movement.to.at[..2] && movement.to.z() < movement.from.z();
+        if movement.pace == Pace::Rapid
+            && is_known
+            && is_diagonal
+            && self.surface_above(line, movement.to.z()).is_some()
         {
-            self.problems.add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", it.to.z()));
+            self.problems.add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", movement.to.z()));
         }
     }
 
     /// Only programs that switch the spindle are checked for it, because on many machines the operator does that.
-    fn cutting(&mut self, line: u32, it: &Move) {
-        if !matches!(it.pace, Pace::Feed(_)) || it.is_nothing() {
+    fn cutting(&mut self, line: u32, movement: &Move) {
+        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() {
             return;
         }
         self.has_cut = true;
@@ -180,13 +183,13 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks the move after a probe, when the touched material is still below the tool.
-    fn after_probe(&mut self, line: u32, it: &Move) {
-        let stays_in_plane = it.from.at[..2] == it.to.at[..2];
-        let is_known = it.from.known.and(it.to.known).and(Axes::XY) == Axes::XY;
+    fn after_probe(&mut self, line: u32, movement: &Move) {
+        let stays_in_plane = movement.from.at[..2] == movement.to.at[..2];
+        let is_known = movement.from.known.and(movement.to.known).and(Axes::XY) == Axes::XY;
         if self.has_probed && is_known && !stays_in_plane {
             self.problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
         }
-        self.has_probed = matches!(it.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
+        self.has_probed = matches!(movement.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
     }
 
     fn tool_change(&mut self, line: u32) {
@@ -224,15 +227,15 @@ impl<'c> Rules<'c> {
 }
 
 /// Checks that a probe moves towards the material, which is below.
-fn probe(line: u32, it: &Move, problems: &mut Problems) {
-    let Pace::Probe { toward: true, .. } = it.pace else { return };
-    let stays_in_plane = it.from.at[..2] == it.to.at[..2];
-    if it.from.known.and(it.to.known) != Axes::ALL || !stays_in_plane {
+fn probe(line: u32, movement: &Move, problems: &mut Problems) {
+    let Pace::Probe { toward: true, .. } = movement.pace else { return };
+    let stays_in_plane = movement.from.at[..2] == movement.to.at[..2];
+    if movement.from.known.and(movement.to.known) != Axes::ALL || !stays_in_plane {
         return;
     }
-    if it.to.z() == it.from.z() {
+    if movement.to.z() == movement.from.z() {
         problems.add_at_line(&say::PROBE_WITHOUT_WAY, line, |d| d);
-    } else if it.to.z() > it.from.z() {
+    } else if movement.to.z() > movement.from.z() {
         problems.add_at_line(&say::USELESS_PROBE, line, |d| d);
     }
 }

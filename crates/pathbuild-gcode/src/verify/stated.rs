@@ -28,7 +28,7 @@ impl StatedStatistics {
     pub fn step(&mut self, step: &Step) {
         let has_length = self.counting.counts(step);
         match &step.action {
-            Action::Move(it) => self.tally.add(it, has_length),
+            Action::Move(movement) => self.tally.add(movement, has_length),
             Action::Comment(text) => {
                 let stated = stated_length(text).map(|(label, length)| (step.line, label.to_owned(), length));
                 self.stated.extend(stated);

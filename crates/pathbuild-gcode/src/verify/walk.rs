@@ -15,7 +15,7 @@ pub(super) struct Walker<'m> {
 /// The rest of a move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    pub(super) it: Move,
+    pub(super) movement: Move,
     /// The fraction of the move at which it begins.
     pub(super) begin: f64,
     /// Its length in mm; 0 for a move from an unknown position.
@@ -44,16 +44,16 @@ impl<'m> Walker<'m> {
 
     /// The rest of the current move.
     pub(super) fn stretch(&self) -> Option<Stretch> {
-        let (_, it) = self.current()?;
-        Some(Stretch { it, begin: self.done, length: it.length() * (1.0 - self.done) })
+        let (_, movement) = self.current()?;
+        Some(Stretch { movement, begin: self.done, length: movement.length() * (1.0 - self.done) })
     }
 
     /// The current position, unless there are no moves.
     pub(super) fn place(&self) -> Option<[f64; 3]> {
         match self.stretch() {
-            Some(stretch) if stretch.it.from.known == Axes::ALL => Some(stretch.point(stretch.begin)),
+            Some(stretch) if stretch.movement.from.known == Axes::ALL => Some(stretch.point(stretch.begin)),
             Some(stretch) => Some(stretch.end()),
-            None => self.last().map(|(_, it)| it.to.at),
+            None => self.last().map(|(_, movement)| movement.to.at),
         }
     }
 
@@ -69,53 +69,54 @@ impl<'m> Walker<'m> {
 
     /// Advances over rapid moves to the first position that satisfies the condition. If there is none, it stays. Returns whether it moved.
     pub(super) fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
-        let rapids = self.moves[self.index..].iter().take_while(|(_, it)| it.pace == Pace::Rapid);
-        let found = rapids.clone().position(|(_, it)| will_do(&it.to.at));
+        let rapids = self.moves[self.index..].iter().take_while(|(_, movement)| movement.pace == Pace::Rapid);
+        let found = rapids.clone().position(|(_, movement)| will_do(&movement.to.at));
         self.index += found.map_or(0, |passed| passed + 1);
         found.is_some()
     }
 }
 
 impl Stretch {
-    pub(super) fn whole(it: Move) -> Self {
-        Self { it, begin: 0.0, length: it.length() }
+    pub(super) fn whole(movement: Move) -> Self {
+        Self { movement, begin: 0.0, length: movement.length() }
     }
 
     pub(super) fn end(&self) -> [f64; 3] {
-        self.it.to.at
+        self.movement.to.at
     }
 
     pub(super) fn is_arc(&self) -> bool {
-        matches!(self.it.path, Path::Arc(_))
+        matches!(self.movement.path, Path::Arc(_))
     }
 
     /// The place at a share of the whole move.
     pub(super) fn point(&self, share: f64) -> [f64; 3] {
-        self.it.point(share)
+        self.movement.point(share)
     }
 
     /// Whether both end at the same position, and not one of them a full turn later.
     pub(super) fn end_together(&self, other: &Self, slack: f64) -> bool {
-        let from_unknown = self.it.from.known != Axes::ALL || other.it.from.known != Axes::ALL;
+        let from_unknown = self.movement.from.known != Axes::ALL || other.movement.from.known != Axes::ALL;
         is_near(&self.end(), &other.end(), slack)
             && (from_unknown || are_alike(self.length, other.length, slack))
     }
 
     /// The fraction of the move at which it is nearest to a position about `along` mm ahead; `None` if the move has no length.
     pub(super) fn nearest(&self, place: &[f64; 3], along: f64) -> Option<f64> {
-        let whole = self.it.length();
+        let whole = self.movement.length();
         if whole <= 0.0 {
             return None;
         }
-        let share = match self.it.path {
+        let share = match self.movement.path {
             Path::Line => {
-                let way: [f64; 3] = std::array::from_fn(|axis| self.it.to.at[axis] - self.it.from.at[axis]);
-                (0..3).map(|axis| (place[axis] - self.it.from.at[axis]) * way[axis]).sum::<f64>()
+                let way: [f64; 3] =
+                    std::array::from_fn(|axis| self.movement.to.at[axis] - self.movement.from.at[axis]);
+                (0..3).map(|axis| (place[axis] - self.movement.from.at[axis]) * way[axis]).sum::<f64>()
                     / (whole * whole)
             }
             Path::Arc(arc) => {
                 let guess = (self.begin + along / whole).min(1.0);
-                let course = Course::new(arc, &self.it.from, &self.it.to);
+                let course = Course::new(arc, &self.movement.from, &self.movement.to);
                 guess + arc.angle_ahead(&course.point(guess), place) / course.sweep()
             }
         };
@@ -124,8 +125,8 @@ impl Stretch {
 
     /// Rise or fall of an arc per mm in its plane; 0 for a line.
     pub(super) fn steepness(&self) -> f64 {
-        let rise = libm::fabs(self.it.to.z() - self.it.from.z());
-        let way = libm::sqrt((self.it.length() * self.it.length() - rise * rise).max(0.0));
+        let rise = libm::fabs(self.movement.to.z() - self.movement.from.z());
+        let way = libm::sqrt((self.movement.length() * self.movement.length() - rise * rise).max(0.0));
         if self.is_arc() && way > 0.0 { rise / way } else { 0.0 }
     }
 }

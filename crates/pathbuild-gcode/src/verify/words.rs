@@ -49,7 +49,7 @@ enum Progress {
 impl Progress {
     fn step(&mut self, step: &Step) {
         match &step.action {
-            Action::Move(it) if it.pace != Pace::Rapid => *self = Self::Cutting,
+            Action::Move(movement) if movement.pace != Pace::Rapid => *self = Self::Cutting,
             Action::Move(_) if *self == Self::Head => *self = Self::Approach,
             _ => {}
         }
@@ -82,8 +82,8 @@ impl PostWords {
 
     fn take(&mut self, step: &Step, progress: Progress) {
         match &step.action {
-            Action::Move(it) if moves_in_plane(it) => {
-                self.raises_first.get_or_insert(it.from.known.has(Axes::Z));
+            Action::Move(movement) if moves_in_plane(movement) => {
+                self.raises_first.get_or_insert(movement.from.known.has(Axes::Z));
             }
             Action::Word(word) => {
                 self.codes.insert((word.letter, word.code));
@@ -133,8 +133,8 @@ impl PostWords {
 }
 
 /// Whether a move goes to a known position in the plane.
-fn moves_in_plane(it: &Move) -> bool {
-    !it.to.known.and(Axes::XY).is_empty()
+fn moves_in_plane(movement: &Move) -> bool {
+    !movement.to.known.and(Axes::XY).is_empty()
 }
 
 /// Whether a control keeps the state of a group from the previous program. Motions, tool lengths and corners are checked elsewhere.
@@ -193,10 +193,10 @@ impl<'w> WordRules<'w> {
                 self.report(line, word);
             }
         }
-        if let Action::Move(it) = &step.action
-            && moves_in_plane(it)
+        if let Action::Move(movement) = &step.action
+            && moves_in_plane(movement)
         {
-            self.first_in_plane(step.line, it);
+            self.first_in_plane(step.line, movement);
         }
         let Action::Word(word) = &step.action else { return };
         if !self.is_known(*word) {
@@ -222,9 +222,9 @@ impl<'w> WordRules<'w> {
     /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height; if the post
     /// raises the
     /// cutter before, the line for that is missing. (Moves at unknown height are checked in [`super::rules`].)
-    fn first_in_plane(&mut self, line: u32, it: &Move) {
+    fn first_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
-        let is_aslant = it.to.known.has(Axes::Z) && !it.from.known.has(Axes::Z);
+        let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);
         if is_first && is_aslant && self.is_strict && self.words.raises_first == Some(true) {
             let error = |d| Diagnostic { severity: Severity::Error, ..d };
             self.problems.add_at_line(&say::START_NOT_RAISED, line, error);

@@ -22,7 +22,7 @@ pub(super) enum What<'a> {
     /// A straight element.
     Line { to: Point, feed: Option<f64>, place: ContourPosition },
     /// A circular element.
-    Arc { it: Move, place: ContourPosition },
+    Arc { movement: Move, place: ContourPosition },
     /// Retracts from the end of a contour.
     End { clearance: f64 },
     /// A hole.

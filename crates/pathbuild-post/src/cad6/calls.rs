@@ -134,7 +134,7 @@ impl<'a> Builder<'a> {
 
     fn step(&mut self, step: &'a Step) -> Built {
         match step {
-            Step::Move(it) => self.move_along(it),
+            Step::Move(movement) => self.move_along(movement),
             Step::Comment(text) => {
                 self.aside(What::Comment(text));
                 Ok(())
@@ -151,14 +151,14 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn move_along(&mut self, it: &Move) -> Built {
-        match (it.course(), it.pace) {
-            (Some(course), _) => self.arc(it, &course),
+    fn move_along(&mut self, movement: &Move) -> Built {
+        match (movement.course(), movement.pace) {
+            (Some(course), _) => self.arc(movement, &course),
             (None, Pace::Rapid) => {
-                self.rapid(self.resolve(it.to));
+                self.rapid(self.resolve(movement.to));
                 Ok(())
             }
-            (None, Pace::Feed(_)) => self.feed(self.resolve(it.to), it.pace.stated_feed()),
+            (None, Pace::Feed(_)) => self.feed(self.resolve(movement.to), movement.pace.stated_feed()),
             (None, Pace::Probe { .. }) => {
                 let diagnostic =
                     Diagnostic::new(&posts::NO_TEXT_FOR).quoting("operation", &*self.present().name);
@@ -197,7 +197,7 @@ impl<'a> Builder<'a> {
         if !self.abilities.hole || !can_say_it {
             for step in holes::moves(hole)? {
                 match step {
-                    Step::Move(it) => self.move_along(&it)?,
+                    Step::Move(movement) => self.move_along(&movement)?,
                     Step::Dwell { seconds } => self.aside(What::Dwell(seconds)),
                     _ => {}
                 }
@@ -252,48 +252,48 @@ impl<'a> Builder<'a> {
         ContourPosition { is_first, is_last: false }
     }
 
-    fn arc(&mut self, it: &Move, course: &Course) -> Built {
+    fn arc(&mut self, movement: &Move, course: &Course) -> Built {
         self.land(None)?;
-        let is_level = it.to.z() == it.from.z();
+        let is_level = movement.to.z() == movement.from.z();
         let is_writable =
             self.abilities.arc && course.arc().plane == Plane::Xy && (is_level || self.abilities.arc_z);
         if is_writable {
-            for piece in it.split(pieces_of(course, self.abilities.arc_sweep)) {
-                let Some(it) = self.as_written(&piece)? else {
+            for piece in movement.split(pieces_of(course, self.abilities.arc_sweep)) {
+                let Some(movement) = self.as_written(&piece)? else {
                     self.line(piece.to.at, piece.pace.stated_feed())?;
                     continue;
                 };
-                let place = self.place(it.pace.stated_feed());
-                self.call(What::Arc { it, place });
-                self.at = it.to.at;
+                let place = self.place(movement.pace.stated_feed());
+                self.call(What::Arc { movement, place });
+                self.at = movement.to.at;
             }
             return Ok(());
         }
         if self.abilities.arc && !is_level && !self.abilities.line_z {
             let diagnostic = Diagnostic::new(&posts::NO_Z_IN_ARC).quoting("operation", &*self.present().name);
-            return Err(Box::new(diagnostic.with("from", it.from.z()).with("to", it.to.z())));
+            return Err(Box::new(diagnostic.with("from", movement.from.z()).with("to", movement.to.z())));
         }
         let Some(count) = chords(course, self.abilities.arc_tolerance) else {
             let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MOST_CHORDS));
             return Err(Box::new(diagnostic.with("radius", course.radius())));
         };
-        it.split(count).try_for_each(|piece| self.line(piece.to.at, piece.pace.stated_feed()))
+        movement.split(count).try_for_each(|piece| self.line(piece.to.at, piece.pace.stated_feed()))
     }
 
     /// Adjusts the arc so that it is still an arc when its numbers are rounded. Returns `None` if it would be read as a full circle because
     /// its rounded ends are equal.
-    fn as_written(&self, it: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
+    fn as_written(&self, movement: &Move) -> Result<Option<Move>, Box<Diagnostic>> {
         let unit = self.units.millimetres();
         let digits = libm::pow(10.0, self.abilities.decimals as f64);
         let length = |length: f64| (length / unit * digits).round() / digits;
         let rounding = Rounding { length: &length, is_absolute: !self.abilities.has_relative_centres };
-        if rounding.closes(it) {
+        if rounding.closes(movement) {
             return Ok(None);
         }
         if self.abilities.has_relative_centres || self.abilities.has_absolute_centres {
-            return rounding.fitted(it, self.units).map(Some);
+            return rounding.fitted(movement, self.units).map(Some);
         }
-        Ok(Some(*it))
+        Ok(Some(*movement))
     }
 
     /// Completes the pending rapids. Within the material they become elements of the contour, otherwise they lead to a new contour, which

@@ -42,7 +42,7 @@ use super::target::Target;
 use super::words::{CommentMarks, words};
 
 /// The output of the engine.
-pub(super) struct Written {
+pub(super) struct EngineOutput {
     pub(super) text: Vec<u8>,
     /// The meaning of the text in RS274 words.
     pub(super) shadow: String,
@@ -66,7 +66,7 @@ pub(super) fn write(
     job: &Job,
     target: Option<&Target>,
     options: &PostOptions<'_>,
-) -> Result<Written, Vec<Diagnostic>> {
+) -> Result<EngineOutput, Vec<Diagnostic>> {
     let guard = Guard::new(target, CommentMarks::default(), options.charset);
     let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
     program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
@@ -74,7 +74,7 @@ pub(super) fn write(
     let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
     let (text, origins, warnings) = runner.finish();
     let (shadow, unfollowed) = shadow(&text, definition.units().unwrap_or(job.units));
-    Ok(Written { text, shadow, unfollowed, origins, warnings, switches })
+    Ok(EngineOutput { text, shadow, unfollowed, origins, warnings, switches })
 }
 
 fn shadow(text: &[u8], units: Units) -> (String, Vec<Unfollowed>) {

@@ -156,10 +156,10 @@ impl Caller<'_, '_> {
                 self.element(*to, *feed, *place);
                 self.runner.call(ControlTextKind::Line)
             }
-            What::Arc { it, place } => {
+            What::Arc { movement, place } => {
                 self.change_tool(operation)?;
-                self.arc(it);
-                self.element(it.to.at, it.pace.stated_feed(), *place);
+                self.arc(movement);
+                self.element(movement.to.at, movement.pace.stated_feed(), *place);
                 self.runner.call(ControlTextKind::Arc)?;
                 self.forget_arc();
                 Ok(())
@@ -252,15 +252,15 @@ impl Caller<'_, '_> {
         self.move_to(to);
     }
 
-    fn arc(&mut self, it: &Move) {
-        let Some(course) = it.course() else { return };
+    fn arc(&mut self, movement: &Move) {
+        let Some(course) = movement.course() else { return };
         let arc = course.arc();
         let [start, end] = course.directions();
         let sweep = if arc.clockwise { -course.sweep() } else { course.sweep() };
         self.length("XC", arc.centre[0]);
         self.length("YC", arc.centre[1]);
-        self.length("IRel", arc.centre[0] - it.from.x());
-        self.length("JRel", arc.centre[1] - it.from.y());
+        self.length("IRel", arc.centre[0] - movement.from.x());
+        self.length("JRel", arc.centre[1] - movement.from.y());
         self.length("Radius", course.radius());
         self.set("StartAngle", start.to_degrees().rem_euclid(360.0));
         self.set("EndAngle", end.to_degrees().rem_euclid(360.0));

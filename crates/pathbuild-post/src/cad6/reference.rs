@@ -13,8 +13,8 @@ use crate::reference::{Row, code};
 
 /// The keys of `[post]`: name, permitted values, meaning.
 pub(crate) fn settings(lang: Lang) -> Vec<Row> {
-    let row = |it: &super::settings::Setting| {
-        vec![code(it.name), it.expected.in_lang(lang).to_owned(), it.about.in_lang(lang).to_owned()]
+    let row = |entry: &super::settings::Setting| {
+        vec![code(entry.name), entry.expected.in_lang(lang).to_owned(), entry.about.in_lang(lang).to_owned()]
     };
     SETTINGS.iter().map(row).collect()
 }
@@ -27,16 +27,16 @@ pub(crate) fn texts(lang: Lang) -> Vec<Row> {
 
 /// The variables: name, content, where they are available.
 pub(crate) fn variables(lang: Lang) -> Vec<Row> {
-    let row = |it: &super::variables::Variable| {
-        let presence = it.presence.word().in_lang(lang).to_owned();
-        vec![code(&format!("~{}~", it.name)), it.about.in_lang(lang).to_owned(), presence]
+    let row = |entry: &super::variables::Variable| {
+        let presence = entry.presence.word().in_lang(lang).to_owned();
+        vec![code(&format!("~{}~", entry.name)), entry.about.in_lang(lang).to_owned(), presence]
     };
     VARIABLES.iter().map(row).collect()
 }
 
 /// The statements: notation, result.
 pub(crate) fn statements(lang: Lang) -> Vec<Row> {
-    let others = STATEMENTS.iter().map(|it| vec![code(it.form), it.about.in_lang(lang).to_owned()]);
+    let others = STATEMENTS.iter().map(|entry| vec![code(entry.form), entry.about.in_lang(lang).to_owned()]);
     let shortest = vec![code("{Term}"), SHORTEST.in_lang(lang).to_owned()];
     let numbers = FORMS
         .iter()
@@ -58,8 +58,11 @@ pub(crate) fn functions(lang: Lang) -> Vec<Row> {
         Rule::Two(_) => "x, y",
         Rule::Any(_) => "x, ...",
     };
-    let row = |it: &super::functions::Function| {
-        vec![code(&format!("{}({})", it.name, arguments(it.rule))), it.about.in_lang(lang).to_owned()]
+    let row = |entry: &super::functions::Function| {
+        vec![
+            code(&format!("{}({})", entry.name, arguments(entry.rule))),
+            entry.about.in_lang(lang).to_owned(),
+        ]
     };
     FUNCTIONS.iter().map(row).collect()
 }

@@ -10,47 +10,49 @@ use super::macros::{Macro, Value};
 use super::move_values::ArcValues;
 use super::registers::Register;
 use super::section::Section;
-use super::writer::{Writer, Written};
+use super::writer::{WriteResult, Writer};
 use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
 
 const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
 
 impl Writer<'_> {
     /// Writes a circular move in the form required by the options of the definition.
-    pub(super) fn arc(&mut self, it: &Move, course: &Course) -> Written {
+    pub(super) fn arc(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let options = &self.plan.definition.options;
         if options.arcs_as_lines || options.rotary.wrap {
-            return self.chords(it, course);
+            return self.chords(movement, course);
         }
         let is_short = self.scaled(course.radius() * course.sweep()) < options.least_arc_length;
-        let closes = self.rounded(|rounding| rounding.closes(it));
+        let closes = self.rounded(|rounding| rounding.closes(movement));
         if is_short || closes || self.scaled(course.radius()) > options.greatest_arc_radius {
-            self.warn_of_line(it, course);
-            return self.line(it);
+            self.warn_of_line(movement, course);
+            return self.line(movement);
         }
         if self.is_written_by_radius(course) {
-            return it.split(pieces_of(course, WIDEST_BY_RADIUS)).try_for_each(|piece| self.circle(&piece));
+            return movement
+                .split(pieces_of(course, WIDEST_BY_RADIUS))
+                .try_for_each(|piece| self.circle(&piece));
         }
-        let fitted = self.rounded(|rounding| rounding.fitted(it, self.plan.job.units));
+        let fitted = self.rounded(|rounding| rounding.fitted(movement, self.plan.job.units));
         self.circle(&fitted.map_err(|error| Box::new(error.in_file(self.plan.file)))?)
     }
 
-    fn line(&mut self, it: &Move) -> Written {
-        self.feed(it.to.axes(), it.pace.stated_feed())
+    fn line(&mut self, movement: &Move) -> WriteResult {
+        self.feed(movement.to.axes(), movement.pace.stated_feed())
     }
 
-    fn chords(&mut self, it: &Move, course: &Course) -> Written {
+    fn chords(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let Some(count) = chords(course, self.plan.arc_tolerance()) else {
             let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MOST_CHORDS));
             return Err(Box::new(diagnostic.with("radius", course.radius()).in_file(self.plan.file)));
         };
-        it.split(count).try_for_each(|piece| self.line(&piece))
+        movement.split(count).try_for_each(|piece| self.line(&piece))
     }
 
-    fn warn_of_line(&mut self, it: &Move, course: &Course) {
+    fn warn_of_line(&mut self, movement: &Move, course: &Course) {
         if course.sagitta() > self.plan.arc_tolerance() {
-            let diagnostic =
-                Diagnostic::new(&posts::ARC_FLATTENED).with("place", Point::new(it.to.x(), it.to.y()));
+            let diagnostic = Diagnostic::new(&posts::ARC_FLATTENED)
+                .with("place", Point::new(movement.to.x(), movement.to.y()));
             self.warn(diagnostic.with("radius", course.radius()).with("distance", course.sagitta()));
         }
     }
@@ -82,16 +84,16 @@ impl Writer<'_> {
         self.plan.definition.options.absolute_centres
     }
 
-    fn circle(&mut self, it: &Move) -> Written {
-        let Some(course) = it.course() else { return self.line(it) };
-        let mut values = self.with_feed(it.pace.stated_feed());
+    fn circle(&mut self, movement: &Move) -> WriteResult {
+        let Some(course) = movement.course() else { return self.line(movement) };
+        let mut values = self.with_feed(movement.pace.stated_feed());
         let arc = course.arc();
-        let origin = if self.is_absolute() { [0.0; 3] } else { it.from.at };
+        let origin = if self.is_absolute() { [0.0; 3] } else { movement.from.at };
         for (axis, centre) in arc.plane.axes().into_iter().zip(arc.centre) {
             values.set(OFFSETS[axis], Some(self.scaled(centre - origin[axis])));
         }
         values.arc = Some(self.arc_values(&course));
-        self.go(self.arc_section(&arc), it.to.axes(), values)
+        self.go(self.arc_section(&arc), movement.to.axes(), values)
     }
 
     fn arc_values(&self, course: &Course) -> ArcValues {

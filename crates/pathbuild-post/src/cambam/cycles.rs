@@ -8,7 +8,7 @@ use pathbuild_path::approx::{at_least, near};
 use super::move_values::MoveValues;
 use super::registers::Register;
 use super::section::Section;
-use super::writer::{Writer, Written};
+use super::writer::{WriteResult, Writer};
 use crate::step::{Hole, HoleKind, Step};
 
 impl<'a> Writer<'a> {
@@ -33,7 +33,7 @@ impl<'a> Writer<'a> {
         Ok(rest)
     }
 
-    fn cycle(&mut self, hole: &Hole) -> Written {
+    fn cycle(&mut self, hole: &Hole) -> WriteResult {
         let section = match hole.kind {
             HoleKind::Plain => Section::Drill,
             HoleKind::Dwell { .. } => Section::DrillDwell,
@@ -66,7 +66,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Checks that a hole does not vanish because its section or the word of its cycle is empty.
-    fn check_drilled(&self, hole: &Hole, section: Section) -> Written {
+    fn check_drilled(&self, hole: &Hole, section: Section) -> WriteResult {
         let is_blank = self.plan.definition.section(section).is_blank();
         let Some(empty) = is_blank.then_some(section).or(self.empty_code) else { return Ok(()) };
         let diagnostic =

@@ -23,8 +23,8 @@ pub(super) fn fuel(plan: &Plan<'_>) -> usize {
 /// Maximum number of moves that a step can become.
 fn moves_of(step: &Step, plan: &Plan<'_>) -> usize {
     match step {
-        Step::Move(it) => {
-            let count = it.course().and_then(|course| chords(&course, plan.arc_tolerance()));
+        Step::Move(movement) => {
+            let count = movement.course().and_then(|course| chords(&course, plan.arc_tolerance()));
             count.map_or(1, |count| count as usize)
         }
         Step::Hole(hole) => holes::moves(hole).map_or(1, |moves| moves.len()),

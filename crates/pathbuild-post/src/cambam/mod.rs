@@ -45,16 +45,16 @@ pub(super) fn write(
     job: &Job,
     target: Option<&Target>,
     options: &PostOptions<'_>,
-) -> Result<Written, Vec<Diagnostic>> {
+) -> Result<EngineOutput, Vec<Diagnostic>> {
     let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
     let post_build = command::post_build(definition, file, job, options).map_err(one)?;
     let text = Writer::new(&plan).run().map_err(one)?;
-    Ok(Written { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+    Ok(EngineOutput { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
 
 /// The output of the engine.
-pub(super) struct Written {
+pub(super) struct EngineOutput {
     pub(super) text: WrittenText,
     /// The command given in the definition.
     pub(super) post_build: Option<Vec<String>>,

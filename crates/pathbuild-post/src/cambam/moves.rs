@@ -9,14 +9,14 @@ use super::macros::Argument;
 use super::move_values::MoveValues;
 use super::registers::Register;
 use super::section::Section;
-use super::writer::{ROTARY, Writer, Written};
+use super::writer::{ROTARY, WriteResult, Writer};
 use crate::holes;
 use crate::job::Entry;
 use crate::step::Step;
 
 impl Writer<'_> {
     /// Writes the moves of the current operation.
-    pub(super) fn blocks(&mut self) -> Written {
+    pub(super) fn blocks(&mut self) -> WriteResult {
         match self.operation().entry {
             Entry::Clearance => self.clearance()?,
             Entry::At(start) => self.check(start.map(Some))?,
@@ -36,9 +36,9 @@ impl Writer<'_> {
     }
 
     /// Writes any step except a canned cycle.
-    pub(super) fn step(&mut self, step: &Step) -> Written {
+    pub(super) fn step(&mut self, step: &Step) -> WriteResult {
         match step {
-            Step::Move(it) => self.move_to(it),
+            Step::Move(movement) => self.move_to(movement),
             Step::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
             Step::Dwell { seconds } => {
                 let mut values = MoveValues::default();
@@ -50,14 +50,14 @@ impl Writer<'_> {
         }
     }
 
-    fn move_to(&mut self, it: &Move) -> Written {
-        match (it.course(), it.pace) {
-            (Some(course), _) => self.arc(it, &course),
-            (None, Pace::Rapid) => self.go(Section::Rapid, it.to.axes(), MoveValues::default()),
-            (None, Pace::Feed(_)) => self.feed(it.to.axes(), it.pace.stated_feed()),
+    fn move_to(&mut self, movement: &Move) -> WriteResult {
+        match (movement.course(), movement.pace) {
+            (Some(course), _) => self.arc(movement, &course),
+            (None, Pace::Rapid) => self.go(Section::Rapid, movement.to.axes(), MoveValues::default()),
+            (None, Pace::Feed(_)) => self.feed(movement.to.axes(), movement.pace.stated_feed()),
             (None, Pace::Probe { .. }) => {
-                let values = self.with_feed(it.pace.stated_feed());
-                self.go(Section::Probe, it.to.axes(), values)?;
+                let values = self.with_feed(movement.pace.stated_feed());
+                self.go(Section::Probe, movement.to.axes(), values)?;
                 // Only the machine knows where the probe stopped, so the next coordinates are written in full.
                 self.machine.forget(&[Register::X, Register::Y, Register::Z]);
                 Ok(())
@@ -73,7 +73,7 @@ impl Writer<'_> {
     }
 
     /// Writes a straight cut.
-    pub(super) fn feed(&mut self, to: [Option<f64>; 3], feed: Option<f64>) -> Written {
+    pub(super) fn feed(&mut self, to: [Option<f64>; 3], feed: Option<f64>) -> WriteResult {
         let values = self.with_feed(feed);
         self.go(Section::FeedMove, to, values)
     }
@@ -88,7 +88,7 @@ impl Writer<'_> {
     /// Writes a move through a section: sets the register values, and adds the texts for the start and end of cutting.
     ///
     /// Axes without a target stay at their position, as far as it is known from the lines written so far.
-    pub(super) fn go(&mut self, section: Section, to: [Option<f64>; 3], values: MoveValues) -> Written {
+    pub(super) fn go(&mut self, section: Section, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
         let was_cutting = self.is_cutting;
         if let Some(z) = to[2] {
             self.is_cutting = self.is_below_surface(z);
@@ -106,7 +106,7 @@ impl Writer<'_> {
     }
 
     /// Sets the register values for a move.
-    pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> Written {
+    pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
         self.move_values = values;
         for (axis, target) in to.into_iter().enumerate() {
             let value = target.map(|target| self.scaled(target)).or_else(|| self.present(axis));
@@ -148,7 +148,7 @@ impl Writer<'_> {
     }
 
     /// Writes a section on lines of its own.
-    pub(super) fn lines_of(&mut self, section: Section) -> Written {
+    pub(super) fn lines_of(&mut self, section: Section) -> WriteResult {
         self.section(section)?;
         self.end_line();
         Ok(())
@@ -161,7 +161,7 @@ impl Writer<'_> {
     }
 
     /// Converts the coordinate across a rotary axis to its angle.
-    fn wrap(&mut self, to: [Option<f64>; 3]) -> Written {
+    fn wrap(&mut self, to: [Option<f64>; 3]) -> WriteResult {
         let rotary = self.plan.definition.options.rotary;
         if !rotary.wrap {
             return Ok(());
@@ -185,7 +185,7 @@ impl Writer<'_> {
     }
 
     /// Moves up to the clearance plane, unless the tool is there.
-    pub(super) fn clearance(&mut self) -> Written {
+    pub(super) fn clearance(&mut self) -> WriteResult {
         let clearance = self.operation().clearance;
         if self.is_at(2, clearance) {
             return Ok(());
@@ -199,7 +199,7 @@ impl Writer<'_> {
     }
 
     /// Expands `{$check(x,y,z)}`.
-    pub(super) fn check_macro(&mut self, target: [Argument; 3]) -> Written {
+    pub(super) fn check_macro(&mut self, target: [Argument; 3]) -> WriteResult {
         let unit = self.plan.unit();
         let mut to = [None; 3];
         for ((coordinate, argument), register) in to.iter_mut().zip(target).zip(Register::AXES) {
@@ -213,7 +213,7 @@ impl Writer<'_> {
     }
 
     /// Moves to a position by way of the clearance plane, unless the tool is there.
-    pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> Written {
+    pub(super) fn check(&mut self, target: [Option<f64>; 3]) -> WriteResult {
         let is_there =
             target.iter().enumerate().all(|(axis, target)| target.is_none_or(|at| self.is_at(axis, at)));
         if is_there {

@@ -106,7 +106,7 @@ pub(super) enum Refusal {
 pub(super) struct ElementOption {
     /// Name of the element.
     pub(super) element: &'static str,
-    set: fn(&mut Options, &str) -> Read<()>,
+    set: fn(&mut Options, &str) -> OptionResult<()>,
     /// Default if the element is absent, as it would be written.
     pub(super) default: &'static str,
     /// Whether the element is unknown to CamBam.
@@ -420,29 +420,29 @@ impl Options {
     }
 }
 
-type Read<T> = Result<T, Refusal>;
+type OptionResult<T> = Result<T, Refusal>;
 
-fn put<T>(option: &mut T, value: Read<T>) -> Read<()> {
+fn put<T>(option: &mut T, value: OptionResult<T>) -> OptionResult<()> {
     *option = value?;
     Ok(())
 }
 
 /// Compares without regard to case and blanks, because files spell `Convert To Lines` in several ways.
-fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> Read<T> {
+fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> OptionResult<T> {
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
     let found = choices.iter().find(|(name, _)| plain(name) == plain(value));
     found.map(|(_, choice)| *choice).ok_or(Refusal::Expected(expected))
 }
 
-fn axis(value: &str) -> Read<usize> {
+fn axis(value: &str) -> OptionResult<usize> {
     choice(value, &Text { en: "X or Y", de: "X oder Y" }, &[("X", 0), ("Y", 1)])
 }
 
-fn boolean(value: &str) -> Read<bool> {
+fn boolean(value: &str) -> OptionResult<bool> {
     choice(value, &Text { en: "true or false", de: "true oder false" }, &[("true", true), ("false", false)])
 }
 
-fn arc_output(value: &str) -> Read<bool> {
+fn arc_output(value: &str) -> OptionResult<bool> {
     choice(
         value,
         &Text { en: "Normal or ConvertToLines", de: "Normal oder ConvertToLines" },
@@ -450,7 +450,7 @@ fn arc_output(value: &str) -> Read<bool> {
     )
 }
 
-fn centre_mode(value: &str) -> Read<bool> {
+fn centre_mode(value: &str) -> OptionResult<bool> {
     choice(
         value,
         &Text { en: "Absolute or Incremental", de: "Absolute oder Incremental" },
@@ -458,7 +458,7 @@ fn centre_mode(value: &str) -> Read<bool> {
     )
 }
 
-fn pattern(value: &str) -> Read<NumberFormat> {
+fn pattern(value: &str) -> OptionResult<NumberFormat> {
     value.parse().map_err(|()| {
         Refusal::Expected(&Text {
             en: "a pattern of 0, # and at most one point",
@@ -467,16 +467,16 @@ fn pattern(value: &str) -> Read<NumberFormat> {
     })
 }
 
-fn count(value: &str) -> Read<u32> {
+fn count(value: &str) -> OptionResult<u32> {
     value.parse().map_err(|_| Refusal::Expected(&Text { en: "a whole number", de: "eine ganze Zahl" }))
 }
 
-fn length(value: &str) -> Read<f64> {
+fn length(value: &str) -> OptionResult<f64> {
     let number = value.parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
     number.ok_or(Refusal::Expected(&Text { en: "a number from 0", de: "eine Zahl ab 0" }))
 }
 
-fn positive(value: &str) -> Read<f64> {
+fn positive(value: &str) -> OptionResult<f64> {
     length(value)
         .ok()
         .filter(|length| *length > 0.0)
@@ -485,7 +485,7 @@ fn positive(value: &str) -> Read<f64> {
 
 /// Parses a line end. `\r` and `\n` may be escape sequences or the characters themselves. They may be preceded by symbols such as ` *` or
 /// `;`, but not by words.
-fn end_of_line(text: &str) -> Read<Box<str>> {
+fn end_of_line(text: &str) -> OptionResult<Box<str>> {
     let value = text.trim_matches([' ', '\t']).replace("\\r", "\r").replace("\\n", "\n");
     let sign = value.trim_end_matches(['\r', '\n']);
     let end = &value[sign.len()..];
@@ -501,7 +501,7 @@ fn end_of_line(text: &str) -> Read<Box<str>> {
     Ok(format!("{}{value}", " ".repeat(blanks.min(8))).into())
 }
 
-fn extension(value: &str) -> Read<Box<str>> {
+fn extension(value: &str) -> OptionResult<Box<str>> {
     crate::extension(value)
         .ok_or(Refusal::Expected(&Text { en: "a file name's extension", de: "die Endung eines Dateinamens" }))
 }

@@ -5,13 +5,13 @@ use pathbuild_motion::{Coolant, Plane, Turning};
 use super::macros::{Choice, State};
 use super::registers::{Code, Form, Register};
 use super::section::{Section, coolant_section, spindle_section};
-use super::writer::{Writer, Written};
+use super::writer::{WriteResult, Writer};
 use crate::job::{Units, VelocityMode};
 use crate::number::NumberFormat;
 use crate::step::Step;
 
 impl Writer<'_> {
-    pub(super) fn register(&mut self, register: Register, form: Form) -> Written {
+    pub(super) fn register(&mut self, register: Register, form: Form) -> WriteResult {
         self.line.asked = true;
         let Some(value) = self.move_values.get(register) else { return Ok(()) };
         let value = match form {
@@ -30,7 +30,7 @@ impl Writer<'_> {
         self.text(&format!("{}{text}", register.letter()))
     }
 
-    pub(super) fn speed(&mut self) -> Written {
+    pub(super) fn speed(&mut self) -> WriteResult {
         match self.operation().speed.filter(|_| !self.plan.options.manual_spindle) {
             Some(speed) => self.text(&format!("S{}", NumberFormat::decimals(0, 0).format(speed))),
             None => Ok(()),
@@ -38,7 +38,7 @@ impl Writer<'_> {
     }
 
     /// Switches the spindle on and waits for it, unless it already turns as the operation requires.
-    pub(super) fn spindle_up(&mut self) -> Written {
+    pub(super) fn spindle_up(&mut self) -> WriteResult {
         let operation = self.operation();
         let Some(spindle) = operation.spindle.filter(|_| !self.plan.options.manual_spindle) else {
             return Ok(());
@@ -61,7 +61,7 @@ impl Writer<'_> {
         if wait > 0.0 && spindle != Turning::Off { self.step(&Step::Dwell { seconds: wait }) } else { Ok(()) }
     }
 
-    pub(super) fn code(&mut self, code: Code, modal: bool) -> Written {
+    pub(super) fn code(&mut self, code: Code, modal: bool) -> WriteResult {
         self.line.code = Some(code);
         if self.plan.definition.section(code.section()).is_blank() {
             self.empty_code = Some(code.section());
@@ -75,7 +75,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    pub(super) fn named_section(&mut self, section: Section) -> Written {
+    pub(super) fn named_section(&mut self, section: Section) -> WriteResult {
         let is_spindle = matches!(section, Section::SpindleCw | Section::SpindleCcw | Section::SpindleOff);
         if is_spindle && self.plan.options.manual_spindle {
             return Ok(());
@@ -103,7 +103,7 @@ impl Writer<'_> {
         }
     }
 
-    pub(super) fn state(&mut self, state: State) -> Written {
+    pub(super) fn state(&mut self, state: State) -> WriteResult {
         let operation = self.operation();
         let section = match state {
             State::Velocity

@@ -7,7 +7,7 @@ use super::move_values::ArcValues;
 use super::plan::framed;
 use super::registers::Register;
 use super::section::Section;
-use super::writer::{Writer, Written};
+use super::writer::{WriteResult, Writer};
 use crate::job::{Job, Stock};
 use crate::step::{Hole, HoleKind};
 
@@ -83,7 +83,7 @@ impl Writer<'_> {
     }
 
     /// Handles a macro without a value: a date may be omitted, anything else would leave a gap in the program.
-    pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> Written {
+    pub(super) fn without_value(&mut self, value: Value, section: Section, line: u32) -> WriteResult {
         if value == Value::Date {
             self.line.leave_out();
             return Ok(());

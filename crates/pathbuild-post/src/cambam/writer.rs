@@ -22,7 +22,7 @@ use crate::shadow::{Shadow, Unfollowed};
 use crate::words::{CommentMarks, Word, Words, words};
 
 /// Success, or the diagnostic that aborts writing.
-pub(super) type Written = Result<(), Box<Diagnostic>>;
+pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 
 /// The output of a writer.
 pub(crate) struct WrittenText {
@@ -161,11 +161,11 @@ impl<'a> Writer<'a> {
         self.number_format().format(self.scaled(millimetres))
     }
 
-    pub(super) fn section(&mut self, section: Section) -> Written {
+    pub(super) fn section(&mut self, section: Section) -> WriteResult {
         self.template(self.plan.definition.section(section))
     }
 
-    pub(super) fn template(&mut self, template: &'a Template) -> Written {
+    pub(super) fn template(&mut self, template: &'a Template) -> WriteResult {
         let kind = usize::from(template.section == Section::UserMacro);
         if self.depth[kind] == MOST_DEPTH {
             let diagnostic = Diagnostic::new(&posts::MACRO_DEPTH).with("limit", MOST_DEPTH);
@@ -195,7 +195,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn expand(&mut self, what: &'a Macro, section: Section, line: u32) -> Written {
+    fn expand(&mut self, what: &'a Macro, section: Section, line: u32) -> WriteResult {
         self.burn(1)?;
         match what {
             Macro::Section(text) => self.named_section(*text),
@@ -237,7 +237,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes all operations, or the moves of one; neither may occur within itself.
-    fn program(&mut self, block: Block, section: Section, line: u32) -> Written {
+    fn program(&mut self, block: Block, section: Section, line: u32) -> WriteResult {
         if self.open.contains(&block) {
             let name = if block == Block::Mops { "mops" } else { "blocks" };
             let diagnostic = Diagnostic::new(&posts::BLOCK_WITHIN_ITSELF).quoting("macro", framed(name));
@@ -249,7 +249,7 @@ impl<'a> Writer<'a> {
         written
     }
 
-    fn block(&mut self, block: Block) -> Written {
+    fn block(&mut self, block: Block) -> WriteResult {
         match block {
             Block::Mops => self.mops(),
             Block::Blocks => self.blocks(),
@@ -268,7 +268,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn mops(&mut self) -> Written {
+    fn mops(&mut self) -> WriteResult {
         for index in 0..self.plan.job.operations.len() {
             self.operation = index;
             self.tool = &self.operation().tool;
@@ -278,7 +278,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn tool_table(&mut self) -> Written {
+    fn tool_table(&mut self) -> WriteResult {
         let present = self.tool;
         for tool in self.plan.job.tools().into_iter().filter(|tool| tool.is_named) {
             self.tool = tool;
@@ -289,7 +289,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn tool_change(&mut self, tool: &'a Tool) -> Written {
+    fn tool_change(&mut self, tool: &'a Tool) -> WriteResult {
         if self.machine.tool == Some(tool.index) || !tool.is_named {
             return Ok(());
         }
@@ -300,7 +300,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds text to the line; a line break ends it.
-    pub(super) fn text(&mut self, text: &str) -> Written {
+    pub(super) fn text(&mut self, text: &str) -> WriteResult {
         self.burn(text.len())?;
         let most = self.plan.options.most_bytes;
         // Blanks of the current line may still be removed.
@@ -327,7 +327,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds a text from a drawing, file name or option in such a way that no control acts on it.
-    pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> Written {
+    pub(super) fn foreign(&mut self, text: &str, name: &str, section: Section, line: u32) -> WriteResult {
         let Some(text) = self.guard.put(&self.line.text, text) else {
             let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS)
                 .quoting("macro", framed(name))
@@ -338,7 +338,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes a comment on a line of its own.
-    pub(super) fn comment(&mut self, text: &str, blank: &str) -> Written {
+    pub(super) fn comment(&mut self, text: &str, blank: &str) -> WriteResult {
         self.section(Section::Comment)?;
         self.text(blank)?;
         self.foreign(text, "endcomment", Section::Comment, 0)?;
@@ -426,7 +426,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Consumes fuel for text, so that macros that multiply text come to an end.
-    fn burn(&mut self, cost: usize) -> Written {
+    fn burn(&mut self, cost: usize) -> WriteResult {
         match self.fuel.checked_sub(cost) {
             Some(left) => {
                 self.fuel = left;

@@ -69,7 +69,8 @@ impl Tin {
     /// The first triangle that contains a point, with the barycentric coordinates of the point.
     fn around(&self, at: Xy) -> Option<(usize, [f64; 3])> {
         let near = self.boxes.locate_in_envelope_intersecting(AABB::from_point([at.x, at.y]));
-        let around = near.filter_map(|it| Some((it.data, self.inside(self.triangles[it.data], at)?)));
+        let around = near
+            .filter_map(|candidate| Some((candidate.data, self.inside(self.triangles[candidate.data], at)?)));
         around.min_by_key(|(number, _)| *number)
     }
 
@@ -126,7 +127,10 @@ impl Tin {
 fn wide(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
     let (lower, upper) = (tight.lower(), tight.upper());
     let margin = 4.0 * ROUNDING * (upper[0] - lower[0]).max(upper[1] - lower[1]);
-    Rectangle::from_corners(lower.map(|it| it - margin), upper.map(|it| it + margin))
+    Rectangle::from_corners(
+        lower.map(|coordinate| coordinate - margin),
+        upper.map(|coordinate| coordinate + margin),
+    )
 }
 
 /// Builds a tree of shapes with their indices.

@@ -17,14 +17,14 @@ pub(super) fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> V
     let mut written: Vec<(u32, Move)> = Vec::new();
     interpret_each(text, dialect, &options, &mut |step| {
         // Moves before the first fully known position belong to the frame.
-        if let Some((line, it)) = step.as_move()
-            && (!written.is_empty() || it.from.known == Axes::ALL)
+        if let Some((line, movement)) = step.as_move()
+            && (!written.is_empty() || movement.from.known == Axes::ALL)
         {
-            written.push((line, it));
+            written.push((line, movement));
         }
     });
     let mut finder = Finder { written: &written, next: 0, last: None };
-    moves.iter().map(|it| finder.line(it)).collect()
+    moves.iter().map(|movement| finder.line(movement)).collect()
 }
 
 struct Finder<'a> {
@@ -35,18 +35,19 @@ struct Finder<'a> {
 }
 
 impl Finder<'_> {
-    fn line(&mut self, it: &Move) -> Option<u32> {
-        match it.pace {
-            Pace::Rapid => self.rapid(it),
-            Pace::Feed(_) | Pace::Probe { .. } => self.cut(it),
+    fn line(&mut self, movement: &Move) -> Option<u32> {
+        match movement.pace {
+            Pace::Rapid => self.rapid(movement),
+            Pace::Feed(_) | Pace::Probe { .. } => self.cut(movement),
         }
     }
 
     /// The first line of a cut. The cut ends where its last piece ends.
-    fn cut(&mut self, it: &Move) -> Option<u32> {
+    fn cut(&mut self, movement: &Move) -> Option<u32> {
         let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
         let rest = &self.written[self.next..self.written.len().min(self.next + SEARCHED)];
-        let ends = |candidate: &(u32, Move)| is_cut(candidate) && is_same(&candidate.1.to, &it.to, Axes::ALL);
+        let ends =
+            |candidate: &(u32, Move)| is_cut(candidate) && is_same(&candidate.1.to, &movement.to, Axes::ALL);
         let end = rest.iter().position(ends)?;
         let first = rest[..=end].iter().find(|candidate| is_cut(candidate))?.0;
         self.next += end + 1;
@@ -56,16 +57,16 @@ impl Finder<'_> {
 
     /// The line of a rapid move before the next cut: one with the same ends, or else with the same end, or else in the same direction. If
     /// one line stands for several moves, it is the line of the move before.
-    fn rapid(&mut self, it: &Move) -> Option<u32> {
+    fn rapid(&mut self, movement: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
         let rapids: Vec<&Move> = rapids.take(SEARCHED).map(|(_, written)| written).collect();
-        let moved = if it.is_upright() { Axes::Z } else { Axes::XY };
+        let moved = if movement.is_upright() { Axes::Z } else { Axes::XY };
         let has_both = |written: &&Move| {
-            is_same(&written.from, &it.from, Axes::ALL) && is_same(&written.to, &it.to, Axes::ALL)
+            is_same(&written.from, &movement.from, Axes::ALL) && is_same(&written.to, &movement.to, Axes::ALL)
         };
-        let has_end = |written: &&Move| is_same(&written.to, &it.to, Axes::ALL);
-        let has_part = |written: &&Move| is_same(&written.to, &it.to, moved);
+        let has_end = |written: &&Move| is_same(&written.to, &movement.to, Axes::ALL);
+        let has_part = |written: &&Move| is_same(&written.to, &movement.to, moved);
         let found = rapids.iter().position(has_both);
         let found = found.or_else(|| rapids.iter().position(has_end));
         let found = found.or_else(|| rapids.iter().position(has_part));

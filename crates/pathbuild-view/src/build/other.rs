@@ -34,7 +34,11 @@ fn other(drawing: &Drawing, entity: &Entity) -> OtherShape {
             let centre = [circle.centre.x, circle.centre.y];
             OtherShape::Shape { layer, shape: Shape::Circle { centre, radius: circle.radius } }
         }
-        Geometry::Text(it) => text(TextCircle::of_text(it), &it.string, it.height, it.rotation),
-        Geometry::MText(it) => text(TextCircle::of_mtext(it), &it.plain, it.height, it.rotation),
+        Geometry::Text(entity) => {
+            text(TextCircle::of_text(entity), &entity.string, entity.height, entity.rotation)
+        }
+        Geometry::MText(entity) => {
+            text(TextCircle::of_mtext(entity), &entity.plain, entity.height, entity.rotation)
+        }
     }
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
 use pathbuild_motion::Axes;
 
-use super::identity::{Deed, Line, Milled, is_rapid, lines};
+use super::identity::{Line, MillingResult, MoveIdentity, is_rapid, lines};
 use super::{Change, ChangeKind};
 use crate::scene::{Move, Point};
 
@@ -27,12 +27,13 @@ pub fn compare(old: &[Move], new: &[Move]) -> Vec<Change> {
 /// The runs of moves in which two programs differ.
 fn differing(old: &[Move], new: &[Move]) -> Vec<(Range<usize>, Range<usize>)> {
     // The way to the first fully known position depends on the machine.
-    let begin = |moves: &[Move]| moves.iter().take_while(|it| !it.way.from.known.has(Axes::ALL)).count();
+    let begin =
+        |moves: &[Move]| moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count();
     let (was, is) = (begin(old), begin(new));
     let interner = Interner::new(old.len() + new.len());
     let mut input = InternedInput { before: Vec::new(), after: Vec::new(), interner };
-    input.update_before(old[was..].iter().map(|it| Deed::of(it, ORIGIN)));
-    input.update_after(new[is..].iter().map(|it| Deed::of(it, ORIGIN)));
+    input.update_before(old[was..].iter().map(|movement| MoveIdentity::of(movement, ORIGIN)));
+    input.update_after(new[is..].iter().map(|movement| MoveIdentity::of(movement, ORIGIN)));
     let row = |start: usize, row: &Range<u32>| start + row.start as usize..start + row.end as usize;
     let diff = Diff::compute(Algorithm::Histogram, &input);
     diff.hunks().map(|hunk| (row(was, &hunk.before), row(is, &hunk.after))).collect()
@@ -41,8 +42,8 @@ fn differing(old: &[Move], new: &[Move]) -> Vec<(Range<usize>, Range<usize>)> {
 struct Comparison<'a> {
     old: &'a [Move],
     new: &'a [Move],
-    was: HashMap<Line, Milled>,
-    is: HashMap<Line, Milled>,
+    was: HashMap<Line, MillingResult>,
+    is: HashMap<Line, MillingResult>,
 }
 
 impl Comparison<'_> {
@@ -66,7 +67,7 @@ impl Comparison<'_> {
     fn shifted(&self, old: &Range<usize>, new: &Range<usize>) -> Option<Change> {
         let (old, new) = (cuts(self.old, old)?, cuts(self.new, new)?);
         let by = [0, 1].map(|axis| self.new[new.start].to()[axis] - self.old[old.start].to()[axis]);
-        let is_same = |(was, is): (&Move, &Move)| Deed::of(was, ORIGIN) == Deed::of(is, by);
+        let is_same = |(was, is): (&Move, &Move)| MoveIdentity::of(was, ORIGIN) == MoveIdentity::of(is, by);
         let mut pairs = self.old[old.clone()].iter().zip(&self.new[new.clone()]);
         let is_shifted = old.len() == new.len() && by != ORIGIN && pairs.all(is_same);
         is_shifted.then_some(Change { kind: ChangeKind::Shifted(by), old, new })
@@ -76,15 +77,15 @@ impl Comparison<'_> {
     fn judge(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
         let (behind, before) = (old.end, new.start);
         for index in old {
-            let it = &self.old[index];
+            let movement = &self.old[index];
             // A line that is still milled is classified by its move in the new program.
-            if is_rapid(it) || !self.is.contains_key(&Line::of(it)) {
+            if is_rapid(movement) || !self.is.contains_key(&Line::of(movement)) {
                 add(changes, ChangeKind::Removed, index..index + 1, before..before);
             }
         }
         for index in new {
-            let it = &self.new[index];
-            let kind = if is_rapid(it) { ChangeKind::Added } else { self.kind(&Line::of(it)) };
+            let movement = &self.new[index];
+            let kind = if is_rapid(movement) { ChangeKind::Added } else { self.kind(&Line::of(movement)) };
             add(changes, kind, behind..behind, index..index + 1);
         }
     }

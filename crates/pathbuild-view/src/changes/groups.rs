@@ -26,12 +26,12 @@ pub fn groups(changes: &[Change], old: &[Move], new: &[Move]) -> Vec<Group> {
             ChangeKind::Removed => &old[change.old.clone()],
             _ => &new[change.new.clone()],
         };
-        for it in moves {
-            let group = if is_rapid(it) { &mut rapids } else { of_kind(&mut groups, change.kind) };
+        for movement in moves {
+            let group = if is_rapid(movement) { &mut rapids } else { of_kind(&mut groups, change.kind) };
             group.moves += 1;
-            group.length += it.length;
-            if group.at.is_none() && it.is_placed() {
-                group.at = Some(it.to());
+            group.length += movement.length;
+            if group.at.is_none() && movement.is_placed() {
+                group.at = Some(movement.to());
             }
         }
     }

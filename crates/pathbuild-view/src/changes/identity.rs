@@ -8,7 +8,7 @@ use crate::scene::{Move, MoveKind, Point};
 
 /// Everything that a move does, in µm and µm/min, which hides differences from printing numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Deed {
+pub(super) struct MoveIdentity {
     kind: MoveKind,
     ends: [[Option<i64>; 3]; 2],
     arc: Option<Turn>,
@@ -24,17 +24,20 @@ struct Turn {
     extra_turns: u32,
 }
 
-impl Deed {
-    /// The deed of a move, relative to a point in the plane.
-    pub(super) fn of(it: &Move, origin: Point) -> Self {
+impl MoveIdentity {
+    /// The identity of a move, relative to a point in the plane.
+    pub(super) fn of(movement: &Move, origin: Point) -> Self {
         let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
         let end =
             |end: &Position| [0, 1, 2].map(|axis| known(end, axis).map(|at| micrometres(at - shift(axis))));
         // A rapid move is identified by its end only: it starts where the previous move ends, which is unknown at the beginning of a
         // program.
-        let (kind, from) =
-            if is_rapid(it) { (MoveKind::Sweep, [None; 3]) } else { (it.kind, end(&it.way.from)) };
-        let arc = match it.way.path {
+        let (kind, from) = if is_rapid(movement) {
+            (MoveKind::Sweep, [None; 3])
+        } else {
+            (movement.kind, end(&movement.way.from))
+        };
+        let arc = match movement.way.path {
             Path::Line => None,
             Path::Arc(arc) => {
                 let axes = arc.plane.axes();
@@ -43,7 +46,12 @@ impl Deed {
                 Some(Turn { axes, centre, is_clockwise, extra_turns })
             }
         };
-        Self { kind, ends: [from, end(&it.way.to)], arc, feed: it.way.pace.feed().map(micrometres) }
+        Self {
+            kind,
+            ends: [from, end(&movement.way.to)],
+            arc,
+            feed: movement.way.pace.feed().map(micrometres),
+        }
     }
 }
 
@@ -58,21 +66,21 @@ pub(super) struct Line {
 }
 
 impl Line {
-    pub(super) fn of(it: &Move) -> Self {
-        let drawn = [it.from(), it.to()].map(|end| end.map(micrometres));
+    pub(super) fn of(movement: &Move) -> Self {
+        let drawn = [movement.from(), movement.to()].map(|end| end.map(micrometres));
         let mut ends = drawn;
         ends.sort_unstable();
-        let (centre, is_clockwise) = match it.way.path {
+        let (centre, is_clockwise) = match movement.way.path {
             Path::Line => (None, false),
             Path::Arc(arc) => (Some(arc.centre.map(micrometres)), arc.clockwise == (drawn == ends)),
         };
-        Self { kind: it.kind, ends, centre, is_clockwise }
+        Self { kind: movement.kind, ends, centre, is_clockwise }
     }
 }
 
 /// The result of milling along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Milled {
+pub(super) struct MillingResult {
     /// The lowest Z in mm.
     pub(super) bottom: f64,
     /// The feed of the deepest pass in mm/min.
@@ -82,11 +90,12 @@ pub(super) struct Milled {
 }
 
 /// The result of milling along each line of a program. Rapid moves are ignored.
-pub(super) fn lines(moves: &[Move]) -> HashMap<Line, Milled> {
-    let mut lines: HashMap<Line, Milled> = HashMap::new();
-    for it in moves.iter().filter(|it| !is_rapid(it)) {
-        let (bottom, feed) = (it.depth().unwrap_or_default(), it.way.pace.feed().unwrap_or_default());
-        let milled = lines.entry(Line::of(it)).or_insert(Milled { bottom, feed, passes: 0 });
+pub(super) fn lines(moves: &[Move]) -> HashMap<Line, MillingResult> {
+    let mut lines: HashMap<Line, MillingResult> = HashMap::new();
+    for movement in moves.iter().filter(|movement| !is_rapid(movement)) {
+        let (bottom, feed) =
+            (movement.depth().unwrap_or_default(), movement.way.pace.feed().unwrap_or_default());
+        let milled = lines.entry(Line::of(movement)).or_insert(MillingResult { bottom, feed, passes: 0 });
         milled.passes += 1;
         if bottom < milled.bottom {
             (milled.bottom, milled.feed) = (bottom, feed);
@@ -96,8 +105,8 @@ pub(super) fn lines(moves: &[Move]) -> HashMap<Line, Milled> {
 }
 
 /// Whether a move is rapid, in any direction.
-pub(super) fn is_rapid(it: &Move) -> bool {
-    matches!(it.kind, MoveKind::Sweep | MoveKind::Lift)
+pub(super) fn is_rapid(movement: &Move) -> bool {
+    matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
 }
 
 fn known(end: &Position, axis: usize) -> Option<f64> {

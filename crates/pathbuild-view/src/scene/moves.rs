@@ -94,12 +94,12 @@ impl MoveKind {
 
 /// The JSON form of a move.
 #[derive(Serialize)]
-struct Written {
+struct MoveJson {
     kind: MoveKind,
     from: [Option<f64>; 3],
     to: [Option<f64>; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
-    arc: Option<WrittenArc>,
+    arc: Option<ArcJson>,
     #[serde(skip_serializing_if = "Option::is_none")]
     feed: Option<f64>,
     length: f64,
@@ -111,7 +111,7 @@ struct Written {
 
 /// The JSON form of an arc: the axes of its plane, its centre on these axes, and the angle it covers.
 #[derive(Serialize)]
-struct WrittenArc {
+struct ArcJson {
     axes: [usize; 2],
     centre: [f64; 2],
     clockwise: bool,
@@ -126,14 +126,14 @@ impl Serialize for Move {
         let motion::Move { from, to, path, pace, .. } = &self.way;
         let arc = match path {
             Path::Line => None,
-            Path::Arc(arc) => Some(WrittenArc {
+            Path::Arc(arc) => Some(ArcJson {
                 axes: arc.plane.axes(),
                 centre: arc.centre.map(rounded),
                 clockwise: arc.clockwise,
                 degrees: rounded(arc.sweep(from, to).to_degrees()),
             }),
         };
-        let written = Written {
+        let written = MoveJson {
             kind: self.kind,
             from: place(from),
             to: place(to),

@@ -68,8 +68,8 @@ impl Pair<'_> {
             is_changed[change.new.clone()].fill(true);
         }
         let stays = self.new.iter().zip(&is_changed).filter(|(_, is_changed)| !**is_changed);
-        for (it, _) in stays {
-            stroke(canvas, it, place, OTHER, "");
+        for (movement, _) in stays {
+            stroke(canvas, movement, place, OTHER, "");
         }
         for change in self.changes {
             let (old, new) = (&self.old[change.old.clone()], &self.new[change.new.clone()]);
@@ -78,11 +78,11 @@ impl Pair<'_> {
             } else {
                 old
             };
-            for it in was {
-                stroke(canvas, it, place, REMOVED, DASHES);
+            for movement in was {
+                stroke(canvas, movement, place, REMOVED, DASHES);
             }
-            for it in new {
-                stroke(canvas, it, place, color(Some(change.kind)), dashes(Some(change.kind)));
+            for movement in new {
+                stroke(canvas, movement, place, color(Some(change.kind)), dashes(Some(change.kind)));
             }
         }
     }
@@ -91,25 +91,25 @@ impl Pair<'_> {
 const DASHES: &str = " stroke-dasharray=\"5 4\"";
 
 fn all(canvas: &mut Canvas, moves: &[Move], place: &PageTransform, color: &str) {
-    for it in moves {
-        stroke(canvas, it, place, color, "");
+    for movement in moves {
+        stroke(canvas, movement, place, color, "");
     }
 }
 
-fn stroke(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str, dashes: &str) {
-    if !it.is_placed() || it.kind == MoveKind::Lift {
+fn stroke(canvas: &mut Canvas, movement: &Move, place: &PageTransform, color: &str, dashes: &str) {
+    if !movement.is_placed() || movement.kind == MoveKind::Lift {
         return;
     }
-    if matches!(it.kind, MoveKind::Plunge | MoveKind::Probe) {
+    if matches!(movement.kind, MoveKind::Plunge | MoveKind::Probe) {
         return canvas.circle(
-            place.at(it.to()),
+            place.at(movement.to()),
             2.5,
             &format!("fill=\"{color}\" stroke=\"{color}\"{dashes}"),
         );
     }
     let (width, dashes) =
-        if it.kind == MoveKind::Sweep { (0.7, " stroke-dasharray=\"1 4\"") } else { (2.0, dashes) };
-    canvas.path(&data(it, place), &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)));
+        if movement.kind == MoveKind::Sweep { (0.7, " stroke-dasharray=\"1 4\"") } else { (2.0, dashes) };
+    canvas.path(&data(movement, place), &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)));
 }
 
 fn color(kind: Option<ChangeKind>) -> &'static str {

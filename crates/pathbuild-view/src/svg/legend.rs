@@ -125,7 +125,7 @@ pub(super) fn kinds(
     right: f64,
 ) {
     let moves = || scene.paths.iter().flat_map(|path| &path.moves);
-    let has = |kind| moves().any(|it| it.kind == kind);
+    let has = |kind| moves().any(|movement| movement.kind == kind);
     let cut = color(0.6);
     let all = [
         (

@@ -35,8 +35,8 @@ pub(super) fn draw(
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     if let Some(tool) = path.tool {
         let width = n((tool * place.scale()).max(0.5));
-        for it in cuts.iter().filter(|it| it.way.kind != MoveKind::Plunge) {
-            canvas.path(&data(it.way, place), &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""));
+        for movement in cuts.iter().filter(|movement| movement.way.kind != MoveKind::Plunge) {
+            canvas.path(&data(movement.way, place), &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""));
         }
     }
     canvas.close();
@@ -44,17 +44,18 @@ pub(super) fn draw(
         rapids(canvas, path, place, shown);
     }
     canvas.open("id=\"cuts\" fill=\"none\" stroke-width=\"1.8\" stroke-linecap=\"round\"");
-    for it in &cuts {
-        cut(canvas, it, path, place, depths);
+    for movement in &cuts {
+        cut(canvas, movement, path, place, depths);
     }
     canvas.close();
     if shown.arrows {
         canvas.open("id=\"arrows\"");
         let bottoms = bottoms(path);
-        let is_bottom =
-            |it: &&Cut<'_>| it.way.element.is_none_or(|element| it.depth <= bottoms[element as usize]);
-        for it in cuts.iter().filter(is_bottom) {
-            arrow(canvas, it.way, place, &depths.color(it.depth));
+        let is_bottom = |movement: &&Cut<'_>| {
+            movement.way.element.is_none_or(|element| movement.depth <= bottoms[element as usize])
+        };
+        for movement in cuts.iter().filter(is_bottom) {
+            arrow(canvas, movement.way, place, &depths.color(movement.depth));
         }
         canvas.close();
     }
@@ -62,21 +63,25 @@ pub(super) fn draw(
 
 fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransform, depths: &Depths) {
     let color = depths.color(cut.depth);
-    let it = cut.way;
-    if it.kind == MoveKind::Plunge {
+    let movement = cut.way;
+    if movement.kind == MoveKind::Plunge {
         let radius = match path.tool {
-            Some(tool) if is_hole(it, path) => (tool / 2.0 * place.scale()).max(2.0),
+            Some(tool) if is_hole(movement, path) => (tool / 2.0 * place.scale()).max(2.0),
             _ => 1.8,
         };
-        return canvas.circle(place.at(it.to()), radius, &format!("fill=\"{color}\" fill-opacity=\"0.8\""));
+        return canvas.circle(
+            place.at(movement.to()),
+            radius,
+            &format!("fill=\"{color}\" fill-opacity=\"0.8\""),
+        );
     }
-    let dashes = if it.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
-    canvas.path(&data(it, place), &format!("stroke=\"{color}\"{dashes}"));
+    let dashes = if movement.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
+    canvas.path(&data(movement, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
 /// Whether a plunge makes up its whole element. Without elements, every plunge looks like a hole.
-fn is_hole(it: &Move, path: &ScenePath) -> bool {
-    it.element.is_none_or(|element| {
+fn is_hole(movement: &Move, path: &ScenePath) -> bool {
+    movement.element.is_none_or(|element| {
         matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
     })
 }
@@ -84,8 +89,10 @@ fn is_hole(it: &Move, path: &ScenePath) -> bool {
 /// The final depth of each element.
 fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
     let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
-    for it in path.moves.iter().filter(|it| it.kind.cuts() && it.kind != MoveKind::Plunge) {
-        let (Some(element), Some(z)) = (it.element, it.depth()) else { continue };
+    for movement in
+        path.moves.iter().filter(|movement| movement.kind.cuts() && movement.kind != MoveKind::Plunge)
+    {
+        let (Some(element), Some(z)) = (movement.element, movement.depth()) else { continue };
         let bottom = &mut bottoms[element as usize];
         *bottom = deeper(*bottom, Some(z));
     }
@@ -96,7 +103,7 @@ fn bottoms(path: &ScenePath) -> Vec<Option<f64>> {
 fn cuts(path: &ScenePath) -> Vec<Cut<'_>> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
     let mut cuts: Vec<Cut<'_>> = Vec::new();
-    for way in path.moves.iter().filter(|it| it.kind.cuts() && it.is_placed()) {
+    for way in path.moves.iter().filter(|movement| movement.kind.cuts() && movement.is_placed()) {
         let index = *places.entry(line_of(way)).or_insert(cuts.len());
         match cuts.get_mut(index) {
             Some(cut) => cut.depth = deeper(cut.depth, way.depth()),
@@ -113,13 +120,13 @@ fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 /// Key that is equal for moves along the same line: the ends in either order, and the centre.
-fn line_of(it: &Move) -> Vec<i64> {
-    let mut ends = [it.from(), it.to()].map(|end| end.map(micrometres));
+fn line_of(movement: &Move) -> Vec<i64> {
+    let mut ends = [movement.from(), movement.to()].map(|end| end.map(micrometres));
     ends.sort_unstable();
     let mut line: Vec<i64> = ends.concat();
-    if let Path::Arc(arc) = it.way.path {
+    if let Path::Arc(arc) = movement.way.path {
         line.extend(arc.centre.map(micrometres));
-        let goes_up = it.from().map(micrometres) == ends[0];
+        let goes_up = movement.from().map(micrometres) == ends[0];
         // A full circle is the same line in both directions.
         line.push(i64::from(ends[0] == ends[1] || arc.clockwise == goes_up));
     }
@@ -136,23 +143,24 @@ fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: V
         "id=\"rapids\" fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
     );
     canvas.open(&style);
-    let sweeps = || path.moves.iter().filter(|it| it.kind == MoveKind::Sweep && it.is_placed());
-    for it in sweeps() {
-        canvas.path(&data(it, place), "");
+    let sweeps =
+        || path.moves.iter().filter(|movement| movement.kind == MoveKind::Sweep && movement.is_placed());
+    for movement in sweeps() {
+        canvas.path(&data(movement, place), "");
     }
     canvas.close();
     if shown.arrows {
         canvas.open("id=\"rapid-arrows\"");
-        for it in sweeps() {
-            arrow(canvas, it, place, RAPID);
+        for movement in sweeps() {
+            arrow(canvas, movement, place, RAPID);
         }
         canvas.close();
     }
 }
 
 /// Draws a small triangle in the middle of a move, pointing in its direction.
-fn arrow(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str) {
-    let (before, at) = (place.at(along(it, 0.59)), place.at(along(it, 0.61)));
+fn arrow(canvas: &mut Canvas, movement: &Move, place: &PageTransform, color: &str) {
+    let (before, at) = (place.at(along(movement, 0.59)), place.at(along(movement, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
     let length = libm::hypot(dx, dy);
     if length * 50.0 < ROOM_FOR_ARROW {
@@ -167,34 +175,34 @@ fn arrow(canvas: &mut Canvas, it: &Move, place: &PageTransform, color: &str) {
 }
 
 /// The point at a fraction (0 to 1) of a move.
-pub(super) fn along(it: &Move, share: f64) -> Point {
-    let [x, y, _] = it.way.point(share);
+pub(super) fn along(movement: &Move, share: f64) -> Point {
+    let [x, y, _] = movement.way.point(share);
     [x, y]
 }
 
 /// A move as SVG path data; arcs in the plane stay arcs.
-pub(super) fn data(it: &Move, place: &PageTransform) -> String {
+pub(super) fn data(movement: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))
     };
-    let mut data = format!("M{}", point(it.from()));
-    match it.way.path {
-        Path::Line => _ = write!(data, "L{}", point(it.to())),
+    let mut data = format!("M{}", point(movement.from()));
+    match movement.way.path {
+        Path::Line => _ = write!(data, "L{}", point(movement.to())),
         Path::Arc(arc) if arc.plane.axes() == [0, 1] => {
             // Drawn as two halves, since SVG cannot express a full circle as one arc and each half is at most half a turn.
             let turns = arc.extra_turns + 1;
-            let radius = n(arc.radius(&it.way.from) * place.scale());
+            let radius = n(arc.radius(&movement.way.from) * place.scale());
             let sweep = i32::from(arc.clockwise);
             let halves = if turns > 1 { 2 * turns } else { 2 };
             for half in 1..=halves {
-                let to = point(along(it, f64::from(half) / f64::from(halves)));
+                let to = point(along(movement, f64::from(half) / f64::from(halves)));
                 _ = write!(data, "A{radius} {radius} 0 0 {sweep} {to}");
             }
         }
         Path::Arc(_) => {
             for piece in 1..=PIECES {
-                _ = write!(data, "L{}", point(along(it, f64::from(piece) / f64::from(PIECES))));
+                _ = write!(data, "L{}", point(along(movement, f64::from(piece) / f64::from(PIECES))));
             }
         }
     }

@@ -32,7 +32,7 @@ pub(super) struct Depths {
 impl Depths {
     pub(super) fn of(scene: &Scene) -> Self {
         let moves = scene.paths.iter().flat_map(|path| &path.moves);
-        let depths = moves.filter(|it| it.kind.cuts()).filter_map(crate::scene::Move::depth);
+        let depths = moves.filter(|movement| movement.kind.cuts()).filter_map(crate::scene::Move::depth);
         let range = depths.fold(None, |range: Option<(f64, f64)>, z| {
             Some(range.map_or((z, z), |(high, low)| (high.max(z), low.min(z))))
         });

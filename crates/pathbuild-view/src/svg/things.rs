@@ -23,7 +23,7 @@ pub(super) fn under(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mu
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER}\" stroke-width=\"0.7\""));
     for other in &scene.other_layers {
         match other {
-            OtherShape::Shape { shape: it, .. } => canvas.path(&shape(it, &place), ""),
+            OtherShape::Shape { shape: piece, .. } => canvas.path(&shape(piece, &place), ""),
             OtherShape::Text { text, at, height, rotation, .. } => {
                 other_text(canvas, &place, text, *at, *height, *rotation);
                 if *rotation == 0.0 {
@@ -69,8 +69,8 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &m
 /// Adjacent shapes of an outline as one piece of path data.
 fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     let mut data = String::new();
-    for it in shapes {
-        let next = shape(it, place);
+    for piece in shapes {
+        let next = shape(piece, place);
         let begin = if data.is_empty() { 0 } else { next.find(['L', 'A']).unwrap_or(0) };
         data.push_str(&next[begin..]);
     }

@@ -195,7 +195,8 @@ impl<'a> StaleSearch<'a> {
         let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
         let paths = stems.flat_map(|stem| {
             let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
-            let of_posts = EXTENSIONS[1..].iter().map(move |it| format!("{stem}_Milling.{it}").into());
+            let of_posts =
+                EXTENSIONS[1..].iter().map(move |extension| format!("{stem}_Milling.{extension}").into());
             native.into_iter().chain(of_posts)
         });
         let stale = |path: Utf8PathBuf| {

@@ -45,22 +45,23 @@ impl Chain {
         Self { moves: Vec::new(), is_head: false }
     }
 
-    pub(super) fn push(&mut self, line: u32, it: &Move) {
-        self.moves.push((line, *it));
+    pub(super) fn push(&mut self, line: u32, movement: &Move) {
+        self.moves.push((line, *movement));
     }
 
     /// Checks the chain against the expected moves. The error is the first move that deviates.
     pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<Numbered>> {
         let rest = if self.is_head { self.arrived(way)? } else { &self.moves };
-        let mut found = rest.iter().filter(|(_, it)| !way.stands(it));
-        for (_, expected) in way.expected.iter().filter(|(_, it)| !way.stands(it)) {
+        let mut found = rest.iter().filter(|(_, movement)| !way.stands(movement));
+        for (_, expected) in way.expected.iter().filter(|(_, movement)| !way.stands(movement)) {
             let next = found.next();
-            let is_same = |(_, it): &Numbered| it.named.is_none() && way.is_same(it, expected);
+            let is_same =
+                |(_, movement): &Numbered| movement.named.is_none() && way.is_same(movement, expected);
             if !next.is_some_and(is_same) {
                 return Err(next.copied());
             }
         }
-        match found.find(|(_, it)| !(way.is_foot && way.is_harmless(it))) {
+        match found.find(|(_, movement)| !(way.is_foot && way.is_harmless(movement))) {
             None => Ok(()),
             Some(other) => Err(Some(*other)),
         }
@@ -68,18 +69,20 @@ impl Chain {
 
     /// The moves after the start of the expected ones, provided that those before are harmless.
     fn arrived(&self, way: &Way<'_>) -> Result<&[Numbered], Option<Numbered>> {
-        let begins = |(_, it): &Numbered| it.to.known == Axes::ALL && way.is_near(&it.to, &way.start);
+        let begins = |(_, movement): &Numbered| {
+            movement.to.known == Axes::ALL && way.is_near(&movement.to, &way.start)
+        };
         let Some(arrival) = self.moves.iter().position(begins) else {
             return Err(self.moves.first().copied());
         };
         let (head, rest) = self.moves.split_at(arrival + 1);
         let mut is_parked = false;
-        for (line, it) in head {
-            is_parked |= it.named.is_some();
+        for (line, movement) in head {
+            is_parked |= movement.named.is_some();
             // The position at the beginning is unknown, so the tool must be raised before it moves anywhere.
-            let is_raised = it.from.known.has(Axes::Z) || it.to.known.has(Axes::Z) || is_parked;
-            if !is_raised || !way.is_harmless(it) {
-                return Err(Some((*line, *it)));
+            let is_raised = movement.from.known.has(Axes::Z) || movement.to.known.has(Axes::Z) || is_parked;
+            if !is_raised || !way.is_harmless(movement) {
+                return Err(Some((*line, *movement)));
             }
         }
         Ok(rest)
@@ -88,20 +91,23 @@ impl Chain {
 
 impl Way<'_> {
     /// Whether a move before the start or after the end is harmless: at S0 over positions of the expected moves, or to a machine position.
-    fn is_harmless(&self, it: &Move) -> bool {
-        let is_raised = !it.from.known.has(Axes::Z) || self.is_clear(it.from.z());
-        let stays = it.to.known.has(Axes::XY) && it.from.known.has(Axes::XY) && self.is_at(&it.from, &it.to);
-        if it.named.is_some() {
+    fn is_harmless(&self, movement: &Move) -> bool {
+        let is_raised = !movement.from.known.has(Axes::Z) || self.is_clear(movement.from.z());
+        let stays = movement.to.known.has(Axes::XY)
+            && movement.from.known.has(Axes::XY)
+            && self.is_at(&movement.from, &movement.to);
+        if movement.named.is_some() {
             return self.may_go_home && (is_raised || stays);
         }
-        let is_height = !it.to.known.has(Axes::Z) || self.is_same_height(it.to.z(), self.clearance);
-        let is_place = !it.to.known.has(Axes::XY) || stays || self.is_at(&it.to, &self.start);
-        matches!(it.path, Path::Line) && (is_raised || stays) && is_height && is_place
+        let is_height =
+            !movement.to.known.has(Axes::Z) || self.is_same_height(movement.to.z(), self.clearance);
+        let is_place = !movement.to.known.has(Axes::XY) || stays || self.is_at(&movement.to, &self.start);
+        matches!(movement.path, Path::Line) && (is_raised || stays) && is_height && is_place
     }
 
     /// Whether a move is only due to rounding.
-    fn stands(&self, it: &Move) -> bool {
-        it.from.known.and(it.to.known) == Axes::ALL && self.is_near(&it.from, &it.to)
+    fn stands(&self, movement: &Move) -> bool {
+        movement.from.known.and(movement.to.known) == Axes::ALL && self.is_near(&movement.from, &movement.to)
     }
 
     fn is_same(&self, found: &Move, expected: &Move) -> bool {

@@ -60,13 +60,15 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
     }
 
     /// Passes the next move of the program.
-    pub(super) fn take(&mut self, line: u32, it: &Move) {
+    pub(super) fn take(&mut self, line: u32, movement: &Move) {
         if self.difference.is_some() {
             return;
         }
-        if it.pace == Pace::Rapid {
-            self.chain.push(line, it);
-        } else if let Err(difference) = self.rapids(Some((line, it))).and_then(|()| self.cut(line, it)) {
+        if movement.pace == Pace::Rapid {
+            self.chain.push(line, movement);
+        } else if let Err(difference) =
+            self.rapids(Some((line, movement))).and_then(|()| self.cut(line, movement))
+        {
             self.difference = Some(*difference);
         }
     }
@@ -93,9 +95,11 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         let start = self.at;
         let mut expected = Vec::new();
         if self.done == 0.0 {
-            while let Some((line, it)) = self.expected.next_if(|(_, it)| it.pace == Pace::Rapid) {
-                self.at = it.to;
-                expected.push((line, it));
+            while let Some((line, movement)) =
+                self.expected.next_if(|(_, movement)| movement.pace == Pace::Rapid)
+            {
+                self.at = movement.to;
+                expected.push((line, movement));
             }
         }
         let is_foot = cut.is_none() && self.expected.peek().is_none();
@@ -108,16 +112,17 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             clearance: self.clearance,
             slack: self.tolerance.place,
         };
-        let found = cut.map(|(line, it)| (line, *it));
+        let found = cut.map(|(line, movement)| (line, *movement));
         let next = self.expected.peek().copied().or_else(|| expected.last().copied());
         let (slack, height) = (2.0 * self.tolerance.place, self.slack_of_height());
-        let reaches = |it: &Move| {
+        let reaches = |movement: &Move| {
             let [x, y, z] = at.at;
-            is_near(&it.from.at, &[x, y, it.from.z()], slack) && libm::fabs(z - it.from.z()) <= height
+            is_near(&movement.from.at, &[x, y, movement.from.z()], slack)
+                && libm::fabs(z - movement.from.z()) <= height
         };
         match chain.check(&way) {
             Err(found) => Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected: next })),
-            Ok(()) if cut.is_none_or(|(_, it)| reaches(it) || it.is_nothing()) => {
+            Ok(()) if cut.is_none_or(|(_, movement)| reaches(movement) || movement.is_nothing()) => {
                 self.equal += expected.len();
                 Ok(())
             }
@@ -130,16 +135,17 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
     /// means a difference in height.
     fn slack_of_height(&mut self) -> f64 {
         let within = self.expected.peek().filter(|_| self.done > 0.0);
-        let steepness =
-            within.map_or(0.0, |(_, it)| Stretch { it: *it, begin: 0.0, length: 0.0 }.steepness());
+        let steepness = within.map_or(0.0, |(_, movement)| {
+            Stretch { movement: *movement, begin: 0.0, length: 0.0 }.steepness()
+        });
         2.0 * self.tolerance.place * (1.0 + steepness)
     }
 
     /// The expected position of the tool.
     fn place(&mut self) -> Position {
         match self.expected.peek() {
-            Some((_, it)) if self.done > 0.0 => {
-                let stretch = Stretch { it: *it, begin: self.done, length: 0.0 };
+            Some((_, movement)) if self.done > 0.0 => {
+                let stretch = Stretch { movement: *movement, begin: self.done, length: 0.0 };
                 let [x, y, z] = stretch.point(self.done);
                 Position::known(x, y, z)
             }
@@ -147,30 +153,34 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         }
     }
 
-    fn cut(&mut self, line: u32, it: &Move) -> Result<(), Box<Difference>> {
+    fn cut(&mut self, line: u32, movement: &Move) -> Result<(), Box<Difference>> {
         let mut begin = 0.0;
         loop {
-            let ours = Stretch { it: *it, begin, length: it.length() * (1.0 - begin) };
+            let ours = Stretch { movement: *movement, begin, length: movement.length() * (1.0 - begin) };
             let next = self.expected.peek().copied();
-            let differs = |kind| Box::new(Difference { kind, found: Some((line, *it)), expected: next });
+            let differs =
+                |kind| Box::new(Difference { kind, found: Some((line, *movement)), expected: next });
             let here = self.place();
             let slack = self.tolerance.place;
             let stands = |stretch: &Stretch| {
                 stretch.length <= 4.0 * slack && is_near(&stretch.end(), &here.at, 3.0 * slack)
             };
-            let Some((_, expected)) = next.filter(|(_, it)| it.pace != Pace::Rapid) else {
+            let Some((_, expected)) = next.filter(|(_, movement)| movement.pace != Pace::Rapid) else {
                 return if stands(&ours) {
                     Ok(())
                 } else {
                     Err(differs(next.map_or(DifferenceKind::Place, |_| DifferenceKind::Pace)))
                 };
             };
-            let theirs =
-                Stretch { it: expected, begin: self.done, length: expected.length() * (1.0 - self.done) };
+            let theirs = Stretch {
+                movement: expected,
+                begin: self.done,
+                length: expected.length() * (1.0 - self.done),
+            };
             if ours.end_together(&theirs, slack) {
-                check_pace(it, &expected, &self.tolerance).map_err(differs)?;
+                check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
                 check_shape(&ours, 1.0, &theirs, 1.0, &self.tolerance).map_err(differs)?;
-                check_centres(it, &expected).map_err(differs)?;
+                check_centres(movement, &expected).map_err(differs)?;
                 self.pass(&expected);
                 return Ok(());
             }
@@ -187,8 +197,8 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
             if ours.is_arc() != theirs.is_arc() && !is_chord {
                 return Err(differs(DifferenceKind::Place));
             }
-            check_pace(it, &expected, &self.tolerance).map_err(differs)?;
-            check_centres(it, &expected).map_err(differs)?;
+            check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
+            check_centres(movement, &expected).map_err(differs)?;
             let are_lines = !ours.is_arc() && !theirs.is_arc();
             let splits = ours.length < theirs.length;
             if are_lines && !(splits && self.may_split) {

@@ -79,8 +79,8 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
     pub fn step(&mut self, step: &Step) {
         self.words.step(step);
         self.setup.step(step, &mut self.problems);
-        if let Action::Move(it) = &step.action {
-            self.cuts.take(step.line, it);
+        if let Action::Move(movement) = &step.action {
+            self.cuts.take(step.line, movement);
         }
     }
 

@@ -49,13 +49,13 @@ pub(super) struct Setup<'w> {
     /// Seconds since the spindle was switched on.
     running: f64,
     /// What has been reported about the current state.
-    said: Said,
+    reported: Reported,
 }
 
 /// Each problem is reported once, until the state changes.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
-struct Said {
+struct Reported {
     spindle: bool,
     length: bool,
     tool: bool,
@@ -96,14 +96,14 @@ impl<'w> Setup<'w> {
             spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
             spindle_line: 0,
             running: 0.0,
-            said: Said::default(),
+            reported: Reported::default(),
         }
     }
 
     pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
         let line = step.line;
         match &step.action {
-            Action::Move(it) => self.moves(line, it, problems),
+            Action::Move(movement) => self.moves(line, movement, problems),
             Action::Dwell(seconds) => self.dwell(line, *seconds, problems),
             Action::Word(StatedWord { group: Some(group), .. }) => _ = self.missing.remove(group),
             Action::SelectTool(number) => self.select(line, *number, problems),
@@ -118,7 +118,7 @@ impl<'w> Setup<'w> {
             Action::Spindle(spindle) => self.switch_spindle(line, *spindle, problems),
             Action::Coolant(coolant) => {
                 (self.coolant, self.coolant_line) = (*coolant, line);
-                self.said.coolant = false;
+                self.reported.coolant = false;
                 if self.has_post() && *coolant != Coolant::default() && !self.switches_coolant() {
                     extra(line, "M7, M8".to_owned(), problems);
                 }
@@ -145,7 +145,7 @@ impl<'w> Setup<'w> {
             }
             Change::ToolLength(length) => {
                 self.length = Some((length, line));
-                self.said.length = false;
+                self.reported.length = false;
             }
             Change::Offsets { code, .. } => extra(line, code_name('G', code), problems),
             Change::Corners(corners) => {
@@ -185,7 +185,7 @@ impl<'w> Setup<'w> {
             return extra(line, "T".to_owned(), problems);
         }
         let expected = *self.expected.number.get_or_insert(number);
-        self.said.length = false;
+        self.reported.length = false;
         if number != expected {
             problems.add_at_line(&say::TOOLS_DIFFER, line, |d| {
                 d.with("found", u64::from(number)).with("expected", u64::from(expected))
@@ -198,7 +198,7 @@ impl<'w> Setup<'w> {
         (self.spindle, self.spindle_line) = (spindle, line);
         if is_started {
             self.running = 0.0;
-            self.said.spindle = false;
+            self.reported.spindle = false;
         }
         // If the drawing leaves the spindle alone, the program must not mention it at all: S0 would stop a running spindle.
         let is_left_alone = self.expected.turning == Some(Turning::Unstated);
@@ -216,13 +216,14 @@ impl<'w> Setup<'w> {
         }
     }
 
-    fn moves(&mut self, line: u32, it: &Move, problems: &mut Problems) {
-        self.at = it.to;
+    fn moves(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+        self.at = movement.to;
         self.head(line, problems);
-        if it.named == Some(Named::Machine) && !it.to.known.has(Axes::Z) && it.to.z() != 0.0 {
+        if movement.named == Some(Named::Machine) && !movement.to.known.has(Axes::Z) && movement.to.z() != 0.0
+        {
             extra(line, "G53 Z".to_owned(), problems);
         }
-        if matches!(it.pace, Pace::Feed(_)) && !it.is_nothing() {
+        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_nothing() {
             self.cutting_tool(line, problems);
             self.cutting_spindle(line, problems);
             self.cutting_length(line, problems);
@@ -252,7 +253,7 @@ impl<'w> Setup<'w> {
         } else {
             chosen.is_some()
         };
-        if !is_chosen && self.words.chooses_tools() && !std::mem::replace(&mut self.said.tool, true) {
+        if !is_chosen && self.words.chooses_tools() && !std::mem::replace(&mut self.reported.tool, true) {
             let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));
             problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.quoting("expected", expected));
         }
@@ -265,7 +266,7 @@ impl<'w> Setup<'w> {
     fn cutting_coolant(&mut self, line: u32, problems: &mut Problems) {
         let differs = |expected: &Coolant| *expected != self.coolant && self.switches_coolant();
         let Some(expected) = self.expected.coolant.filter(differs) else { return };
-        if !std::mem::replace(&mut self.said.coolant, true) {
+        if !std::mem::replace(&mut self.reported.coolant, true) {
             let found = coolant_text(self.coolant);
             problems.add_at_line(&say::COOLANT_DIFFERS, line, |d| {
                 d.quoting("found", found).quoting("expected", coolant_text(expected))
@@ -276,13 +277,13 @@ impl<'w> Setup<'w> {
     /// Checks the behaviour at corners, because a control keeps that of the previous program unless it is specified.
     fn cutting_corners(&mut self, line: u32, problems: &mut Problems) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
-        if !is_stated && !std::mem::replace(&mut self.said.corners, true) {
+        if !is_stated && !std::mem::replace(&mut self.reported.corners, true) {
             problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "G64 P"));
         }
     }
 
     fn cutting_spindle(&mut self, line: u32, problems: &mut Problems) {
-        if self.said.spindle {
+        if self.reported.spindle {
             return;
         }
         let message = if self.turns_otherwise() {
@@ -292,7 +293,7 @@ impl<'w> Setup<'w> {
         } else {
             return;
         };
-        self.said.spindle = true;
+        self.reported.spindle = true;
         self.spindle_differs(line, message, problems);
     }
 
@@ -335,7 +336,7 @@ impl<'w> Setup<'w> {
             }
             Some((ToolLength::Other, _)) => false,
         };
-        if !fits && !std::mem::replace(&mut self.said.length, true) {
+        if !fits && !std::mem::replace(&mut self.reported.length, true) {
             let at = self.length.map_or(line, |(_, line)| line);
             problems.add_at_line(&say::LENGTHS_DIFFER, at, |d| d);
         }

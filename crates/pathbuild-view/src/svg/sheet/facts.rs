@@ -12,7 +12,7 @@ pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
     let mut corners = None;
     for path in &sheet.scene.paths {
         let radius = path.tool.unwrap_or_default() / 2.0;
-        let cuts = path.moves.iter().filter(|it| it.kind.cuts()).filter_map(Move::extent);
+        let cuts = path.moves.iter().filter(|movement| movement.kind.cuts()).filter_map(Move::extent);
         for [low, high] in cuts {
             widen(
                 &mut corners,
@@ -53,8 +53,10 @@ pub(super) fn outline(clamp: &KeepOut) -> Corners {
 /// The feeds in mm/min of some kinds of moves, in ascending order.
 pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f64> {
     let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves);
-    let mut feeds: Vec<f64> =
-        moves.filter(|it| is_meant(it.kind)).filter_map(|it| it.way.pace.feed()).collect();
+    let mut feeds: Vec<f64> = moves
+        .filter(|movement| is_meant(movement.kind))
+        .filter_map(|movement| movement.way.pace.feed())
+        .collect();
     feeds.sort_by(f64::total_cmp);
     feeds.dedup();
     feeds
@@ -79,14 +81,14 @@ impl RapidHeights {
 
 pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
     let moves = || sheet.scene.paths.iter().flat_map(|path| &path.moves);
-    let sweeps = moves().filter(|it| it.kind == MoveKind::Sweep);
+    let sweeps = moves().filter(|movement| movement.kind == MoveKind::Sweep);
     let mut across: Vec<f64> = sweeps.filter_map(Move::depth).collect();
     across.sort_by(f64::total_cmp);
     across.dedup();
     let lowest_end = |is_down: bool| {
-        let lifts = moves().filter(|it| it.kind == MoveKind::Lift);
-        let lifts = lifts.filter(|it| (it.way.to.z() < it.way.from.z()) == is_down);
-        lifts.map(|it| it.way.to.z()).reduce(f64::min)
+        let lifts = moves().filter(|movement| movement.kind == MoveKind::Lift);
+        let lifts = lifts.filter(|movement| (movement.way.to.z() < movement.way.from.z()) == is_down);
+        lifts.map(|movement| movement.way.to.z()).reduce(f64::min)
     };
     RapidHeights { across, down: lowest_end(true), up: lowest_end(false) }
 }
