@@ -1,4 +1,4 @@
-//! Limits that prevent comparing, listing, finding or reading: they are reported, and nothing misleading is.
+//! Tests that limits which prevent comparing, listing, finding or reading are reported, without misleading messages.
 
 use std::fs;
 use std::time::{Duration, Instant};

@@ -202,7 +202,7 @@ fn what_is_seen_of_hostile_names_acts_on_nobody() {
     }
 }
 
-/// Nothing becomes a link, a number, a mention or a directive.
+/// Texts from drawings never become links, numbers, mentions or directives.
 #[test]
 fn graphs_hold_no_directive_of_mermaid() {
     let place = Place::new().file("%%{init: {}}%%1303.1P.dxf", right_drawing("1303.1P"));

@@ -24,7 +24,7 @@ pub(crate) struct CodeEnd {
 const LONGEST: usize = 8;
 
 impl CodeEnd {
-    /// Takes the style from the first line.
+    /// Determines from the first line how group codes are written.
     pub(crate) fn of(pairs: &Pairs<'_>) -> Self {
         let last = pairs.line_end();
         let rest = &pairs.bytes()[pairs.consumed()..];

@@ -67,7 +67,7 @@ struct Table<'a> {
     role: PathRole,
     /// The values of the path's own text.
     values: Values<'a>,
-    /// The first element of the chain for each further element of it.
+    /// For each element of a chain except the first: the first element of that chain.
     chains: BTreeMap<u32, u32>,
 }
 
@@ -132,7 +132,7 @@ fn shown(values: &Values<'_>, letter: Letter) -> Option<SmolStr> {
     }
 }
 
-/// The first element of the chain for each further element of it. Empty if the path has errors.
+/// For each element of a chain except the first: the first element of that chain. Empty if the path has errors.
 fn chains(raw: &RawPath, bindings: &Bindings, language: &Language) -> BTreeMap<u32, u32> {
     let mut firsts = BTreeMap::new();
     let path = raw.is_sound().then(|| bind(raw, bindings, language).0).flatten();

@@ -65,8 +65,8 @@ impl LineType {
             .0
             .get(name)
             .copied()
-            .or_else(|| named(name))
-            .or_else(|| SUFFIXES.iter().find_map(|suffix| named(name.strip_suffix(suffix)?)))
+            .or_else(|| find_by_name(name))
+            .or_else(|| SUFFIXES.iter().find_map(|suffix| find_by_name(name.strip_suffix(suffix)?)))
     }
 }
 
@@ -107,7 +107,7 @@ const MOST_KNOWN: usize = 32;
 /// Suffixes, longest first: `DASHEDX2` must not be reduced to `DASHEDX`.
 const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];
 
-fn named(name: &str) -> Option<LineType> {
+fn find_by_name(name: &str) -> Option<LineType> {
     LineType::NAMES.iter().chain(ALIASES).find(|(known, _)| *known == name).map(|(_, line_type)| *line_type)
 }
 

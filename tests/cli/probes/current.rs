@@ -18,7 +18,7 @@ fn save(place: &Place, text: &str) {
     std::fs::write(place.path().join("a.dxf"), drawing(text)).unwrap();
 }
 
-/// Emitted with probes, measured and adjusted.
+/// A program with probes that has been emitted, measured and adjusted.
 fn adjusted() -> Place {
     let place = Place::new().file("a.dxf", drawing(&with_probes(WITHOUT)));
     succeed(&emit(&place, "a.dxf"));

@@ -26,8 +26,8 @@ messages! {
     MISSING: UnreadableFile {
         en: "there is no such file",
         de: "diese Datei gibt es nicht",
-        help_en: "check the name; relative names count from the working directory",
-        help_de: "den Namen prüfen; relative Namen zählen ab dem Arbeitsverzeichnis",
+        help_en: "check the name; relative names refer to the working directory",
+        help_de: "den Namen prüfen; relative Namen beziehen sich auf das Arbeitsverzeichnis",
     }
     /// Note: a file with a similar name.
     NEAR_FILE: UnreadableFile {

@@ -161,8 +161,8 @@ messages! {
     SPUN_UP_TOO_SHORT: MovesDiffer {
         en: "the tool cuts less than {seconds} s after the spindle was switched on",
         de: "das Werkzeug fräst weniger als {seconds} s, nachdem die Spindel eingeschaltet wurde",
-        help_en: "write the program again with `pathbuild emit`: it waits as `[machine] spin-up` says",
-        help_de: "das Programm mit `pathbuild emit` neu schreiben: es wartet, wie `[machine] spin-up` sagt",
+        help_en: "rewrite the program with `pathbuild emit`, which waits for the time in `[machine] spin-up`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben; es wartet dann so lange, wie `[machine] spin-up` angibt",
     }
     /// A rapid move down and up again, as in `G0 Z-3`, `G0 Z2`.
     RAPID_DIP: RapidPlunge {
@@ -526,15 +526,15 @@ messages! {
     }
     /// A work offset, such as G55, with an unknown position.
     OFFSET_UNKNOWN: UnknownOffset {
-        en: "where {system} lies is not known here; it is taken to be where {base} is",
-        de: "wo {system} liegt, ist hier nicht bekannt; es wird da angenommen, wo {base} ist",
+        en: "the position of {system} is unknown; it is assumed to be that of {base}",
+        de: "die Lage von {system} ist unbekannt; angenommen wird die von {base}",
         help_en: "lengths and the box hold only within one system",
         help_de: "Längen und Größe gelten nur innerhalb eines Systems",
     }
     /// G28, G30 or G53, whose target is unknown.
     POSITION_UNKNOWN: UnknownOffset {
-        en: "where {word} goes is not known here: the next move begins at an unknown place",
-        de: "wohin {word} führt, ist hier nicht bekannt: die nächste Bewegung beginnt an unbekannter Stelle",
+        en: "the target of {word} is unknown, so the next move begins at an unknown position",
+        de: "das Ziel von {word} ist unbekannt; die nächste Bewegung beginnt daher an unbekannter Stelle",
         help_en: "lengths and checks leave these moves out",
         help_de: "Längen und Prüfungen lassen diese Bewegungen aus",
     }

@@ -120,14 +120,14 @@ messages! {
     }
     /// A hole with too many pecks.
     TOO_MANY_PECKS: EndlessMacro {
-        en: "the hole at {place} takes more than {limit} pecks",
+        en: "the hole at {place} requires more than {limit} pecks",
         de: "die Bohrung bei {place} braucht mehr als {limit} Stufen",
         help_en: "check C of the hole",
         help_de: "C der Bohrung prüfen",
     }
     /// A chord tolerance that is too fine.
     TOO_MANY_CHORDS: EndlessMacro {
-        en: "an arc of radius {radius} takes more than {limit} lines",
+        en: "an arc of radius {radius} requires more than {limit} lines",
         de: "ein Bogen mit Radius {radius} braucht mehr als {limit} Strecken",
         help_en: "raise the post's tolerance for arcs",
         help_de: "die Toleranz für Bögen im Postprozessor erhöhen",
@@ -587,8 +587,8 @@ messages! {
     }
     /// Note: a laser beam that is on during a rapid move.
     BEAM_ON: PostDiffers {
-        en: "the post moves nothing in Z, and here its beam is still on during a rapid move",
-        de: "der Postprozessor bewegt nichts in Z, und hier ist der Strahl während eines Eilgangs noch an",
+        en: "the post does not move Z, and its beam is still on during this rapid move",
+        de: "der Postprozessor bewegt Z nicht, und der Strahl ist während dieses Eilgangs noch an",
     }
     /// Note: a move to another point.
     GOES_ELSEWHERE: PostDiffers {

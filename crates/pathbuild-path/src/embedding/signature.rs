@@ -31,7 +31,7 @@ pub struct PathHeader {
 pub struct PathSignature {
     /// The name as spelt by its layer.
     pub name: SpeltName,
-    /// O.
+    /// Cutter diameter (O).
     pub tool: f64,
     /// T.
     pub thickness: f64,

@@ -160,8 +160,8 @@ fn in_squares(coordinate: f64) -> f64 {
     coordinate * SQUARES + SHIFT
 }
 
-/// The number of the nearest column or row; neighbours differ by one. Very far away the strips are wider, but there only equal points
-/// coincide.
+/// Number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
+/// there only equal points coincide.
 fn strip(place: f64) -> u64 {
     (place + WHOLE).to_bits()
 }

@@ -136,16 +136,16 @@ impl<'a> Builder<'a> {
         match step {
             Step::Move(movement) => self.move_along(movement),
             Step::Comment(text) => {
-                self.aside(What::Comment(text));
+                self.add_aside(What::Comment(text));
                 Ok(())
             }
             Step::Hole(hole) => self.hole(hole),
             Step::Dwell { seconds } => {
-                self.aside(What::Dwell(*seconds));
+                self.add_aside(What::Dwell(*seconds));
                 Ok(())
             }
             Step::Stop => {
-                self.aside(What::Stop);
+                self.add_aside(What::Stop);
                 Ok(())
             }
         }
@@ -168,7 +168,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds something that neither moves the tool nor ends a contour.
-    fn aside(&mut self, what: What<'a>) {
+    fn add_aside(&mut self, what: What<'a>) {
         if self.ways.is_empty() {
             self.call(what);
         } else {
@@ -198,7 +198,7 @@ impl<'a> Builder<'a> {
             for step in holes::moves(hole)? {
                 match step {
                     Step::Move(movement) => self.move_along(&movement)?,
-                    Step::Dwell { seconds } => self.aside(What::Dwell(seconds)),
+                    Step::Dwell { seconds } => self.add_aside(What::Dwell(seconds)),
                     _ => {}
                 }
             }

@@ -225,7 +225,7 @@ impl<'a> Evaluator<'a> {
     fn number(&mut self, start: usize) -> Evaluated<()> {
         let form = self.form();
         let length = self.rest().find(['}', '{']).unwrap_or(self.rest().len());
-        if let (Form::C(form), Some(text)) = (form, self.lone_text(length)) {
+        if let (Form::C(form), Some(text)) = (form, self.single_placeholder(length)) {
             return self.text_in_form(form, text, length);
         }
         let value = self.term(self.at..self.at + length)?;
@@ -237,7 +237,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns the placeholder of a text if the next part of a statement contains nothing else.
-    fn lone_text(&self, length: usize) -> Option<char> {
+    fn single_placeholder(&self, length: usize) -> Option<char> {
         let mut inside = self.rest()[..length].chars().filter(|c| !is_mark(*c) && *c != ' ');
         let first = inside.next().filter(|c| self.surroundings.variables.text(*c).is_some());
         first.filter(|_| inside.next().is_none())

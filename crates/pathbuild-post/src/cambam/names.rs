@@ -80,40 +80,40 @@ fn register(name: &str) -> Option<Macro> {
 }
 
 /// A macro with arguments.
-pub(super) struct With {
+pub(super) struct MacroWithArguments {
     pub(super) name: &'static str,
     pub(super) expected: &'static Text,
     read: fn(Option<&str>) -> Option<Macro>,
 }
 
-fn with_arguments(name: &str) -> Option<&'static With> {
+fn with_arguments(name: &str) -> Option<&'static MacroWithArguments> {
     WITH.iter().find(|with| with.name == name)
 }
 
 /// All macros with arguments.
-pub(super) static WITH: &[With] = &[
-    With {
+pub(super) static WITH: &[MacroWithArguments] = &[
+    MacroWithArguments {
         name: "cuttercomp",
         expected: &Text { en: "off, L or R", de: "off, L oder R" },
         read: cutter_compensation,
     },
-    With {
+    MacroWithArguments {
         name: "toolchange",
         expected: &Text { en: "nothing or first", de: "nichts oder first" },
         read: tool_change,
     },
-    With {
+    MacroWithArguments {
         name: "spindle",
         expected: &Text { en: "nothing, up, cw, ccw or off", de: "nichts, up, cw, ccw oder off" },
         read: spindle,
     },
-    With {
+    MacroWithArguments {
         name: "coolant",
         expected: &Text { en: "nothing, flood, mist or off", de: "nichts, flood, mist oder off" },
         read: coolant,
     },
-    With { name: "check", expected: &Text { en: "three coordinates", de: "drei Koordinaten" }, read: check },
-    With {
+    MacroWithArguments { name: "check", expected: &Text { en: "three coordinates", de: "drei Koordinaten" }, read: check },
+    MacroWithArguments {
         name: "set",
         expected: &Text {
             en: "x, y or z and a number or NaN, or tool",

@@ -154,7 +154,7 @@ fn arcs_become_lines_within_the_tolerance() {
     );
     assert_eq!(
         errors(&fine, &job(vec![quarter()])),
-        ["PB753 an arc of radius 10 takes more than 100000 lines (raise the post's tolerance for arcs)"]
+        ["PB753 an arc of radius 10 requires more than 100000 lines (raise the post's tolerance for arcs)"]
     );
 }
 
