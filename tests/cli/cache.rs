@@ -310,7 +310,7 @@ fn what_is_damaged_cut_short_or_foreign_is_made_anew_with_a_note() {
         let run = place.run("check --format json");
         let (status, stdout, stderr) = said(&run);
         assert_eq!((status, &stdout), (clean.0, &clean.1));
-        assert!(stderr.contains("made anew"), "{stderr}");
+        assert!(stderr.contains("will be rebuilt"), "{stderr}");
         assert_eq!(said(&place.run("check --format json")), clean);
     }
     fs::remove_file(&file).unwrap();
@@ -342,7 +342,7 @@ fn the_cache_says_what_it_is_and_lies_outside_the_tree() {
 fn what_a_repository_brings_is_not_believed_and_is_noted_once() {
     let place = library().file(".pathbuild/anything.results", "forged");
     let first = place.run("check");
-    assert!(first.stderr.contains(".pathbuild beside the configuration is not used any more"), "{first}");
+    assert!(first.stderr.contains(".pathbuild beside the configuration is no longer used"), "{first}");
     assert!(!place.run("check").stderr.contains(".pathbuild"));
     assert_eq!(place.read(".pathbuild/anything.results"), "forged");
     assert_eq!(fs::read_dir(place.path().join(".pathbuild")).unwrap().count(), 1);
@@ -368,7 +368,7 @@ fn a_cache_that_is_a_link_is_not_used() {
     let place = library().file("other/precious.txt", "precious");
     std::os::unix::fs::symlink("other", place.path().join("cache")).unwrap();
     let run = place.run("check --cache-dir cache");
-    assert!(run.stderr.contains("nothing is kept there: it is a link"), "{run}");
+    assert!(run.stderr.contains("no results are cached there: it is a link"), "{run}");
     assert_eq!(fs::read_dir(place.path().join("other")).unwrap().count(), 1);
 }
 
@@ -418,7 +418,7 @@ fn the_cache_can_be_looked_at_and_removed() {
     let [file] = results(&place).try_into().unwrap();
     assert_eq!(place.run("cache size").stdout, format!("{} bytes\n", fs::metadata(&file).unwrap().len()));
     let run = place.run("cache verify");
-    assert!(run.stdout.contains(": whole, ") && run.status == Some(0), "{run}");
+    assert!(run.stdout.contains(": intact, ") && run.status == Some(0), "{run}");
     assert_eq!(place.run("cache prune").stderr, "removed: 0\n");
 
     let mut bytes = fs::read(&file).unwrap();

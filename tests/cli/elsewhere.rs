@@ -263,9 +263,9 @@ fn a_drawing_outside_of_the_tree_is_told_that_no_configuration_holds() {
     let outside = place.at_work("emit ../stick/2000.dxf");
     assert_eq!(outside.status, Some(2), "{outside}");
     let reason =
-        "it lies outside of the tree of pathbuild.toml; give --config pathbuild.toml, or move the drawing";
+        "it lies outside the tree of pathbuild.toml; give --config pathbuild.toml, or move the drawing";
     assert!(outside.stderr.contains(reason), "{outside}");
-    let note = "note: pathbuild.toml does not hold for what lies outside of its tree";
+    let note = "note: pathbuild.toml does not apply to files outside its tree";
     assert!(place.at_work("check ../stick/2000.dxf").stderr.contains(note));
     assert!(
         place
@@ -275,8 +275,8 @@ fn a_drawing_outside_of_the_tree_is_told_that_no_configuration_holds() {
     );
     assert_eq!(place.at_work("emit ../stick/2000.dxf --config pathbuild.toml").status, Some(0));
     let nowhere = place.run("emit stick/2000.dxf");
-    assert!(nowhere.stderr.contains("no pathbuild.toml lies beside or above the drawing"), "{nowhere}");
+    assert!(nowhere.stderr.contains("there is no pathbuild.toml beside or above the drawing"), "{nowhere}");
     for inside in ["check parts/1234.dxf", "verify ../stick/1234.gcode --against 1234.1P"] {
-        assert!(!place.at_work(inside).stderr.contains("does not hold"));
+        assert!(!place.at_work(inside).stderr.contains("does not apply"));
     }
 }

@@ -73,7 +73,7 @@ impl<'a> Served<'a> {
         let lines = Said::by(&mut child);
         let mut served = Self { place, child, lines, said: Vec::new(), link: String::new(), port: 0 };
         served.said = served.until(until);
-        let at = served.said.iter().find_map(|line| line.strip_prefix("served at ")).unwrap();
+        let at = served.said.iter().find_map(|line| line.strip_prefix("serving at ")).unwrap();
         served.link = at.to_owned();
         let port = at.split('/').nth(2).unwrap().rsplit(':').next().unwrap();
         served.port = port.parse().unwrap();
@@ -428,7 +428,7 @@ fn names_come_first_and_states_follow() {
     let place = (0..DRAWINGS).fold(library(), |place, index| {
         place.file(&format!("library/{}.dxf", name(index)), dxf(&name(index), 5))
     });
-    let served = Served::begin_until(&place, "watch --serve 127.0.0.1:0", "served at ");
+    let served = Served::begin_until(&place, "watch --serve 127.0.0.1:0", "serving at ");
     let mut was_unchecked = false;
     loop {
         let library = served.get("/api/library").json();
@@ -534,7 +534,7 @@ fn a_wrong_configuration_is_shown_until_it_is_put_right() {
     let place = library();
     let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
     served.write("pathbuild.toml", "feed = \n");
-    served.until("put right");
+    served.until("until this is fixed");
     let library = served.get("/api/library").json();
     assert_eq!(library["halted"], "");
     assert!(!library["problems"].as_array().unwrap().is_empty());
@@ -557,7 +557,7 @@ fn ctrl_c_ends_it_without_an_error() {
     // Also while nothing can be checked.
     let mut served = Served::begin(&place, "watch --serve 127.0.0.1:0");
     served.write("pathbuild.toml", "feed = \n");
-    served.until("put right");
+    served.until("until this is fixed");
     served.interrupt();
     assert_eq!(served.child.wait().unwrap().code(), Some(0));
 }
@@ -582,7 +582,7 @@ fn it_ends_once_the_page_is_closed_if_that_is_wanted() {
 #[test]
 fn until_closed_even_a_wrong_beginning_is_shown() {
     let place = library().file("pathbuild.toml", "feed = \n");
-    let served = Served::begin_until(&place, "watch --serve 127.0.0.1:0 --until-closed", "put right");
+    let served = Served::begin_until(&place, "watch --serve 127.0.0.1:0 --until-closed", "until this is fixed");
     assert!(!served.get("/api/library").json()["problems"].as_array().unwrap().is_empty());
     let place = library();
     fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
@@ -751,7 +751,7 @@ fn a_page_says_that_the_configuration_is_gone() {
     let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
     let file = place.path().join("pathbuild.toml");
     fs::remove_file(&file).unwrap();
-    served.until("put right");
+    served.until("until this is fixed");
     assert_eq!(served.get("/api/library").json()["halted"], "pathbuild.toml is missing");
     served.write("pathbuild.toml", CONFIGURATION);
     served.until("watching ");
@@ -759,7 +759,7 @@ fn a_page_says_that_the_configuration_is_gone() {
 
     fs::remove_file(&file).unwrap();
     fs::create_dir(&file).unwrap();
-    served.until("put right");
+    served.until("until this is fixed");
     assert_ne!(served.get("/api/library").json()["halted"], Value::Null);
 }
 

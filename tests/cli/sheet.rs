@@ -196,7 +196,7 @@ fn a_sheet_is_of_one_path_without_errors() {
     let run = place.run("sheet 1235.1P -o sheet.svg");
     assert!(run.status == Some(1) && run.stderr.contains("[PB403]"), "{run}");
     let run = place.run("sheet . -o sheet.svg");
-    assert!(run.status == Some(2) && run.stderr.contains("a sheet is of one path"), "{run}");
+    assert!(run.status == Some(2) && run.stderr.contains("a setup sheet shows a single path"), "{run}");
     let run = place.run("sheet 1234.1P -o sheet.txt");
     assert!(run.status == Some(2) && run.stderr.contains("must end in .pdf, .html or .svg"), "{run}");
     assert!(!place.path().join("sheet.svg").exists());

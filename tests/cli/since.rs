@@ -140,7 +140,7 @@ fn timings_name_the_phases_and_the_slowest_paths() {
     let run = place.run("check --timings");
     for phase in [
         "finding drawings",
-        "looking at kept results",
+        "verifying cached results",
         "reading drawings",
         "checking paths",
         "keeping results",
@@ -181,7 +181,7 @@ fn since(place: &Place, expected: &str) {
             "{expected}: {run}"
         );
         let is_all = expected == ALL;
-        assert_eq!(run.stderr.contains("everything is checked: "), is_all, "{run}");
+        assert_eq!(run.stderr.contains("checking everything: "), is_all, "{run}");
     }
 }
 
@@ -273,7 +273,7 @@ mod links {
         fs::remove_file(place.path().join("parts/1003.dxf")).unwrap();
         symlink("../store/b.bin", place.path().join("parts/1003.dxf")).unwrap();
         let run = place.run("check --changed-since HEAD");
-        assert!(run.stderr.contains("everything is checked: parts/1003.dxf"), "{run}");
+        assert!(run.stderr.contains("checking everything: parts/1003.dxf"), "{run}");
     }
 
     #[test]

@@ -74,7 +74,7 @@ fn a_new_file_that_may_hold_an_embedded_path_is_named_and_another_is_not() {
     let place = place.file("1113.dxf", &bytes);
     assert!(why(&place, "8001.dxf").contains("up to date"), "1113 cannot hold 1111.1P");
     let place = place.file("1111 new.dxf", &bytes);
-    let expected = "8001.dxf: would be compiled again\n  1111 new.dxf is new, and may hold 1111.1P\n";
+    let expected = "8001.dxf: would be compiled again\n  1111 new.dxf is new and may contain 1111.1P\n";
     assert_eq!(why(&place, "8001.dxf"), expected);
     let json = why(&place, "8001.dxf --format json");
     let reason = r#"{"type":"result","file":"8001.dxf","holds":false,"reasons":[{"file":"1111 new.dxf","change":"new","path":"1111.1P"}]}"#;

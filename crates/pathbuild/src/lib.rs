@@ -125,8 +125,8 @@ fn refusal(context: &Context) -> Option<String> {
 fn warn_about_unused_configuration(context: &Context) {
     if let Some(file) = context.unused_configuration() {
         let line = context.phrase(
-            "note: {} does not hold for what lies outside of its tree (--config {} makes it hold); no other was found",
-            "Hinweis: {} gilt nicht für das, was außerhalb ihres Baums liegt (mit --config {} gilt sie); eine andere wurde nicht gefunden",
+            "note: {} does not apply to files outside its tree (give --config {} to apply it); no other configuration was found",
+            "Hinweis: {} gilt nicht für Dateien außerhalb ihres Verzeichnisbaums (mit --config {} gilt sie doch); eine andere Konfiguration wurde nicht gefunden",
             file.as_str(),
         );
         context.printer.status(line);

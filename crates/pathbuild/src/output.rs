@@ -54,15 +54,15 @@ impl Output {
         }
         if on_stdout > 0 && on_stdout + taken > 1 {
             let reason = workspace.choose(
-                "standard output holds one document: give the other report a file",
-                "die Standardausgabe fasst ein Dokument: für den anderen Bericht eine Datei angeben",
+                "standard output can hold only one document: write the other report to a file",
+                "die Standardausgabe fasst nur ein Dokument: für den anderen Bericht eine Datei angeben",
             );
             return Some(reason.to_owned());
         }
         (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty())).then(|| {
             let reason = workspace.choose(
-                "`watch` never ends: it shows findings as full, concise, json or github",
-                "`watch` endet nie: es zeigt Meldungen als full, concise, json oder github",
+                "`watch` supports only the formats full, concise, json and github, because it never ends",
+                "`watch` endet nie und kann Meldungen deshalb nur als full, concise, json oder github zeigen",
             );
             reason.to_owned()
         })

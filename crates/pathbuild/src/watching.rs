@@ -66,8 +66,8 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             }
             Ok(_) => {
                 context.printer.status(context.choose(
-                    "the configuration or its post is missing or wrong: nothing is checked until it is put right",
-                    "die Konfiguration oder ihr Postprozessor fehlt oder ist falsch: nichts wird geprüft, bis das berichtigt ist",
+                    "the configuration or its post-processor is missing or invalid: nothing is checked until this is fixed",
+                    "die Konfiguration oder ihr Postprozessor fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
                 ));
                 while Sources::of(&context_of(cli).0) == sources {
                     if server.as_ref().is_some_and(Server::is_over) {

@@ -258,7 +258,7 @@ fn an_edited_post_begins_anew() {
     let program = "library/projects/8001_Milling.nc";
     assert!(place.read(program).starts_with("(bert)"));
     watch.write("posts/my.cbpp", post("anna"));
-    watch.until("its post changed");
+    watch.until("its post-processor has changed");
     watch.until("watching ");
     assert!(place.read(program).starts_with("(anna)"));
 }
@@ -348,10 +348,10 @@ fn what_may_have_passed_is_tried_again_with_the_next_change() {
     std::thread::sleep(Duration::from_millis(500));
     allow("closed", 0o755);
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
-    let said = [watch.until("1001.dxf: changed"), watch.until("tried again")].concat();
-    assert_eq!(said.iter().filter(|line| line.contains("tried again")).count(), 1, "{said:#?}");
+    let said = [watch.until("1001.dxf: changed"), watch.until("checked again")].concat();
+    assert_eq!(said.iter().filter(|line| line.contains("checked again")).count(), 1, "{said:#?}");
     let line = said.last().unwrap();
-    let expected = "[2] library/parts/1003.dxf: tried again; 1 drawing checked, 0 new findings, 1 fixed (";
+    let expected = "[2] library/parts/1003.dxf: checked again; 1 drawing checked, 0 new findings, 1 fixed (";
     assert!(line.starts_with(expected), "{line}");
 }
 
@@ -362,7 +362,7 @@ fn are_named_again(said: &[String]) -> bool {
         let (revision, change) = line.split_once("] ").unwrap();
         let (files, is_behind) = revisions.entry(revision.parse().unwrap()).or_default();
         files.insert(change.split(": ").next().unwrap());
-        *is_behind = change.contains(" to follow, ");
+        *is_behind = change.contains(" still to check, ");
     }
     let revisions: Vec<_> = revisions.into_values().collect();
     revisions.windows(2).all(|pair| !pair[0].1 || pair[0].0.is_subset(&pair[1].0))
@@ -390,20 +390,20 @@ fn a_configuration_that_is_wrong_for_a_moment_ends_nothing() {
         "post = \"nowhere.toml\"\nfeed = 150\nlibrary = [\"library\"]\n",
     ] {
         watch.write("pathbuild.toml", wrong);
-        let said = watch.until("put right");
+        let said = watch.until("until this is fixed");
         assert!(said.iter().any(|line| line.contains("error[PB")), "{said:#?}");
         watch.write("pathbuild.toml", CONFIGURATION);
         watch.until("watching ");
     }
     fs::remove_file(place.path().join("pathbuild.toml")).unwrap();
-    watch.until("put right");
+    watch.until("until this is fixed");
     watch.write("pathbuild.toml", CONFIGURATION);
     watch.until("watching ");
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     watch.until("1001.dxf: changed");
 }
 
-const REPLACED: &str = "a directory that is watched came, went or was replaced";
+const REPLACED: &str = "a watched directory appeared, disappeared or was replaced";
 
 /// The system watches a directory, not its name; Git and synchronisation programs replace directories.
 #[test]
@@ -536,7 +536,7 @@ fn a_program_that_could_not_be_written_is_written_later() {
 
     fs::remove_dir_all(place.path().join("library/projects/8001_Milling.gcode")).unwrap();
     watch.write("library/parts/1002.dxf", dxf("1002.1P", 5, &[]));
-    let said = watch.until("8001.dxf: tried again");
+    let said = watch.until("8001.dxf: checked again");
     assert!(said.iter().any(|line| line.contains("8001_Milling.gcode: written")), "{said:#?}");
     assert!(said.last().unwrap().contains(" 0 new findings, 1 fixed"), "{said:#?}");
 }
@@ -605,7 +605,7 @@ fn a_users_configuration_that_is_put_right_is_noticed() {
     let own = place.configurations().join("pathbuild/config.toml");
     fs::write(&own, "lang = \n").unwrap();
     watch.write("pathbuild.toml", CONFIGURATION);
-    watch.until("put right");
+    watch.until("until this is fixed");
     fs::write(&own, "lang = \"en\"\n").unwrap();
     watch.until("watching ");
 }

@@ -166,7 +166,7 @@ fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &ArgumentMatch
     let Some(rule) = past.changed_rule(&directories) else { return Some(past) };
     let context = session.workspace();
     context.reporter.status(&context.phrase(
-        "everything is checked: {} has changed since the revision",
+        "checking everything: {} has changed since the revision",
         "alles wird geprüft: {} hat sich seit der Revision geändert",
         relative(&rule, &context.working_directory).as_str(),
     ));

@@ -67,8 +67,8 @@ impl EmitContext<'_> {
         if task == Task::Print && join.is_none() && selection.targets.len() > 1 {
             let workspace = session.workspace();
             let reason = workspace.choose(
-                "`-o -` writes one program: name one path",
-                "`-o -` schreibt ein Programm: einen Pfad nennen",
+                "`-o -` writes a single program: name a single path",
+                "`-o -` schreibt ein einzelnes Programm: nur einen Pfad nennen",
             );
             return Err(reason.to_owned());
         }
@@ -84,8 +84,8 @@ impl EmitContext<'_> {
         if task == Task::Print && jobs.iter().any(|job| job.files.len() > 1) {
             let workspace = session.workspace();
             let reason = workspace.choose(
-                "`-o -` writes one file: this path has Z-probes and becomes several files",
-                "`-o -` schreibt eine Datei: dieser Pfad hat Z-Proben und ergibt mehrere",
+                "`-o -` writes a single file: the program of this path has Z-probes and consists of several files",
+                "`-o -` schreibt eine einzelne Datei: das Programm dieses Pfads hat Z-Proben und besteht aus mehreren Dateien",
             );
             return Err(reason.to_owned());
         }

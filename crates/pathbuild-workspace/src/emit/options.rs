@@ -39,14 +39,14 @@ fn no_configuration(context: &Workspace) -> Option<String> {
     }
     Some(match context.unused_configuration() {
         Some(file) => context.phrase(
-            "no configuration holds for this drawing: it lies outside of the tree of {}; give --config {}, or move the drawing into the tree",
-            "für diese Zeichnung gilt keine Konfiguration: sie liegt außerhalb des Baums von {}; --config {} angeben oder die Zeichnung in den Baum legen",
+            "no configuration applies to this drawing: it lies outside the tree of {}; give --config {}, or move the drawing into the tree",
+            "für diese Zeichnung gilt keine Konfiguration: sie liegt außerhalb des Verzeichnisbaums von {}; --config {} angeben oder die Zeichnung dorthin verschieben",
             file.as_str(),
         ),
         None => context
             .choose(
-                "no pathbuild.toml lies beside or above the drawing: `pathbuild init` writes one into the working directory",
-                "bei oder über der Zeichnung liegt keine pathbuild.toml: `pathbuild init` schreibt eine in das Arbeitsverzeichnis",
+                "there is no pathbuild.toml beside or above the drawing: `pathbuild init` creates one in the working directory",
+                "neben oder über der Zeichnung gibt es keine pathbuild.toml: `pathbuild init` legt eine im Arbeitsverzeichnis an",
             )
             .to_owned(),
     })
@@ -61,8 +61,8 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
         "sweep-height" => context
             .choose("the sweep height in mm for paths without S", "die Leerfahrthöhe in mm für Pfade ohne S"),
         _ => context.choose(
-            "the speed of rapid moves in mm/min, for times",
-            "die Eilganggeschwindigkeit in mm/min, für Zeiten",
+            "the speed of rapid moves in mm/min, to estimate times",
+            "die Eilganggeschwindigkeit in mm/min, um Zeiten zu schätzen",
         ),
     }
 }

@@ -74,15 +74,15 @@ fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Ve
         Err(NotOnePath::Several(NamedPaths { names, .. })) => {
             let names: Vec<&str> = names.iter().map(PathName::as_str).collect();
             Err(context.phrase(
-                "a sheet is of one path: name one of {}",
-                "ein Blatt ist von einem Pfad: einen von diesen nennen: {}",
+                "a setup sheet shows a single path: name one of {}",
+                "ein Einrichteblatt zeigt einen einzelnen Pfad: einen von diesen nennen: {}",
                 &names.join(", "),
             ))
         }
         Err(NotOnePath::Directory) => Err(context
             .choose(
-                "a sheet is of one path: this is a directory",
-                "ein Blatt ist von einem Pfad: das ist ein Verzeichnis",
+                "a setup sheet shows a single path: this is a directory",
+                "ein Einrichteblatt zeigt einen einzelnen Pfad: das ist ein Verzeichnis",
             )
             .into()),
     }

@@ -18,13 +18,13 @@ pub struct Timings {
 /// Finding the drawings that the arguments refer to.
 pub static FINDING: Text = Text { en: "finding drawings", de: "Zeichnungen suchen" };
 /// Comparing cached results with the files.
-pub static VERIFYING: Text = Text { en: "looking at kept results", de: "frühere Ergebnisse prüfen" };
+pub static VERIFYING: Text = Text { en: "verifying cached results", de: "gespeicherte Ergebnisse prüfen" };
 /// Reading drawings.
 pub static READING: Text = Text { en: "reading drawings", de: "Zeichnungen lesen" };
 /// Checking paths.
 pub static CHECKING: Text = Text { en: "checking paths", de: "Pfade prüfen" };
 /// Storing results in the cache.
-pub static KEEPING: Text = Text { en: "keeping results", de: "Ergebnisse aufheben" };
+pub static KEEPING: Text = Text { en: "storing results", de: "Ergebnisse speichern" };
 
 /// Number of slowest paths that are listed.
 const SLOWEST: usize = 10;

@@ -36,7 +36,7 @@ pub struct SheetArgs {
     /// Name of a path, or drawing (.dxf) with one path
     #[arg(value_name = "PATH|DRAWING", add = completion::paths())]
     pub what: String,
-    /// File to write: .pdf, .html or .svg; without it the browser shows the sheet
+    /// File to write: .pdf, .html or .svg; without it the browser shows the setup sheet
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// Write for this post-processor: a built-in name or a file

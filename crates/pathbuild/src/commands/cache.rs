@@ -16,14 +16,14 @@ use pathbuild_workspace::session::BUILD;
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     if context.settings.directory().is_none() {
         return context.usage(context.choose(
-            "there is no pathbuild.toml here or above, and without one nothing is kept",
-            "hier und darüber gibt es keine pathbuild.toml, und ohne sie wird nichts aufgehoben",
+            "there is no pathbuild.toml here or above, and without one no results are cached",
+            "hier und darüber gibt es keine pathbuild.toml, und ohne sie werden keine Ergebnisse gespeichert",
         ));
     }
     let (Some(home), Some(place)) = (&context.cache, context.cache_place()) else {
         return context.usage(context.choose(
-            "nothing is kept: there is no cache directory, or --no-cache was given",
-            "es wird nichts aufgehoben: es gibt kein Verzeichnis dafür, oder --no-cache ist angegeben",
+            "no results are cached: there is no cache directory, or --no-cache was given",
+            "es werden keine Ergebnisse gespeichert: es gibt kein Cache-Verzeichnis, oder --no-cache ist angegeben",
         ));
     };
     let build = Key::new(BUILD, "");
@@ -74,9 +74,9 @@ fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
     let mut is_whole = true;
     for Entry { path, size, fault } in entries {
         let state = match fault {
-            None => context.choose("whole", "unversehrt"),
+            None => context.choose("intact", "unversehrt"),
             Some(CacheFault::Foreign) => {
-                context.choose("of another build", "von einer anderen Programmfassung")
+                context.choose("written by another build", "von einer anderen Programmfassung")
             }
             Some(CacheFault::Damaged) => {
                 is_whole = false;

@@ -60,7 +60,7 @@ pathbuild compat [/OPTION[VALUE]]... FILES
   /c                 check in place of emit
   /x REGEX           texts --match REGEX, then emit or check; with /m adjust --show REGEX
   /m                 adjust --max-correction
-  --OPTION           an option of ours; `-` may stand for `/`
+  --OPTION           an option of pathbuild; `-` may replace `/`
 
 `pathbuild compat --print ...` prints the pathbuild command lines instead of running them.
 ";

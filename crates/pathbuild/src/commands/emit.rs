@@ -38,12 +38,12 @@ fn refusal<'a>(
     let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
     match post_processor {
         None if args.join.is_some() => Some(context.choose(
-            "--join needs --post (or `post` in pathbuild.toml): the native program has one path and no tool changes",
-            "--join braucht --post (oder `post` in pathbuild.toml): das eigene Programm hat einen Pfad und keine Werkzeugwechsel",
+            "--join needs --post (or `post` in pathbuild.toml): native programs have a single path and no tool changes",
+            "--join braucht --post (oder `post` in pathbuild.toml): das native Programm hat nur einen Pfad und keine Werkzeugwechsel",
         )),
         None if is_for_posts => Some(context.choose(
-            "--date, --dialect and --run-post-build are for posts: give --post, or set `post` in pathbuild.toml",
-            "--date, --dialect und --run-post-build sind für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
+            "--date, --dialect and --run-post-build apply to post-processors only: give --post, or set `post` in pathbuild.toml",
+            "--date, --dialect und --run-post-build gelten nur für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
         )),
         _ => None,
     }

@@ -277,7 +277,7 @@ impl<'a> Repository<'a> {
     }
 
     fn not_run(&self, error: &io::Error) -> String {
-        let (en, de) = ("git cannot be run: {}", "git lässt sich nicht starten: {}");
+        let (en, de) = ("cannot run git: {}", "git lässt sich nicht starten: {}");
         self.workspace.phrase(en, de, &error.to_string())
     }
 }

@@ -83,8 +83,8 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
 fn format_refusal(context: &Context, command: &Command) -> Option<String> {
     if context.format == Format::Html {
         let refusal = context.choose(
-            "a page is a file: give --report html=FILE",
-            "eine Seite ist eine Datei: --report html=DATEI angeben",
+            "an HTML page is written to a file: give --report html=FILE",
+            "eine HTML-Seite wird in eine Datei geschrieben: --report html=DATEI angeben",
         );
         return Some(refusal.to_owned());
     }

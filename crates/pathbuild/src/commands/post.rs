@@ -68,8 +68,8 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         Ok(Some(post_processor)) => post_processor,
         Ok(None) => {
             return context.usage(context.choose(
-                "the native program is written from drawings only: `pathbuild emit`",
-                "das eigene Programm wird nur aus Zeichnungen geschrieben: `pathbuild emit`",
+                "native programs can only be written from drawings: `pathbuild emit`",
+                "native Programme lassen sich nur aus Zeichnungen schreiben: `pathbuild emit`",
             ));
         }
         Err(problems) => return context.fail(problems),

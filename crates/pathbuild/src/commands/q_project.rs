@@ -19,8 +19,8 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     // `-` usually means stdout, but CAD programs read drawings from files.
     if args.output.as_deref() == Some(Utf8Path::new("-")) {
         return context.usage(context.choose(
-            "`-o -`: q-project writes a drawing, name a file for it",
-            "`-o -`: q-project schreibt eine Zeichnung, eine Datei dafür nennen",
+            "`-o -`: q-project writes a drawing, which needs a file name",
+            "`-o -`: q-project schreibt eine Zeichnung und braucht dafür einen Dateinamen",
         ));
     }
     let mut session = Session::new(context);
@@ -33,7 +33,7 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     let output = session.normal(args.output.as_deref().unwrap_or(&beside(&args.drawing)));
     if output == *drawing.path(session.db()) {
         return context.usage(context.choose(
-            "the Q-project would be written over its own drawing",
+            "the Q-project would overwrite its own drawing",
             "das Q-Projekt würde seine eigene Zeichnung überschreiben",
         ));
     }

@@ -42,14 +42,14 @@ pub(crate) fn run(
     Ok(match request.run(context, &WatchPrinter { context, page }) {
         WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
-                "the configuration or its post changed",
+                "the configuration or its post-processor has changed",
                 "die Konfiguration oder ihr Postprozessor wurde geändert",
             ));
         }
         WatchEnd::DirectoriesChanged => {
             return Err(context.choose(
-                "a directory that is watched came, went or was replaced",
-                "ein beobachtetes Verzeichnis kam, ging oder wurde ersetzt",
+                "a watched directory appeared, disappeared or was replaced",
+                "ein beobachtetes Verzeichnis ist hinzugekommen, verschwunden oder ersetzt worden",
             ));
         }
         WatchEnd::Over => ExitStatus::Success,
@@ -68,8 +68,8 @@ pub(crate) fn run(
         }
         WatchEnd::CannotWatch(reason) => {
             let advice = context.choose(
-                "--poll looks for changes from time to time",
-                "--poll sieht von Zeit zu Zeit nach Änderungen",
+                "--poll checks for changes at intervals instead",
+                "--poll sucht stattdessen in festen Abständen nach Änderungen",
             );
             halt(&[], &reason);
             let cannot = context.choose("cannot watch", "kann nicht beobachten");
@@ -158,7 +158,7 @@ impl Listener for WatchPrinter<'_> {
         let phrase = |en, de| context.choose(en, de);
         let open = match update.open {
             0 => String::new(),
-            open => format!(", {open} {}", phrase("to follow", "folgen")),
+            open => format!(", {open} {}", phrase("still to check", "noch zu prüfen")),
         };
         let checked = self.counted(
             count,
@@ -175,7 +175,7 @@ impl Listener for WatchPrinter<'_> {
             (path, if is_gone { phrase("removed", "entfernt") } else { phrase("changed", "geändert") })
         });
         let tried_again = update.tried_again.iter().filter(|_| has_news);
-        let tried_again = tried_again.map(|path| (path, phrase("tried again", "noch einmal versucht")));
+        let tried_again = tried_again.map(|path| (path, phrase("checked again", "noch einmal geprüft")));
         for (path, what) in changed.chain(tried_again) {
             context.printer.status(format_args!("[{revision}] {path}: {what}; {tail}"));
         }

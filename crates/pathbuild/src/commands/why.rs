@@ -23,8 +23,8 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     }
     let Some(result_store) = cached_results(context) else {
         return context.usage(context.choose(
-            "why needs kept results: there are none without a pathbuild.toml, or with --no-cache",
-            "why braucht aufgehobene Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
+            "why needs cached results: there are none without a pathbuild.toml, or with --no-cache",
+            "why braucht gespeicherte Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
         ));
     };
     let selection = session.with_stable_files(|session| session.select(&args.inputs));
@@ -56,8 +56,8 @@ impl DrawingState<'_> {
             None => (
                 &[][..],
                 context.choose(
-                    "would be compiled: no result is kept of it, made by this build of pathbuild with these settings",
-                    "würde übersetzt: es gibt kein Ergebnis dieser Programmfassung mit diesen Einstellungen",
+                    "would be compiled: there is no cached result from this build of pathbuild with these settings",
+                    "würde übersetzt: es gibt kein gespeichertes Ergebnis dieser Programmfassung mit diesen Einstellungen",
                 ),
             ),
             Some([]) => (
@@ -96,8 +96,8 @@ fn describe(context: &Context, reason: &Reason) -> String {
         Reason::File { path, is_gone: true } => format!("{path} {}", context.choose("is gone", "ist weg")),
         Reason::Name { file, path, is_gone } => {
             let state = match is_gone {
-                true => context.choose("is gone, and may have held", "ist weg, und könnte enthalten haben:"),
-                false => context.choose("is new, and may hold", "ist neu, und könnte enthalten:"),
+                true => context.choose("is gone and may have contained", "ist weg und kann diesen Pfad enthalten haben:"),
+                false => context.choose("is new and may contain", "ist neu und kann diesen Pfad enthalten:"),
             };
             format!("{file} {state} {path}")
         }
@@ -106,8 +106,8 @@ fn describe(context: &Context, reason: &Reason) -> String {
             format!(
                 "{directory} {}",
                 context.choose(
-                    "has a link in it or on the way to it that leads elsewhere now, or could not be listed",
-                    "enthält eine Verknüpfung, die jetzt woandershin führt, oder liegt hinter einer, oder war nicht aufzulisten",
+                    "contains a symbolic link, or is reached through one, that leads elsewhere now; or it could not be listed",
+                    "enthält einen symbolischen Link, der jetzt woandershin führt, oder wird über einen solchen erreicht; oder es ließ sich nicht auflisten",
                 )
             )
         }

@@ -117,8 +117,8 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Name eines Pfads, oder Zeichnung (.dxf) mit einem Pfad",
     ),
     (
-        "File to write: .pdf, .html or .svg; without it the browser shows the sheet",
-        "Zieldatei: .pdf, .html oder .svg; sonst zeigt der Browser das Blatt",
+        "File to write: .pdf, .html or .svg; without it the browser shows the setup sheet",
+        "Zieldatei: .pdf, .html oder .svg; sonst zeigt der Browser das Einrichteblatt",
     ),
     (
         "Before the change: a directory, a drawing, a Git revision, or a G-code program",

@@ -93,8 +93,8 @@ impl Baseline {
 }
 
 const HEAD: &str = "\
-# Known findings of pathbuild. `pathbuild check --baseline FILE --update-baseline` writes this file anew.
-# The fingerprint at the beginning of a line counts; the rest says what it was.
+# Known findings of pathbuild. `pathbuild check --baseline FILE --update-baseline` rewrites this file.
+# Only the fingerprint at the beginning of a line counts; the rest describes the finding.
 ";
 
 /// Describes the finding without details that change whenever the CAD program saves the drawing.

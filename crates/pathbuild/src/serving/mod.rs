@@ -86,7 +86,7 @@ fn tell(context: &Context, address: &Address, endpoint: &Endpoint) {
             Lang::De => format!("Port {} ist belegt", endpoint::PORT),
         });
     }
-    let phrase = context.choose("served at", "zu sehen unter");
+    let phrase = context.choose("serving at", "zu sehen unter");
     context.printer.status(format_args!("{phrase} {}", endpoint.link()));
 }
 

@@ -125,7 +125,7 @@ impl ResultStore {
         let confined = context.settings.confined.as_ref();
         let is_untrusted = confined.is_some_and(|confined| confined.may_hold(place.directory()));
         if let Some(reason) = is_untrusted.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
-            let phrase = context.choose("nothing is kept there", "dort wird nichts aufgehoben");
+            let phrase = context.choose("no results are cached there", "dort werden keine Ergebnisse gespeichert");
             let reason = context.choose(reason.en, reason.de);
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
             return None;
@@ -259,8 +259,8 @@ pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
 fn report_old_cache(context: &Workspace, base: &Utf8Path) {
     if context.system.kind(&base.join(OLD)) == FileKind::Directory {
         context.reporter.status(context.choose(
-            "results are kept in your cache directory now: .pathbuild beside the configuration is not used any more and can be deleted",
-            "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis aufgehoben: .pathbuild neben der Konfiguration wird nicht mehr gebraucht und kann gelöscht werden",
+            "results are now cached in your cache directory: .pathbuild beside the configuration is no longer used and can be deleted",
+            "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis gespeichert: .pathbuild neben der Konfiguration wird nicht mehr benutzt und kann gelöscht werden",
         ));
     }
 }
@@ -271,10 +271,10 @@ const OLD: &str = ".pathbuild";
 fn report_fault(context: &Workspace, reason: CacheFault) {
     let phrase = match reason {
         CacheFault::Damaged => context
-            .choose("the cache is damaged and made anew", "der Cache ist beschädigt und wird neu angelegt"),
+            .choose("the cache is damaged and will be rebuilt", "der Cache ist beschädigt und wird neu angelegt"),
         CacheFault::Foreign => context.choose(
-            "the cache is of another build and made anew",
-            "der Cache ist von einer anderen Programmfassung und wird neu angelegt",
+            "the cache was written by another build of pathbuild and will be rebuilt",
+            "der Cache stammt von einer anderen Fassung von pathbuild und wird neu angelegt",
         ),
     };
     context.reporter.status(phrase);

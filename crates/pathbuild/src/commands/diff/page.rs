@@ -59,6 +59,6 @@ fn show(page: &mut String, PictureSet { changes, old, new }: &PictureSet, lang: 
          <div class=\"stack\"><div>{old}</div><div class=\"new\">{new}</div></div></div>\n</div>",
         button("changes", "changes", "Änderungen"),
         button("beside", "side by side", "nebeneinander"),
-        button("over", "laid over each other", "übereinander"),
+        button("over", "overlaid", "übereinander"),
     );
 }

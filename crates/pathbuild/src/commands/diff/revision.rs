@@ -69,8 +69,8 @@ fn place_of(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
 fn report_left_out(context: &Context, left_out: &[String]) {
     if let Some(first) = left_out.first() {
         let reason = context.choose(
-            "drawings left out, since their names or links do not stay in the tree",
-            "Zeichnungen weggelassen, weil ihre Namen oder Links nicht im Baum bleiben",
+            "drawings left out because their names or links lead out of the tree",
+            "Zeichnungen weggelassen, weil ihre Namen oder Links aus dem Verzeichnisbaum hinausführen",
         );
         let more = if left_out.len() > 1 { ", ..." } else { "" };
         context.printer.status(format!("{reason}: {} ({first}{more})", left_out.len()));

@@ -50,7 +50,7 @@ impl Formatter<'_> {
         lines.push((self.choose("time", "Zeit"), self.time(facts)));
         lines.extend(self.waits(facts).map(|waits| (self.choose("waits", "Halte"), waits)));
         for (index, taken) in facts.taken.iter().enumerate() {
-            let label = if index == 0 { self.choose("taken", "angenommen") } else { "" };
+            let label = if index == 0 { self.choose("assumed", "angenommen") } else { "" };
             let line = taken.place.line.unwrap_or(0);
             lines.push((
                 label,
@@ -138,8 +138,8 @@ impl Formatter<'_> {
                 "{} {minutes:.0} min {}",
                 self.choose("about", "etwa"),
                 self.choose(
-                    "without rapid moves (--rapid is not known)",
-                    "ohne Eilgang (--rapid ist nicht bekannt)"
+                    "without rapid moves (--rapid is not set)",
+                    "ohne Eilgang (--rapid ist nicht gesetzt)"
                 )
             ),
         };
@@ -163,7 +163,7 @@ impl Formatter<'_> {
             waits.push(format!("{} s {}", self.tenths(summary.dwell), self.choose("dwelling", "Verweilen")));
         }
         if summary.stops > 0 {
-            waits.push(format!("{} {}", summary.stops, self.choose("for a person", "auf einen Menschen")));
+            waits.push(format!("{} {}", summary.stops, self.choose("stops for the operator", "Halte für den Bediener")));
         }
         if summary.tool_changes > 0 {
             waits.push(format!(
