@@ -582,7 +582,8 @@ fn it_ends_once_the_page_is_closed_if_that_is_wanted() {
 #[test]
 fn until_closed_even_a_wrong_beginning_is_shown() {
     let place = library().file("pathbuild.toml", "feed = \n");
-    let served = Served::begin_until(&place, "watch --serve 127.0.0.1:0 --until-closed", "until this is fixed");
+    let served =
+        Served::begin_until(&place, "watch --serve 127.0.0.1:0 --until-closed", "until this is fixed");
     assert!(!served.get("/api/library").json()["problems"].as_array().unwrap().is_empty());
     let place = library();
     fs::remove_file(place.path().join("pathbuild.toml")).unwrap();

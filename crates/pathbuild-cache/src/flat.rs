@@ -62,7 +62,7 @@ pub(crate) struct CatalogueTooLarge;
 pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), CatalogueTooLarge> {
     let names: usize = catalogue.directories.iter().map(|directory| directory.names.len()).sum();
     let texts = catalogue.files.len() + names + catalogue.lookups.len() + catalogue.records.len();
-    let mut flat = Flat { interned: HashMap::with_capacity(texts), ..Flat::default() };
+    let mut flat = FlatTables { interned: HashMap::with_capacity(texts), ..FlatTables::default() };
     let numbers = flat.files(&catalogue.files)?;
     for directory in &catalogue.directories {
         flat.directory(directory)?;
@@ -86,7 +86,7 @@ pub(crate) fn write(catalogue: &Catalogue, bytes: &mut Vec<u8>) -> Result<(), Ca
 
 /// Tables under construction.
 #[derive(Default)]
-struct Flat<'a> {
+struct FlatTables<'a> {
     tables: [Vec<u8>; TABLES],
     payloads: Vec<u8>,
     texts: String,
@@ -97,7 +97,7 @@ struct Flat<'a> {
 /// Offset and length of a string, or index of the first row and number of rows.
 type Span = [u32; 2];
 
-impl<'a> Flat<'a> {
+impl<'a> FlatTables<'a> {
     fn finish(self, bytes: &mut Vec<u8>) -> Result<(), CatalogueTooLarge> {
         for (table, size) in self.tables.iter().zip(SIZES) {
             bytes.extend(word(table.len() / size)?.to_le_bytes());

@@ -14,11 +14,11 @@ use pathbuild_path::PathName;
 use pathbuild_post::BUILT_IN;
 use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, Owners, TargetPatterns};
+use pathbuild_workspace::emit::{self, FileOwners, TargetPatterns};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::{SceneReport, Session, ShownText};
-use pathbuild_workspace::{Inputs, Silent, Workspace};
+use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 
 use crate::files::Files;
@@ -53,7 +53,7 @@ impl OpenedFiles {
             // WebAssembly has a single thread.
             jobs: Some(1),
             cache: None,
-            reporter: Rc::new(Silent),
+            reporter: Rc::new(SilentReporter),
         };
         // Leaked, because it lives as long as the page: to open other files, the page starts a new instance.
         let workspace: &'static Workspace = Box::leak(Box::new(workspace));
@@ -208,11 +208,11 @@ impl OpenedFiles {
             |(file, name): &(SourceFile, PathName)| self.session.target_in(*file, name, Role::Emitted);
         let targets: Vec<Target> = found.iter().map(target).collect();
         let post_processor = self.post_processor.as_ref();
-        let emission = match emit::write(&mut self.session, post_processor, &targets, &mut Owners::default())
-        {
-            Ok(emission) => emission,
-            Err(refusal) => return json!({ "refused": refusal, "problems": [], "files": [] }).into(),
-        };
+        let emission =
+            match emit::write(&mut self.session, post_processor, &targets, &mut FileOwners::default()) {
+                Ok(emission) => emission,
+                Err(refusal) => return json!({ "refused": refusal, "problems": [], "files": [] }).into(),
+            };
         let (mut files, mut bytes) = (Vec::new(), Vec::new());
         for delivered in &emission.delivered {
             for (path, _) in delivered.files.iter().filter(|(path, _)| delivered.has_written(path)) {

@@ -17,9 +17,9 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::sheet;
 use pathbuild_wasm::Compiler;
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, Owners};
+use pathbuild_workspace::emit::{self, FileOwners};
 use pathbuild_workspace::session::{SelectedPath, Session};
-use pathbuild_workspace::{Inputs, Silent, Workspace};
+use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 
 /// The page's side of the interface.
@@ -138,7 +138,7 @@ fn a_library_has_the_programs_that_are_written_from_files() {
         working_directory: Utf8PathBuf::new(),
         jobs: None,
         cache: None,
-        reporter: Rc::new(Silent),
+        reporter: Rc::new(SilentReporter),
     };
     let mut session = Session::new(&workspace);
     let mut compared = 0;
@@ -146,7 +146,7 @@ fn a_library_has_the_programs_that_are_written_from_files() {
         let file = session.file(&root.join(drawing));
         let name = pathbuild_path::PathName::new(path);
         let target = session.target(&SelectedPath { file, name }, Role::Emitted);
-        let Ok(_) = emit::write(&mut session, None, &[target], &mut Owners::default()) else { continue };
+        let Ok(_) = emit::write(&mut session, None, &[target], &mut FileOwners::default()) else { continue };
         let (programs, _) = page.emit(&[(drawing, path)]);
         for (name, text) in programs {
             let written = place.1.join(Utf8Path::new(&name).file_name().unwrap());

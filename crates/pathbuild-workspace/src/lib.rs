@@ -22,5 +22,5 @@ mod workspace;
 pub use pathbuild_cache::Home as CacheHome;
 
 pub use inputs::{Input, Inputs};
-pub use reporter::{Advance, Reporter, Silent};
+pub use reporter::{Advance, Reporter, SilentReporter};
 pub use workspace::Workspace;

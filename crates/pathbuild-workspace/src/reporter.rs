@@ -20,9 +20,9 @@ pub trait Advance: Debug + Send + Sync {
 
 /// Discards all messages.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub struct SilentReporter;
 
-impl Reporter for Silent {
+impl Reporter for SilentReporter {
     fn status(&self, _: &str) {}
 
     fn detail(&self, _: &str) {}
@@ -32,6 +32,6 @@ impl Reporter for Silent {
     }
 }
 
-impl Advance for Silent {
+impl Advance for SilentReporter {
     fn advance(&self) {}
 }

@@ -7,7 +7,7 @@ use pathbuild_db::System;
 use pathbuild_diagnostic::Lang;
 
 use crate::config::{Origin, Settings};
-use crate::reporter::{Reporter, Silent};
+use crate::reporter::{Reporter, SilentReporter};
 use crate::session::relative;
 
 /// The environment of a run: settings, files, languages and directories.
@@ -72,7 +72,7 @@ impl Workspace {
             working_directory: self.working_directory.clone(),
             jobs: self.jobs,
             cache: None,
-            reporter: Rc::new(Silent),
+            reporter: Rc::new(SilentReporter),
         }
     }
 

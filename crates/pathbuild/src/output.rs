@@ -9,7 +9,7 @@ use pathbuild_workspace::Workspace;
 use crate::args::{Command, CommonArgs, Format, ReportFile};
 use crate::context::Context;
 use crate::printer::Stream;
-use crate::render::{Rendered, View, json as lines, page, render};
+use crate::render::{RenderedText, View, json as lines, page, render};
 use crate::report::{Findings, pictures};
 
 /// The document of a run, with everything to be written at its end.
@@ -84,7 +84,7 @@ impl Output {
         &self,
         findings: &Findings,
         view: impl FnOnce(Stream) -> View,
-    ) -> Option<(Stream, Rendered)> {
+    ) -> Option<(Stream, RenderedText)> {
         if !self.reports.is_empty() || self.format.is_whole() || self.format == Format::Json {
             let mut found = self.found.borrow_mut();
             found.diagnostics.extend(findings.diagnostics.iter().cloned());
@@ -103,7 +103,7 @@ impl Output {
     }
 
     /// The rest of the document, printed at the end.
-    pub(crate) fn end(&self, status: u8, view: &View) -> Option<Rendered> {
+    pub(crate) fn end(&self, status: u8, view: &View) -> Option<RenderedText> {
         match self.format {
             _ if !self.is_document => None,
             Format::Json => Some(lines::rendered(&self.summary(status))),
@@ -113,13 +113,13 @@ impl Output {
     }
 
     /// An HTML report.
-    pub(crate) fn page(&self, context: &Context, view: &View) -> Rendered {
+    pub(crate) fn page(&self, context: &Context, view: &View) -> RenderedText {
         let found = self.found.borrow();
         page(&found, &pictures(context, &found.diagnostics), view)
     }
 
     /// The text of a report.
-    pub(crate) fn whole(&self, format: Format, status: u8, view: &View) -> Rendered {
+    pub(crate) fn whole(&self, format: Format, status: u8, view: &View) -> RenderedText {
         let found = self.found.borrow();
         let rendered = render(format, &found, view);
         if format != Format::Json {

@@ -21,11 +21,11 @@ use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
 use pathbuild_diagnostic::shown;
-use pathbuild_workspace::{Advance, Reporter, Silent};
+use pathbuild_workspace::{Advance, Reporter, SilentReporter};
 
 use crate::exit::ExitStatus;
 use crate::progress::Progress;
-use crate::render::Rendered;
+use crate::render::RenderedText;
 
 /// When to use colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -169,14 +169,14 @@ impl Printer {
     }
 
     /// Prints rendered diagnostics.
-    pub fn diagnostics(&self, stream: Stream, text: &Rendered) {
+    pub fn diagnostics(&self, stream: Stream, text: &RenderedText) {
         if stream == Stream::Stdout || self.verbosity >= Verbosity::Quiet {
             self.write(stream, text.as_str());
         }
     }
 
     /// Prints a machine-readable document, regardless of verbosity.
-    pub(crate) fn document(&self, stream: Stream, text: &Rendered) {
+    pub(crate) fn document(&self, stream: Stream, text: &RenderedText) {
         self.write(stream, text.as_str());
     }
 
@@ -246,7 +246,7 @@ impl Reporter for Printer {
     /// A progress bar if stderr is a terminal.
     fn progress(&self, total: usize) -> Box<dyn Advance> {
         if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
-            return Box::new(Silent);
+            return Box::new(SilentReporter);
         }
         Box::new(Progress::new(total, Some(Box::new(io::stderr()))))
     }

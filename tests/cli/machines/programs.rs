@@ -14,7 +14,7 @@ use pathbuild_motion::Step;
 use pathbuild_toolpath::Program;
 use pathbuild_workspace::config::Settings;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::{Inputs, Silent, Workspace, config};
+use pathbuild_workspace::{Inputs, SilentReporter, Workspace, config};
 use rayon::prelude::*;
 
 use crate::conformance::recorded::{self, Run, What};
@@ -75,7 +75,7 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         cache: None,
-        reporter: Rc::new(Silent),
+        reporter: Rc::new(SilentReporter),
     };
     let session = Session::new(&workspace);
     let wanted = session.select(&Inputs { inputs });

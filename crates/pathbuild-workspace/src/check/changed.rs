@@ -7,7 +7,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_db::{Db, Trace};
 
-use super::Past;
+use super::EarlierFiles;
 use crate::session::{Coverage, Dependencies, Session};
 
 /// Inputs of results that may have changed.
@@ -52,7 +52,7 @@ fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
 
 impl ChangedDrawings {
     /// Those of the given inputs that have changed since `past`.
-    pub(super) fn new(session: &Session<'_>, past: &dyn Past, reached: ReachedInputs) -> Self {
+    pub(super) fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
         let ReachedInputs { mut files, directories } = reached;
         let mut gone = BTreeSet::new();
         for directory in &directories {

@@ -35,11 +35,11 @@ pub struct Request<'a> {
     /// Whether to check all combinations of the variables' values instead of one example value of each.
     pub with_all_values: bool,
     /// If set, show only results that depend on drawings changed since that state.
-    pub changed: Option<&'a dyn Past>,
+    pub changed: Option<&'a dyn EarlierFiles>,
 }
 
 /// The files at an earlier time, such as in a Git revision.
-pub trait Past: Debug {
+pub trait EarlierFiles: Debug {
     /// For each file, whether it has changed since or did not exist. Files about which nothing is known count as changed.
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
 
@@ -159,7 +159,11 @@ fn check(
 }
 
 /// The state since which changed drawings are selected; `None` if everything is selected because a change affects all drawings.
-fn since<'a>(session: &Session<'_>, request: &Request<'a>, found: &ArgumentMatches) -> Option<&'a dyn Past> {
+fn since<'a>(
+    session: &Session<'_>,
+    request: &Request<'a>,
+    found: &ArgumentMatches,
+) -> Option<&'a dyn EarlierFiles> {
     let past = request.changed?;
     let directories: Vec<Utf8PathBuf> =
         found.directories().flat_map(|directory| &directory.directories).cloned().collect();

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use super::changed::{ChangedDrawings, ReachedInputs};
-use super::{Past, Request, open};
+use super::{EarlierFiles, Request, open};
 use crate::session::timings::{KEEPING, VERIFYING};
 use crate::session::{
     ArgumentMatches, Dependencies, Drawing, DrawingResult, Drawings, FreshResult, Pair, ResultStore, Scope,
@@ -150,7 +150,7 @@ impl<'a> ChangeFilter<'a> {
         session: &'a Session<'a>,
         results: &'a Results,
         fresh: &'a [FreshResult],
-        past: Option<&dyn Past>,
+        past: Option<&dyn EarlierFiles>,
         names: impl Iterator<Item = Cow<'n, str>>,
     ) -> Self {
         let fresh = fresh.iter().map(|result| (&*result.subject, result)).collect();

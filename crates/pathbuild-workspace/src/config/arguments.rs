@@ -11,7 +11,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value};
 use super::kinds::number::number_from_text;
 use super::kinds::pattern::{regex_fault, split_restriction};
 use super::options::Options;
-use super::origin::Sourced;
+use super::origin::SourcedValue;
 use super::sections::general;
 use super::types::{Directories, Restriction};
 
@@ -75,7 +75,7 @@ pub(super) fn read(overrides: &Overrides, working_directory: &Utf8Path) -> (Opti
     let mut general = general::Options::given(&mut reader);
     // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
     let comments = overrides.lang.filter(|_| given.0.contains_key("compatible"));
-    general.comment_lang = comments.map(|lang| Sourced::option("lang", lang));
+    general.comment_lang = comments.map(|lang| SourcedValue::option("lang", lang));
     (Options { general, ..Options::default() }, reader.diagnostics)
 }
 
@@ -142,11 +142,11 @@ impl<'a> OptionReader<'a> {
         &mut self,
         name: &'static str,
         read: impl FnOnce(&GivenOption<'a>) -> Result<T, Vec<Diagnostic>>,
-    ) -> Option<Sourced<T>> {
+    ) -> Option<SourcedValue<T>> {
         let texts = self.given.0.get(name)?;
         let option = GivenOption { name, texts, working_directory: self.working_directory };
         match read(&option) {
-            Ok(value) => Some(Sourced::option(name, value)),
+            Ok(value) => Some(SourcedValue::option(name, value)),
             Err(faults) => {
                 self.diagnostics.extend(faults);
                 None

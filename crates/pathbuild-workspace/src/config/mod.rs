@@ -32,7 +32,7 @@ mod user;
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
 pub use load::{faults, load};
 pub use options::Options;
-pub use origin::{Origin, Sourced};
+pub use origin::{Origin, SourcedValue};
 pub use result_kind::ResultKind;
 pub use schema::schema;
 pub use settings::Settings;

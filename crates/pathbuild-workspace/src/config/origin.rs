@@ -13,14 +13,14 @@ pub enum Origin {
 
 /// A value with its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sourced<T> {
+pub struct SourcedValue<T> {
     /// The value.
     pub value: T,
     /// Where it comes from.
     pub origin: Origin,
 }
 
-impl<T> Sourced<T> {
+impl<T> SourcedValue<T> {
     /// A default value.
     pub fn default(value: T) -> Self {
         Self { value, origin: Origin::Default }

@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::key_index::{KeyIndex, KeyPlace};
 use super::kind::ValueType;
-use super::origin::{Origin, Sourced};
+use super::origin::{Origin, SourcedValue};
 use super::source::Source;
 
 /// Reads values from a parsed TOML file and collects all diagnostics.
@@ -196,12 +196,12 @@ pub(super) struct Table<'t, 'r, 'a> {
 
 impl<'a> Table<'_, '_, 'a> {
     /// Reads the value of a key, if it is present and valid.
-    pub(super) fn take<T>(&mut self, name: &'static str, kind: &ValueType<T>) -> Option<Sourced<T>> {
+    pub(super) fn take<T>(&mut self, name: &'static str, kind: &ValueType<T>) -> Option<SourcedValue<T>> {
         self.known.push(name);
         let value = self.content.get(name)?;
         self.reader.key = format!("{}{name}", self.prefix);
         let line = self.reader.source.line_number(value.span().start);
-        (kind.read)(value, self.reader).map(|value| Sourced { value, origin: Origin::File(line) })
+        (kind.read)(value, self.reader).map(|value| SourcedValue { value, origin: Origin::File(line) })
     }
 
     /// Whether the configuration is untrusted.

@@ -104,9 +104,9 @@ choice! {
 }
 
 choice! {
-    /// Coolant.
+    /// Coolant that a tool needs while it cuts.
     Coolant {
-        /// Nothing.
+        /// No coolant.
         Off = "off",
         /// Mist.
         Mist = "mist",

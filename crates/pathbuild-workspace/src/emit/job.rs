@@ -9,12 +9,12 @@ use pathbuild_diagnostic::messages::{outputs as messages, posts};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::native;
 
-use super::Owners;
+use super::FileOwners;
 use super::deliver::{ProgramOutcome, cannot_write};
 use super::store::{CachedJob, CachedProgram};
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
-use crate::session::{CheckedTarget, Emitted, OutputKind, Session, stem_fault};
+use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 
 /// A path without errors, or several that are joined into one program, with the files to generate.
 #[derive(Debug, PartialEq)]
@@ -57,7 +57,7 @@ impl Job {
     pub(super) fn claim(
         &self,
         session: &Session<'_>,
-        owners: &mut Owners,
+        owners: &mut FileOwners,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> bool {
         let names = || self.files.iter().map(|(_, path)| path.as_str().to_lowercase());
@@ -138,7 +138,7 @@ impl JobBuilder<'_> {
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
 
-    fn single_job(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<Job, Box<Diagnostic>> {
+    fn single_job(&self, checked: &CheckedTarget, emitted: &ProgramFacts) -> Result<Job, Box<Diagnostic>> {
         let db = self.session.db();
         let file = checked.target.file(db);
         let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
@@ -153,7 +153,7 @@ impl JobBuilder<'_> {
     }
 
     /// Refuses probes with a post-processor: its output cannot contain formulas, so they would be measured for nothing.
-    fn refuse_probes(&self, checked: &CheckedTarget, emitted: &Emitted) -> Result<(), Box<Diagnostic>> {
+    fn refuse_probes(&self, checked: &CheckedTarget, emitted: &ProgramFacts) -> Result<(), Box<Diagnostic>> {
         if self.post_processor.is_none() || !emitted.has_probes {
             return Ok(());
         }

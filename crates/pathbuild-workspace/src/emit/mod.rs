@@ -198,7 +198,7 @@ fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
 }
 
 /// The target that each file was written for. File names are in lower case.
-pub type Owners = HashMap<String, Target>;
+pub type FileOwners = HashMap<String, Target>;
 
 /// Writes the programs of these targets in a long-lived session and returns what is wrong with the programs themselves; drawing errors are
 /// reported by `check`.
@@ -209,7 +209,7 @@ pub fn write(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
     targets: &[Target],
-    owners: &mut Owners,
+    owners: &mut FileOwners,
 ) -> Result<Emission, String> {
     session.with_stable_files(|session| {
         let context = session.workspace();

@@ -9,7 +9,7 @@ use pathbuild_path::PathName;
 
 use super::Session;
 use super::argument_matches::SearchedDirectory;
-use crate::config::{Origin, Sourced};
+use crate::config::{Origin, SourcedValue};
 
 impl Session<'_> {
     /// PB003 for each missing directory of the keys `library` and `search`.
@@ -22,7 +22,7 @@ impl Session<'_> {
     fn missing<'a>(
         &'a self,
         key: &'static str,
-        directories: &'a Sourced<Vec<Utf8PathBuf>>,
+        directories: &'a SourcedValue<Vec<Utf8PathBuf>>,
         expected: &'a [FileKind],
     ) -> impl Iterator<Item = Diagnostic> + 'a {
         let is_missing =

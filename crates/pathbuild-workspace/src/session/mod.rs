@@ -52,7 +52,7 @@ pub use result_store::{
 pub(crate) use scene::program_scene;
 pub use scene::{SceneReport, ShownText};
 pub use settings::{limits, reading};
-pub use work::{CheckedTarget, Checker, Emitted};
+pub use work::{CheckedTarget, Checker, ProgramFacts};
 
 /// A database with the settings of a run.
 #[derive(Debug)]

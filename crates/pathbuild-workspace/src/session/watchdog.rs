@@ -8,17 +8,17 @@ use pathbuild_db::{Database, WorkInProgress};
 
 /// Background thread that cancels work exceeding its time limit; stops when dropped, and is never joined.
 #[derive(Debug)]
-pub(super) struct Watchdog(Arc<Shared>);
+pub(super) struct Watchdog(Arc<SharedState>);
 
 #[derive(Debug)]
-struct Shared {
+struct SharedState {
     limit: Duration,
-    state: Mutex<State>,
+    state: Mutex<WorkList>,
     changed: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct WorkList {
     underway: Vec<Option<WorkInProgress>>,
     is_over: bool,
 }
@@ -33,7 +33,7 @@ pub(super) struct WatchGuard<'a> {
 impl Watchdog {
     /// Starts the thread. If the system has no thread left, work is not limited in time.
     pub(super) fn start(limit: Duration) -> Self {
-        let shared = Arc::new(Shared { limit, state: Mutex::default(), changed: Condvar::new() });
+        let shared = Arc::new(SharedState { limit, state: Mutex::default(), changed: Condvar::new() });
         let watching = Arc::clone(&shared);
         _ = thread::Builder::new().name("watchdog".into()).spawn(move || watching.watch());
         Self(shared)
@@ -66,7 +66,7 @@ impl Drop for WatchGuard<'_> {
     }
 }
 
-impl Shared {
+impl SharedState {
     fn watch(&self) {
         // Poll rarely enough to be free, but often enough to enforce one-second limits.
         let pause = (self.limit / 4).clamp(Duration::from_millis(10), Duration::from_millis(500));
@@ -80,7 +80,7 @@ impl Shared {
         }
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, WorkList> {
         // Nothing panics while the lock is held, so the list is consistent even if the lock is poisoned.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -28,14 +28,14 @@ pub struct CheckedTarget {
     /// Options that it needs but that are not set.
     pub missing_options: Vec<MissingOption>,
     /// Facts about its program; `None` if there are errors.
-    pub emitted: Option<Emitted>,
+    pub emitted: Option<ProgramFacts>,
     /// All inputs of the check, if the session traces them.
     pub trace: Option<Trace>,
 }
 
 /// Facts about a program that are known before it is built.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Emitted {
+pub struct ProgramFacts {
     /// Name of the path, as the drawing spells it.
     pub path: Box<str>,
     /// Value of R, appended to the names of its files.
@@ -294,13 +294,13 @@ fn check(db: &Database, target: Target, is_traced: bool) -> CheckedTarget {
     }
 }
 
-fn emitted(db: &Database, reached: &Closure<'_>, found: &[Diagnostic]) -> Option<Emitted> {
+fn emitted(db: &Database, reached: &Closure<'_>, found: &[Diagnostic]) -> Option<ProgramFacts> {
     if found.iter().any(Diagnostic::is_error) {
         return None;
     }
     let root = signature(db, reached.root?)?;
     let mut signatures = reached.reached.iter().filter_map(|reached| signature(db, reached.instance));
-    Some(Emitted {
+    Some(ProgramFacts {
         path: root.name.as_str().into(),
         suffix: root.output_suffix.as_str().into(),
         has_probes: signatures.any(|signature| signature.has_probes),

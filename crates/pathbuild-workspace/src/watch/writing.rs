@@ -7,7 +7,7 @@ use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 
 use super::{Listener, Request};
-use crate::emit::{self, Owners, TargetPatterns};
+use crate::emit::{self, FileOwners, TargetPatterns};
 use crate::posting::{PostArguments, PostProcessor};
 use crate::session::{Session, is_transient};
 use crate::workspace::Workspace;
@@ -18,7 +18,7 @@ pub(super) struct Writer<'a> {
     listener: &'a dyn Listener,
     is_on: bool,
     post_processor: Option<PostProcessor>,
-    owners: Owners,
+    owners: FileOwners,
     /// Diagnostics of writing the programs of each drawing, if there are any.
     found: BTreeMap<Utf8PathBuf, Vec<Diagnostic>>,
 }
@@ -45,7 +45,7 @@ impl<'a> Writer<'a> {
         let is_needed = request.emits || request.lists;
         let post_processor =
             if is_needed { PostProcessor::for_run(workspace, None, PostArguments::default())? } else { None };
-        let (owners, found) = (Owners::default(), BTreeMap::new());
+        let (owners, found) = (FileOwners::default(), BTreeMap::new());
         Ok(Self { workspace, listener, is_on: request.emits, post_processor, owners, found })
     }
 
@@ -125,7 +125,7 @@ impl<'a> Writer<'a> {
         match emit::write(session, self.post_processor.as_ref(), &targets, &mut self.owners) {
             Ok(emission) => {
                 self.listener.programs_written(&emission.delivered);
-                self.keep(session, &emission.diagnostics);
+                self.record(session, &emission.diagnostics);
                 WriteOutcome { before, now: emission.diagnostics }
             }
             Err(refusal) => {
@@ -135,7 +135,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn keep(&mut self, session: &Session<'_>, found: &[Diagnostic]) {
+    fn record(&mut self, session: &Session<'_>, found: &[Diagnostic]) {
         for problem in found {
             if let Some(drawing) = self.drawing_of(session, problem) {
                 self.found.entry(drawing).or_default().push(problem.clone());

@@ -13,7 +13,7 @@ use pathbuild_testkit::{Workshop, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Emission, Task};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::{CacheHome, Inputs, Silent, Workspace, check};
+use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
 
 /// A library of which programs are written.
@@ -157,7 +157,7 @@ impl OnDisk {
             working_directory: Utf8PathBuf::new(),
             jobs: None,
             cache: is_kept.then_some(CacheHome::Named(caches)),
-            reporter: Rc::new(Silent),
+            reporter: Rc::new(SilentReporter),
         }
     }
 }

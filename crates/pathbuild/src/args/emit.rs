@@ -33,7 +33,7 @@ pub struct EmitArgs {
     #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true)]
     #[arg(conflicts_with_all = ["check", "deps", "remove_stale"])]
     pub output: Option<String>,
-    /// Remove programs that pathbuild wrote earlier and would not write any more
+    /// Remove programs that pathbuild wrote earlier and would no longer write
     #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
     /// G-code dialect for checking the post's output, if the post names none

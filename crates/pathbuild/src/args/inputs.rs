@@ -12,7 +12,7 @@ use crate::completion;
 pub struct InputArgs(Inputs);
 
 #[derive(Args)]
-struct Declared {
+struct InputArguments {
     /// Drawings (.dxf), names of paths or patterns of them (8*.1P), directories
     #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completion::paths())]
     inputs: Vec<String>,
@@ -28,17 +28,17 @@ impl Deref for InputArgs {
 
 impl Args for InputArgs {
     fn augment_args(command: Command) -> Command {
-        Declared::augment_args(command)
+        InputArguments::augment_args(command)
     }
 
     fn augment_args_for_update(command: Command) -> Command {
-        Declared::augment_args_for_update(command)
+        InputArguments::augment_args_for_update(command)
     }
 }
 
 impl FromArgMatches for InputArgs {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-        Declared::from_arg_matches(matches).map(|Declared { inputs }| Self(Inputs { inputs }))
+        InputArguments::from_arg_matches(matches).map(|InputArguments { inputs }| Self(Inputs { inputs }))
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {

@@ -96,7 +96,10 @@ fn describe(context: &Context, reason: &Reason) -> String {
         Reason::File { path, is_gone: true } => format!("{path} {}", context.choose("is gone", "ist weg")),
         Reason::Name { file, path, is_gone } => {
             let state = match is_gone {
-                true => context.choose("is gone and may have contained", "ist weg und kann diesen Pfad enthalten haben:"),
+                true => context.choose(
+                    "is gone and may have contained",
+                    "ist weg und kann diesen Pfad enthalten haben:",
+                ),
                 false => context.choose("is new and may contain", "ist neu und kann diesen Pfad enthalten:"),
             };
             format!("{file} {state} {path}")

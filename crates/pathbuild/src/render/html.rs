@@ -5,11 +5,11 @@ use std::fmt::Write;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_view::escaped;
 
-use super::{Rendered, View, place};
+use super::{RenderedText, View, place};
 use crate::report::Findings;
 
 /// Renders the page. `pictures` has one entry per finding.
-pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> Rendered {
+pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> RenderedText {
     let title = view.choose("Findings", "Meldungen");
     let mut text = format!("<!doctype html>\n<html lang=\"{}\">\n{HEAD}", view.choose("en", "de"));
     _ = writeln!(text, "<title>pathbuild: {title}</title>\n{STYLE}\n<h1>{title}</h1>");
@@ -30,7 +30,7 @@ pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View
     if file.is_some() {
         text.push_str("</section>\n");
     }
-    Rendered(text + "</html>\n")
+    RenderedText(text + "</html>\n")
 }
 
 fn summary(findings: &Findings, view: &View) -> String {

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Severity, TextFault, TraceSte
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{Rendered, View};
+use super::{RenderedText, View};
 use crate::report::Findings;
 
 #[derive(Serialize)]
@@ -58,8 +58,8 @@ pub(crate) fn typed(kind: &str, object: &Value) -> String {
 }
 
 /// Makes JSON lines printable.
-pub(crate) fn rendered(lines: &str) -> Rendered {
-    Rendered(shown::json(lines).into_owned())
+pub(crate) fn rendered(lines: &str) -> RenderedText {
+    RenderedText(shown::json(lines).into_owned())
 }
 
 /// Version of docs/schemas/output.json.

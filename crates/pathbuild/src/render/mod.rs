@@ -22,9 +22,9 @@ pub use view::View;
 /// Rendered findings. Only [`render`] creates them; they contain no control sequences except our own colours, so that they are safe to
 /// print.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rendered(String);
+pub struct RenderedText(String);
 
-impl Rendered {
+impl RenderedText {
     /// The text.
     pub fn as_str(&self) -> &str {
         &self.0
@@ -33,7 +33,7 @@ impl Rendered {
 
 /// Renders findings in a format. Graph formats show no diagnostics, and an HTML page needs pictures (see `page`): both fall back to
 /// [`Format::Full`].
-pub fn render(format: Format, findings: &Findings, view: &View) -> Rendered {
+pub fn render(format: Format, findings: &Findings, view: &View) -> RenderedText {
     let text = match format {
         Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
         Format::Json => shown::json(&json::render(findings, view)).into_owned(),
@@ -49,5 +49,5 @@ pub fn render(format: Format, findings: &Findings, view: &View) -> Rendered {
             shown::lines(&full::render(findings, view)).into_owned()
         }
     };
-    Rendered(text)
+    RenderedText(text)
 }

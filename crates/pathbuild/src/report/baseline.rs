@@ -21,7 +21,7 @@ pub struct Baseline {
 }
 
 /// Findings compared with a baseline.
-pub(super) struct Compared {
+pub(super) struct BaselineComparison {
     /// Findings that are not in the baseline.
     pub(super) new: Findings,
     /// Number of findings that are in the baseline.
@@ -57,7 +57,7 @@ impl Baseline {
         shown::lines(&text).into_owned()
     }
 
-    pub(super) fn compare(&self, findings: Findings) -> Compared {
+    pub(super) fn compare(&self, findings: Findings) -> BaselineComparison {
         let fingerprints = Fingerprint::of(&findings.diagnostics);
         let found = findings.diagnostics.len();
         let is_new =
@@ -70,7 +70,7 @@ impl Baseline {
             .map(|(diagnostic, _)| diagnostic)
             .collect();
         let known = found - new.len();
-        Compared {
+        BaselineComparison {
             known,
             gone: self.fingerprints.len() - known,
             new: Findings { diagnostics: new, checked: findings.checked },

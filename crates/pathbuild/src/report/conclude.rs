@@ -5,7 +5,7 @@ use std::time::Duration;
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
 
-use super::baseline::Compared;
+use super::baseline::BaselineComparison;
 use super::{Baseline, Findings, summary, write_pictures};
 use crate::args::CheckArgs;
 use crate::context::Context;
@@ -34,13 +34,13 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: CheckOutcome, time
         },
         None => {
             // Leak instead of dropping: freeing a million values takes longer than process exit.
-            let compared = ManuallyDrop::new(Compared { new: findings, known: 0, gone: 0 });
+            let compared = ManuallyDrop::new(BaselineComparison { new: findings, known: 0, gone: 0 });
             deliver(context, args, &compared, time)
         }
     }
 }
 
-fn deliver(context: &Context, args: &CheckArgs, compared: &Compared, time: Duration) -> ExitStatus {
+fn deliver(context: &Context, args: &CheckArgs, compared: &BaselineComparison, time: Duration) -> ExitStatus {
     let findings = &compared.new;
     let pictures = args.pictures.as_ref();
     let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();

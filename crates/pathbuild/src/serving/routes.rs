@@ -132,7 +132,7 @@ fn file(kind: &'static str, text: &'static str) -> impl IntoResponse {
 }
 
 #[derive(Deserialize)]
-struct News {
+struct ChangesQuery {
     /// Number of the last change that the page knows.
     #[serde(default)]
     since: u64,
@@ -140,7 +140,10 @@ struct News {
     most: Option<usize>,
 }
 
-async fn library(State(routes): State<Arc<Routes>>, Query(News { since, most }): Query<News>) -> Response {
+async fn library(
+    State(routes): State<Arc<Routes>>,
+    Query(ChangesQuery { since, most }): Query<ChangesQuery>,
+) -> Response {
     ([(CONTENT_TYPE, JSON)], shown::json(&routes.hub.library(since, most.unwrap_or(usize::MAX))).into_owned())
         .into_response()
 }

@@ -17,7 +17,7 @@ use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
 use crate::config::kinds::pattern::{OPTIONAL_REGEX, REGEX, RESTRICTIONS};
 use crate::config::kinds::table::POST;
 use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, choice};
-use crate::config::origin::Sourced;
+use crate::config::origin::SourcedValue;
 use crate::config::reader::Table;
 use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;

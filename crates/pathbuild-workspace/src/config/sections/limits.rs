@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::config::kind::Key;
 use crate::config::kinds::number::{COUNT, SECONDS, SIZE};
-use crate::config::origin::Sourced;
+use crate::config::origin::SourcedValue;
 use crate::config::reader::Table;
 use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use crate::config::kind::Key;
 use crate::config::kinds::number::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE};
 use crate::config::kinds::text::choice;
-use crate::config::origin::Sourced;
+use crate::config::origin::SourcedValue;
 use crate::config::reader::Table;
 use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;

@@ -12,13 +12,13 @@ macro_rules! section {
         /// The values that a source sets.
         #[derive(Clone, Debug, Default)]
         pub struct Options {
-            $($(#[doc = $meaning])+ pub $field: Option<Sourced<$type>>,)*
+            $($(#[doc = $meaning])+ pub $field: Option<SourcedValue<$type>>,)*
         }
 
         /// The values after applying defaults.
         #[derive(Clone, Debug)]
         pub struct Settings {
-            $($(#[doc = $meaning])+ pub $field: Sourced<$type>,)*
+            $($(#[doc = $meaning])+ pub $field: SourcedValue<$type>,)*
         }
 
         impl Options {
@@ -31,7 +31,7 @@ macro_rules! section {
             }
 
             pub(in crate::config) fn resolve(self) -> Settings {
-                Settings { $($field: self.$field.unwrap_or_else(|| Sourced::default($default)),)* }
+                Settings { $($field: self.$field.unwrap_or_else(|| SourcedValue::default($default)),)* }
             }
         }
 

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::Code;
 
 use crate::config::kind::Key;
 use crate::config::kinds::table::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
-use crate::config::origin::Sourced;
+use crate::config::origin::SourcedValue;
 use crate::config::reader::Table;
 use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;

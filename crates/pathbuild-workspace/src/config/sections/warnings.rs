@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use crate::config::kind::Key;
 use crate::config::kinds::number::NOT_NEGATIVE;
-use crate::config::origin::Sourced;
+use crate::config::origin::SourcedValue;
 use crate::config::reader::Table;
 use crate::config::result_kind::ResultKind;
 use crate::config::show::ShownSetting;

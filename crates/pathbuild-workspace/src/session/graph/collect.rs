@@ -36,10 +36,10 @@ impl Session<'_> {
             builder.add_root(part);
         }
         for part in &parts {
-            builder.add(part, Reach::Whole);
+            builder.add(part, Completeness::Whole);
         }
         for part in &parts {
-            builder.add(part, Reach::Cut);
+            builder.add(part, Completeness::Cut);
         }
         builder.graph
     }
@@ -67,7 +67,7 @@ impl TargetGraph {
 
 /// Whether all embeddings of a path are known.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Reach {
+enum Completeness {
     /// All are known.
     Whole,
     /// Some are too deep below the target or beyond a limit. Another target may have shown them all.
@@ -139,10 +139,10 @@ impl GraphBuilder {
     }
 
     /// Adds the embeddings of those nodes of a part that have the given reach.
-    fn add(&mut self, part: &TargetGraph, reach: Reach) {
+    fn add(&mut self, part: &TargetGraph, completeness: Completeness) {
         let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
         let cut = part.cut();
-        let is_asked = |from: &usize| cut.contains(from) == (reach == Reach::Cut);
+        let is_asked = |from: &usize| cut.contains(from) == (completeness == Completeness::Cut);
         let mut added: HashMap<(usize, End), usize> = HashMap::new();
         for (from, to) in part.embeddings.iter().filter(|(from, _)| is_asked(from)) {
             let from = numbers[*from];

@@ -51,7 +51,7 @@ pub struct ResultStore {
 /// Identifies which cached results a run needs.
 #[derive(Debug)]
 pub struct CacheQuery<'a> {
-    /// Which command's results (`check` or `emit`).
+    /// Command that produced the results: `check` or `emit`.
     pub result_kind: ResultKind,
     /// What the results depend on besides settings and files.
     pub text: &'a str,
@@ -125,7 +125,8 @@ impl ResultStore {
         let confined = context.settings.confined.as_ref();
         let is_untrusted = confined.is_some_and(|confined| confined.may_hold(place.directory()));
         if let Some(reason) = is_untrusted.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
-            let phrase = context.choose("no results are cached there", "dort werden keine Ergebnisse gespeichert");
+            let phrase =
+                context.choose("no results are cached there", "dort werden keine Ergebnisse gespeichert");
             let reason = context.choose(reason.en, reason.de);
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
             return None;
@@ -270,8 +271,10 @@ const OLD: &str = ".pathbuild";
 
 fn report_fault(context: &Workspace, reason: CacheFault) {
     let phrase = match reason {
-        CacheFault::Damaged => context
-            .choose("the cache is damaged and will be rebuilt", "der Cache ist beschädigt und wird neu angelegt"),
+        CacheFault::Damaged => context.choose(
+            "the cache is damaged and will be rebuilt",
+            "der Cache ist beschädigt und wird neu angelegt",
+        ),
         CacheFault::Foreign => context.choose(
             "the cache was written by another build of pathbuild and will be rebuilt",
             "der Cache stammt von einer anderen Fassung von pathbuild und wird neu angelegt",

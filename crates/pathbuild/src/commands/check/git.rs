@@ -1,10 +1,10 @@
-//! `check --changed-since REV`: changes since a Git revision.
+//! `check --changed-revision_files REV`: changes since a Git revision.
 
 use std::collections::BTreeMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join, spelt};
-use pathbuild_workspace::check::Past;
+use pathbuild_workspace::check::EarlierFiles;
 use pathbuild_workspace::config::{FILE_NAME, clean};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Input, Inputs, files};
@@ -14,7 +14,7 @@ use crate::context::Context;
 
 /// The file names and blob ids of a revision. File names are relative to the root.
 #[derive(Debug)]
-pub(super) struct Since<'a> {
+pub(super) struct RevisionFiles<'a> {
     context: &'a Context,
     repository: Repository<'a>,
     files: BTreeMap<Utf8PathBuf, String>,
@@ -26,7 +26,7 @@ pub(super) struct Since<'a> {
 /// Upper bound on symbolic links that are followed in a row, as in operating systems.
 const MOST_LINKS: usize = 40;
 
-impl<'a> Since<'a> {
+impl<'a> RevisionFiles<'a> {
     /// Reads a revision from the repository of the inputs.
     ///
     /// # Errors
@@ -41,11 +41,11 @@ impl<'a> Since<'a> {
             Err(reason) => return Err(repository.too_shallow(revision).unwrap_or(reason)),
         };
         let (files, links, drawings) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-        let mut since = Self { context, repository, files, links, drawings };
+        let mut revision_files = Self { context, repository, files, links, drawings };
         for entry in entries.into_iter().filter(git::Entry::is_plain) {
-            since.add(entry.kind, entry.name.into(), entry.id);
+            revision_files.add(entry.kind, entry.name.into(), entry.id);
         }
-        Ok(since)
+        Ok(revision_files)
     }
 
     fn add(&mut self, kind: EntryKind, file: Utf8PathBuf, id: String) {
@@ -138,7 +138,7 @@ impl<'a> Since<'a> {
     }
 }
 
-impl Past for Since<'_> {
+impl EarlierFiles for RevisionFiles<'_> {
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
         let known: Vec<_> = files.iter().map(|file| self.known(file)).collect();
         let comparable: Vec<&Utf8Path> = known.iter().flatten().map(|(real, _)| &**real).collect();
@@ -168,9 +168,9 @@ fn place(context: &Context, inputs: &Inputs) -> Utf8PathBuf {
         return confined.root().to_owned();
     }
     let is_directory = |name: &str| context.system.kind(Utf8Path::new(name)) == FileKind::Directory;
-    let named = inputs.iter().find_map(|input| match input {
+    let argument_directory = inputs.iter().find_map(|input| match input {
         Input::Place(place) => Some(place),
         Input::Name(name) => is_directory(name).then_some(Utf8Path::new(name)),
     });
-    named.or(context.settings.directory()).unwrap_or(Utf8Path::new("")).to_owned()
+    argument_directory.or(context.settings.directory()).unwrap_or(Utf8Path::new("")).to_owned()
 }

@@ -4,14 +4,14 @@ mod git;
 
 use std::time::Instant;
 
-use pathbuild_workspace::check::{InputsNotDirectories, Past, Request};
+use pathbuild_workspace::check::{EarlierFiles, InputsNotDirectories, Request};
 
 use crate::args::CheckArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::report::conclude;
 
-use git::Since;
+use git::RevisionFiles;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
@@ -19,12 +19,12 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !context.has_library() {
         return context.refuse_empty_input();
     }
-    let since = |revision: &String| Since::new(context, &args.inputs, revision);
-    let since = match args.changed_since.as_ref().map(since).transpose() {
-        Ok(since) => since,
+    let revision_files = |revision: &String| RevisionFiles::new(context, &args.inputs, revision);
+    let revision_files = match args.changed_since.as_ref().map(revision_files).transpose() {
+        Ok(revision_files) => revision_files,
         Err(reason) => return context.usage(&reason),
     };
-    let changed = since.as_ref().map(|since| since as &dyn Past);
+    let changed = revision_files.as_ref().map(|revision_files| revision_files as &dyn EarlierFiles);
     let request = Request { inputs: &args.inputs, with_all_values: args.all_bindings, changed };
     let mut session = request.session(context);
     if args.timings {

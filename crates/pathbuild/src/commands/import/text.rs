@@ -163,7 +163,11 @@ impl Formatter<'_> {
             waits.push(format!("{} s {}", self.tenths(summary.dwell), self.choose("dwelling", "Verweilen")));
         }
         if summary.stops > 0 {
-            waits.push(format!("{} {}", summary.stops, self.choose("stops for the operator", "Halte für den Bediener")));
+            waits.push(format!(
+                "{} {}",
+                summary.stops,
+                self.choose("stops for the operator", "Halte für den Bediener")
+            ));
         }
         if summary.tool_changes > 0 {
             waits.push(format!(

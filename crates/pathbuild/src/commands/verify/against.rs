@@ -25,7 +25,7 @@ use pathbuild_workspace::posting::tool_table;
 use pathbuild_workspace::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
 
 /// The program of a path, as its drawing defines it.
-pub(super) struct Against {
+pub(super) struct ReferenceProgram {
     drawn: Arc<Drawn>,
     /// The drawing.
     file: Utf8PathBuf,
@@ -41,7 +41,7 @@ pub(super) enum Failure {
     Found(Vec<Diagnostic>),
 }
 
-impl Against {
+impl ReferenceProgram {
     pub(super) fn new(context: &Context, session: &Session<'_>, name: &str) -> Result<Self, Failure> {
         let target = target(session, name)?;
         let checked = session.check(&[target]);

@@ -23,7 +23,7 @@ use pathbuild_workspace::posting::{PostArguments, PostProcessor, known_words};
 use pathbuild_workspace::session::Session;
 
 use super::program::Program;
-use against::Against;
+use against::ReferenceProgram;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
@@ -43,7 +43,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     context.output.figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
     let mut session = Session::new(context);
     let mut diagnostics = Vec::new();
-    let drawn = |name| session.with_stable_files(|session| Against::new(context, session, name));
+    let drawn = |name| session.with_stable_files(|session| ReferenceProgram::new(context, session, name));
     let against = match args.against.as_deref().map(drawn).transpose() {
         Ok(against) => against,
         Err(against::Failure::Usage(reason)) => return context.usage(&reason),
@@ -83,7 +83,7 @@ fn check(
     file: &Utf8Path,
     args: &VerifyArgs,
     stock_options: &StockOptions,
-    against: Option<&Against>,
+    against: Option<&ReferenceProgram>,
     wrote: Option<&PostProcessor>,
 ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
     let mut reading = args.reading.clone();

@@ -8,7 +8,7 @@ use pathbuild_gcode::verify::{Stock, StockSpan};
 use pathbuild_motion::{Action, Step};
 
 use super::StockOptions;
-use super::against::Against;
+use super::against::ReferenceProgram;
 use crate::commands::program::Program;
 use crate::context::Context;
 use pathbuild_workspace::posting::tool_table;
@@ -76,12 +76,12 @@ pub(super) fn stock(
     program: &Program,
     tools: &Tools,
     stock_options: &StockOptions,
-    against: Option<&Against>,
+    against: Option<&ReferenceProgram>,
 ) -> Option<Stock> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
     let of_header = header.as_ref().and_then(|header| header.cutter);
     let is_native = program.dialect == Dialect::Native;
-    let cutters = match stock_options.cutter.or(against.and_then(Against::cutter)) {
+    let cutters = match stock_options.cutter.or(against.and_then(ReferenceProgram::cutter)) {
         Some(cutter) => vec![(0, cutter)],
         None if is_native => vec![(0, of_header?)],
         None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
@@ -90,7 +90,7 @@ pub(super) fn stock(
         let pieces = cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
         Stock::of_pieces(pieces.collect())
     };
-    if let Some(surface) = stock_options.surface.or(against.and_then(Against::surface)) {
+    if let Some(surface) = stock_options.surface.or(against.and_then(ReferenceProgram::surface)) {
         return Some(uniform(surface));
     }
     let native = is_native.then(|| Stock::of_native_text(&program.drawn(), cutters.first()?.1)).flatten();
@@ -103,11 +103,11 @@ pub(super) fn disagreements(
     program: &Program,
     tools: &Tools,
     stock_options: &StockOptions,
-    against: Option<&Against>,
+    against: Option<&ReferenceProgram>,
 ) -> Vec<Diagnostic> {
     let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
     let of_header = header.as_ref().and_then(|header| header.cutter);
-    let drawn = against.and_then(Against::cutter);
+    let drawn = against.and_then(ReferenceProgram::cutter);
     let mut found = Vec::new();
     if let Some((header, given)) = different(of_header, stock_options.cutter) {
         found.push(Diagnostic::new(&say::OTHER_CUTTER_GIVEN).with("header", header).with("given", given));
@@ -123,7 +123,7 @@ pub(super) fn disagreements(
     let of_program = compared(&say::OTHER_CUTTER_DRAWN, &HEADER, different(of_header, drawn));
     found.extend(of_program.map(|problem| Diagnostic { severity: Severity::Error, ..problem }));
     found.extend(compared(&say::OTHER_CUTTER_DRAWN, &CUTTER, different(stock_options.cutter, drawn)));
-    let surface = against.and_then(Against::surface);
+    let surface = against.and_then(ReferenceProgram::surface);
     let of_header_surface = header.and_then(|header| header.thickness);
     found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(of_header_surface, surface)));
     found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(stock_options.surface, surface)));
