@@ -161,7 +161,6 @@ fn places_far_out_do_no_harm() {
     assert!(Surface::new(ZModel::Tin, &[]).weights(Xy::origin()).is_empty());
 }
 
-
 fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> Step {
     let (to, from) = (Xy::new(to.0, to.1), Xy::new(from.0, from.1));
     let count = Count { class: Class::Milling, length: (to - from).norm(), feed: Some(200.0) };
