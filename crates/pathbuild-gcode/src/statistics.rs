@@ -3,15 +3,13 @@
 use pathbuild_motion::{Action, Axes, Move, Pace, Path, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
-use crate::interpret::each_move_of;
-
 /// The statistics of a program with a rapid feed in mm/min, calculated from its moves. A compatible program has those of the original tool.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     if program.compatible {
         return Statistics::of_reference(program, rapid);
     }
     let mut tally = Tally::default();
-    for (_, it) in each_move_of(program) {
+    for (_, it) in program.moves() {
         tally.add(&it, true);
     }
     Statistics {

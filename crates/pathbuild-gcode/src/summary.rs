@@ -7,7 +7,6 @@ use pathbuild_motion::{Action, Move, Pace, Spindle, Step, Turning};
 
 use pathbuild_toolpath::Program;
 
-use crate::interpret::each_move_of;
 use crate::statistics::{Counting, Tally};
 
 /// A program in numbers.
@@ -151,7 +150,7 @@ fn widen(extent: &mut Extent, it: &Move) {
 /// Least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
 pub fn cutting_box(program: &Program) -> Extent {
     let mut extent = Extent::default();
-    for (_, it) in each_move_of(program).filter(|(_, it)| matches!(it.pace, Pace::Feed(_))) {
+    for (_, it) in program.moves().filter(|(_, it)| matches!(it.pace, Pace::Feed(_))) {
         widen(&mut extent, &it);
     }
     extent

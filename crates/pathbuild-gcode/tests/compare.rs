@@ -5,7 +5,7 @@ mod common;
 use common::fault_text;
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
-use pathbuild_gcode::interpret::{Options, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Ends, Tolerance, compare};
 use pathbuild_motion::Move;
 use pathbuild_toolpath::{Class, Comment, Count, Height, Move as Emitted, Names, Program, Step, Xy};
@@ -255,12 +255,15 @@ const NATIVE: &str = "%\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z20.000\nG00 X
 fn a_program_is_the_same_as_its_own_text() {
     let read = interpret(NATIVE.as_bytes(), Native, &Options::default());
     assert_eq!(read.problems.len(), 0);
-    assert_eq!(compare(&read.moves(), &moves_of(&program()), &Tolerance::of_decimals(3)), None);
+    assert_eq!(
+        compare(&read.moves(), &program().moves().collect::<Vec<_>>(), &Tolerance::of_decimals(3)),
+        None
+    );
 }
 
 #[test]
 fn every_number_of_a_programs_text_counts() {
-    let expected = moves_of(&program());
+    let expected: Vec<_> = program().moves().collect();
     let lines: Vec<&str> = NATIVE.lines().collect();
     // Lines 7 to 14 belong to the program itself. Each digit of each coordinate and feed, except the last, is changed in turn.
     for (index, line) in lines.iter().enumerate().take(14).skip(6) {

@@ -6,7 +6,7 @@ use common::spelled_out;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
 use pathbuild_gcode::dialect::is_active_comment;
-use pathbuild_gcode::interpret::{Options, guess, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, guess, interpret};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
 use pathbuild_motion::Path;
@@ -116,7 +116,7 @@ proptest! {
         let text = text_of(&program);
         let read = interpret(text.as_bytes(), Native, &Options::default());
         prop_assert!(!read.problems.iter().any(Diagnostic::is_error), "{}", spelled_out(&read.problems));
-        let difference = compare(&read.moves(), &moves_of(&program), &Tolerance::of_decimals(3));
+        let difference = compare(&read.moves(), &program.moves().collect::<Vec<_>>(), &Tolerance::of_decimals(3));
         prop_assert_eq!(difference, None, "{}", text);
     }
 }
@@ -251,7 +251,7 @@ fn an_arc_just_short_of_a_whole_turn_stays_one() {
         if gap > 0.003 {
             assert!(sweep < TAU - 1e-6, "a full circle: {text}");
         }
-        let said = moves_of(&program).into_iter().find_map(|(_, it)| match it.path {
+        let said = program.moves().find_map(|(_, it)| match it.path {
             Path::Arc(_) => Some(it.to),
             Path::Line => None,
         });
@@ -286,7 +286,7 @@ fn half_a_tiny_circle_stays_half() {
                     && (it.to.x() - to.x).abs() < 1e-9
                     && (it.to.y() - to.y).abs() < 1e-9
             };
-            assert!(moves_of(&program).iter().any(|(_, it)| is_there(it)), "{radius} {angle}");
+            assert!(program.moves().any(|(_, it)| is_there(&it)), "{radius} {angle}");
         }
     }
 }
@@ -316,7 +316,7 @@ proptest! {
         let program = program(&sketches);
         let text = with_another_number(&text_of(&program), which, thousandths);
         let read = interpret(text.as_bytes(), Native, &Options::default());
-        let expected = moves_of(&program);
+        let expected: Vec<_> = program.moves().collect();
         // When read back, an arc that would be a full circle may be one digit longer.
         let differs = |place: f64| {
             let exactly = Tolerance::of_decimals(3);

@@ -1,12 +1,12 @@
 //! Converts finished programs to a job: embedded paths become operations, drilled holes become holes.
 
 use std::borrow::Borrow;
-use std::f64::consts::PI;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_motion::{Arc, Pace, Path, Plane};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Pace, Path};
 use pathbuild_path::approx::{at_least, near};
-use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep};
+use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep, ToolTip};
 
 use super::job::{Entry, Job, Operation, describe};
 use super::step::{Hole, HoleKind, Step};
@@ -54,16 +54,16 @@ struct Builder<'a> {
     /// The embedded paths that are open, outermost first.
     embedded: Vec<&'a str>,
     operations: Vec<Operation>,
-    at: [f64; 3],
+    tool: ToolTip,
     /// Upper face of the material at the elements since the last step.
     surface: Option<f64>,
 }
 
 impl<'a> Builder<'a> {
     fn new(program: &'a Program, fitted: Fitted, pecks: bool) -> Self {
-        let at = [0.0, 0.0, program.sweep_height];
+        let tool = ToolTip::new(program.sweep_height);
         let (embedded, operations) = (Vec::new(), Vec::new());
-        Self { program, fitted, pecks, embedded, operations, at, surface: None }
+        Self { program, fitted, pecks, embedded, operations, tool, surface: None }
     }
 
     fn run(mut self) -> Vec<Operation> {
@@ -77,7 +77,8 @@ impl<'a> Builder<'a> {
                 }
             };
         }
-        self.lift(self.program.sweep_height);
+        let last = self.tool.lift(self.program.sweep_height);
+        self.push(last);
         let thickness = self.program.thickness;
         self.operations.iter_mut().for_each(|operation| describe(operation, thickness));
         self.operations
@@ -110,7 +111,7 @@ impl<'a> Builder<'a> {
         let (remarks, steps) = comments(steps);
         let (retract, steps) = match steps.split_first()? {
             (ProgramStep::Move { to: Move::Lift { z }, .. }, rest) => (z.z, rest),
-            _ => (self.at[2], steps),
+            _ => (self.tool.at.z(), steps),
         };
         let (ProgramStep::Move { to: Move::Drill { feed, z: bottom }, .. }, rest) = steps.split_first()?
         else {
@@ -122,7 +123,7 @@ impl<'a> Builder<'a> {
             Some(ProgramStep::Move { to: Move::Lift { z }, .. }) => z.z,
             Some(_) => return None,
         };
-        let [x, y, level] = self.at;
+        let [x, y, level] = self.tool.at.at;
         let surface = self.surface.unwrap_or(self.program.thickness);
         if !(at_least(level, retract)
             && at_least(retract, surface)
@@ -142,57 +143,28 @@ impl<'a> Builder<'a> {
         let operation = self.operation();
         drop_way_between_holes(&mut operation.steps, &hole);
         operation.steps.push(Step::Hole(hole));
-        self.at[2] = exit;
+        self.tool.lift(exit);
         Some(rest)
     }
 
     /// Adds a move whose length is given in mm.
     fn go(&mut self, to: &Move, length: f64) {
-        let from = self.at;
-        let step = match *to {
-            Move::Sweep { to } => return self.rapid([to.x, to.y, from[2]]),
-            Move::Lift { z } => return self.lift(z.z),
-            Move::Drill { feed, z } => {
-                self.at[2] = z.z;
-                Step::feed(self.at, Some(feed))
-            }
-            Move::Line { feed, to, z } => {
-                self.at = [to.x, to.y, z.z];
-                Step::feed(self.at, Some(feed))
-            }
-            Move::Arc { feed, to, z, .. } if length < SHORTEST_ARC => {
-                self.at = [to.x, to.y, z.z];
-                Step::feed(self.at, Some(feed))
-            }
-            Move::Arc { feed, clockwise, centre, to, z, .. } => {
-                self.at = [to.x, to.y, z.z];
-                let centre = [from[0] + centre.x, from[1] + centre.y];
-                let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
-                let (from, to, path) = (from.into(), self.at.into(), Path::Arc(arc));
-                let it = whole(
-                    pathbuild_motion::Move { from, to, path, pace: Pace::Feed(feed), named: None },
-                    length,
-                );
-                self.at = it.to.at;
-                Step::Move(it)
-            }
-        };
-        self.operation_from(from).steps.push(step);
+        let mut it = self.tool.go(to, length);
+        if length < SHORTEST_ARC {
+            it.path = Path::Line;
+        }
+        self.push(it);
     }
 
-    fn lift(&mut self, z: f64) {
-        self.rapid([self.at[0], self.at[1], z]);
-    }
-
-    fn rapid(&mut self, to: [f64; 3]) {
-        let from = std::mem::replace(&mut self.at, to);
-        if from != to {
-            self.operation_from(from).steps.push(Step::rapid(to));
+    /// Adds a move; a rapid one only if it leads somewhere.
+    fn push(&mut self, it: motion::Move) {
+        if it.pace != Pace::Rapid || !it.is_nothing() {
+            self.operation_from(it.from.at).steps.push(Step::Move(it));
         }
     }
 
     fn operation(&mut self) -> &mut Operation {
-        self.operation_from(self.at)
+        self.operation_from(self.tool.at.at)
     }
 
     /// Returns the operation of the current embedded path, creating it if the last one belongs to another path.
@@ -222,14 +194,6 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Lets a full circle end exactly where it begins. Its end points may come from two drawn elements and differ minimally, so that the
-/// swept angle would be almost zero.
-fn whole(it: pathbuild_motion::Move, length: f64) -> pathbuild_motion::Move {
-    let is_whole = it.course().is_some_and(|course| length > (course.sweep() + PI) * course.radius());
-    let [x, y, _] = it.from.at;
-    if is_whole { pathbuild_motion::Move { to: [x, y, it.to.z()].into(), ..it } } else { it }
-}
-
 /// Splits the comments at the beginning off some steps.
 fn comments(steps: &[ProgramStep]) -> (Vec<&Comment>, &[ProgramStep]) {
     let comments: Vec<&Comment> = steps.iter().map_while(as_comment).collect();
@@ -246,9 +210,10 @@ fn as_comment(step: &ProgramStep) -> Option<&Comment> {
 
 /// Removes the way between two holes at the same level, which is part of drilling the second one.
 fn drop_way_between_holes(steps: &mut Vec<Step>, next: &Hole) {
-    if let [.., Step::Hole(before), way] = steps.as_slice() {
+    if let [.., Step::Hole(before), Step::Move(way)] = steps.as_slice() {
         let [x, y] = next.at;
-        if near(before.exit, next.level) && *way == Step::rapid([x, y, next.level]) {
+        let leads_there = way.pace == Pace::Rapid && way.to.at == [x, y, next.level];
+        if near(before.exit, next.level) && leads_there {
             steps.pop();
         }
     }

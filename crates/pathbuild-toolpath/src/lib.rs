@@ -10,24 +10,24 @@ mod cost;
 mod fold;
 mod helix;
 mod mill;
+mod moves;
 mod nearest;
 mod pieces;
 mod probes;
 mod program;
 mod statistics;
 mod trace;
-mod ways;
 mod z_model;
 
 pub use bars::support_bars;
 pub use correction::{Correction, Outside};
 pub use cost::{memory, own_moves};
 pub use fold::{Parts, fold, fold_traced};
+pub use moves::{LAST_DIGIT, ToolTip, is_doubtful, is_point, kind_of_move, way};
 pub use pathbuild_path::Xy;
 pub use program::{
     Class, Comment, Count, ElementKind, Height, LeftOut, Move, NameId, Names, ProbePoint, Program, Step,
 };
 pub use statistics::{Statistics, Total};
 pub use trace::{Drawn, Occurrence, Trace};
-pub use ways::Ways;
 pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

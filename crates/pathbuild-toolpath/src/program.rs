@@ -77,6 +77,15 @@ impl Program {
         surfaces.all(|surface| surface == self.thickness).then_some(self.thickness)
     }
 
+    /// The largest cutter diameter O in mm.
+    pub fn largest_cutter(&self) -> f64 {
+        let cutters = self.steps.iter().filter_map(|step| match step {
+            Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
+            _ => None,
+        });
+        cutters.fold(self.tool, f64::max)
+    }
+
     /// S0, which is slightly above S, so that the first sweep always writes its Z.
     pub fn start_height(&self) -> f64 {
         self.sweep_height * (1.0 + 0.000_002)

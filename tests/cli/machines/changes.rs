@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use pathbuild_diagnostic::messages::gcode::RETURN_IN_LINE;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Heights, Options, each_move_of, guess, interpret, interpret_each};
+use pathbuild_gcode::interpret::{Heights, Options, guess, interpret, interpret_each};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Against, Checks, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
 use pathbuild_motion::{Action, Change, Corners, Move, Pace, Position, Spindle, Step, Turning};
@@ -127,7 +127,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     let stock = Stock::uniform(program.thickness, program.tool);
     let mut rules = Rules::new(&Checks { stock: Some(&stock), machine: None });
     let drawn = Drawn {
-        moves: each_move_of(program),
+        moves: program.moves(),
         clearance: program.start_height(),
         tool: ToolUse {
             number: Some(1),

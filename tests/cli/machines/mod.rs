@@ -10,7 +10,7 @@ mod programs;
 use std::io::Write;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_gcode::interpret::{Options, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{Checks, Ends, Stock, Tolerance, compare, verify};
 use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, ToolTable, load};
 use pathbuild_toolpath::Program;
@@ -64,7 +64,7 @@ fn fault(post: &str, definition: &Post, it: &Named) -> Option<String> {
     if !errors.is_empty() {
         return at(texts(&errors));
     }
-    let difference = compare(&read.moves(), &moves_of(&it.program), &tolerance(post))?;
+    let difference = compare(&read.moves(), &it.program.moves().collect::<Vec<_>>(), &tolerance(post))?;
     at(difference.diagnostic().text(Lang::En))
 }
 

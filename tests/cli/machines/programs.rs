@@ -9,7 +9,6 @@ use clap::Parser;
 use pathbuild::args::Cli;
 use pathbuild_db::system::OsSystem;
 use pathbuild_db::{Role, program};
-use pathbuild_gcode::interpret::moves_of;
 use pathbuild_motion::Step;
 use pathbuild_toolpath::Program;
 use pathbuild_workspace::config::Settings;
@@ -100,5 +99,5 @@ fn absolute(case: &Utf8Path, input: String) -> String {
 
 /// The moves of a program as steps: what its native text does, with step numbers in place of lines.
 pub(crate) fn steps_of(program: &Program) -> Vec<Step> {
-    moves_of(program).into_iter().map(|(line, it)| Step::of_move(line, it)).collect()
+    program.moves().map(|(line, it)| Step::of_move(line, it)).collect()
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, TraceStep};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap, KeepOuts};
-use pathbuild_toolpath::{Drawn, Ways};
+use pathbuild_toolpath::{Drawn, kind_of_move, way};
 use rustc_hash::FxHashSet;
 
 use super::closures::closure;
@@ -128,9 +128,12 @@ impl<'t> Search<'t> {
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
         let mut entries: BTreeMap<Entry, Extent> = BTreeMap::new();
-        for (step, what, way) in Ways::of(program) {
+        for (number, it) in program.moves() {
+            // The last lift belongs to no step.
+            let (Some(step), Some(way)) = (trace.steps.get(number as usize - 1), way(&it)) else { continue };
+            let what = kind_of_move(&it);
             for clamp in map.entered(&way, radius, 0.0) {
-                let (occurrence, element) = self.common(trace.steps[step], self.clamps[clamp].occurrence);
+                let (occurrence, element) = self.common(*step, self.clamps[clamp].occurrence);
                 let entry = Entry { clamp, occurrence, element, what: what.en };
                 let extent = entries.entry(entry).or_insert(Extent { what, moves: 0, lowest: f64::INFINITY });
                 extent.moves += 1;

@@ -19,7 +19,6 @@ mod motion;
 mod offsets;
 mod options;
 mod places;
-mod program;
 mod state;
 mod switches;
 mod words;
@@ -33,7 +32,6 @@ use pathbuild_motion::{Move, Step};
 pub(crate) use codes::name as code_name;
 pub use guess::{Evidence, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
-pub use program::{each_move_of, moves_of};
 
 use crate::dialect::Dialect;
 use crate::read::BlockReader;

@@ -4,28 +4,12 @@
 //! the start, the arc is almost a full turn. So a minimal arc could become a circle through the workpiece, and a circle could become
 //! nothing.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use pathbuild_motion::turn;
-use pathbuild_toolpath::Xy;
+use pathbuild_toolpath::{LAST_DIGIT, Xy};
 
 use super::number::printed;
-
-/// Unit of the last printed digit, in mm.
-pub(super) const LAST_DIGIT: f64 = 0.001;
-
-/// Whether the radius of an arc is printed as zero. Controllers do not accept that, so the arc is written as a line.
-pub(crate) fn is_point(centre: Xy) -> bool {
-    rounded(centre) == Xy::origin()
-}
-
-/// Whether an arc of this length in mm is so short, or so close to a full turn, that three decimals may change it.
-pub(crate) fn is_doubtful(centre: Xy, length: f64) -> bool {
-    length < DOUBTFUL || length > TAU * centre.coords.norm() - DOUBTFUL
-}
-
-/// Several times the distance in mm by which rounding moves an end along the arc.
-const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
 
 /// An arc from the printed position of the tool.
 pub(super) struct Printed {

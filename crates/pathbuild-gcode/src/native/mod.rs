@@ -10,7 +10,6 @@ mod program;
 mod read_back;
 mod statistics;
 
-pub(crate) use arc_end::{is_doubtful, is_point};
 pub use comment::{Charset, transliterated};
 pub use correction::{FIRST_PARAMETER, unused_probes};
 pub use drawn::{OtherLine, Parts, first_other_line, formula_differences, unstated_heights};

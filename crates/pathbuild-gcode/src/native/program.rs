@@ -3,9 +3,11 @@
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::WrittenArc;
-use pathbuild_toolpath::{Comment, Correction, ElementKind, Height, LeftOut, Move, Program, Step, Xy};
+use pathbuild_toolpath::{
+    Comment, Correction, ElementKind, Height, LeftOut, Move, Program, Step, Xy, is_doubtful, is_point,
+};
 
-use super::arc_end::{Printed, is_doubtful, is_point};
+use super::arc_end::Printed;
 use super::comment::{Charset, Remarks};
 use super::correction::{FIRST_PARAMETER, Formulas};
 use super::number::{f3, printed, push_f3};

@@ -4,11 +4,10 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, Pace};
-use pathbuild_toolpath::{Move, ProbePoint, Program, Step};
+use pathbuild_toolpath::{LAST_DIGIT, Move, ProbePoint, Program, Step, is_doubtful};
 
-use super::arc_end::{LAST_DIGIT, is_doubtful};
 use crate::dialect::Dialect;
-use crate::interpret::{Heights, Options, each_move_of, interpret_each, interpret_parts, moves_of};
+use crate::interpret::{Heights, Options, interpret_each, interpret_parts};
 use crate::verify::{Checks, Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
 /// Number of decimals.
@@ -24,7 +23,7 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
     }
     let exactly = Tolerance::of_decimals(DECIMALS);
     check_rules(text)?;
-    let (found, expected) = (moves(text)?, moves_of(program));
+    let (found, expected) = (moves(text)?, program.moves().collect::<Vec<_>>());
     let difference = |tolerance: &Tolerance| compare(&found, &expected, tolerance);
     match difference(&exactly) {
         Some(_) if has_doubtful_arcs(program) => {
@@ -46,7 +45,7 @@ fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
 /// Whether the text of a program, given in parts of whole lines, contains exactly the moves of the program. If not, [`read_back`] may still
 /// find them equivalent.
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
-    let mut abreast = Abreast::new(each_move_of(program), Tolerance::of_decimals(DECIMALS));
+    let mut abreast = Abreast::new(program.moves(), Tolerance::of_decimals(DECIMALS));
     let mut rules = Rules::new(&Checks::default());
     let mut each = |step: motion::Step| {
         rules.step(&step);

@@ -16,7 +16,7 @@ use super::machine::{Machine, MachineRules};
 use super::material;
 use super::stock::{Stock, StockSpan};
 use super::tops::Tops;
-use crate::interpret::{Program, each_move_of};
+use crate::interpret::Program;
 use crate::read::Problems;
 
 /// Maximum number of cuts examined for a rapid move, such as the last turns of a helical circle or the end of a chain.
@@ -53,7 +53,7 @@ fn suspects(drawn: &Drawn, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| Tops::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
     let (mut before, mut found) = (None, Vec::new());
-    for (line, it) in each_move_of(drawn) {
+    for (line, it) in drawn.moves() {
         let last = before.replace((line, it));
         if it.pace == Pace::Rapid {
             let is_dip = last.is_some_and(|(line, down)| is_dip(line, &down, &it, stock));
@@ -139,7 +139,7 @@ struct Moves<'d>(&'d Drawn);
 
 impl Program for Moves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        each_move_of(self.0).for_each(|(line, it)| take(&Step::of_move(line, it)));
+        self.0.moves().for_each(|(line, it)| take(&Step::of_move(line, it)));
     }
 }
 
@@ -166,7 +166,7 @@ impl Near<'_> {
 
 impl Program for Near<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        let near = each_move_of(self.drawn).filter(|(_, it)| self.is_near(it));
+        let near = self.drawn.moves().filter(|(_, it)| self.is_near(it));
         near.for_each(|(line, it)| take(&Step::of_move(line, it)));
     }
 }

@@ -57,7 +57,7 @@ impl Stock {
         stock.with_resolution(resolution)
     }
 
-    /// The stock of a program, for the moves returned by [`moves_of`](crate::interpret::moves_of).
+    /// The stock of a program, for the moves returned by [`Program::moves`].
     pub fn of(program: &Program) -> Self {
         let piece = |line, surface, cutter| StockSpan { line, surface, cutter };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {

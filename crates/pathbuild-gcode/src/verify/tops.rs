@@ -10,7 +10,6 @@ use pathbuild_toolpath::Program as Drawn;
 
 use super::material::cutting_piece;
 use super::stock::Stock;
-use crate::interpret::each_move_of;
 
 /// Number of cells along a side.
 const SIDE: usize = 64;
@@ -88,7 +87,7 @@ impl Tops {
 type Cut = ([(f64, f64); 2], f64);
 
 fn cuts(drawn: &Drawn, stock: &Stock) -> impl Iterator<Item = Cut> {
-    each_move_of(drawn).filter_map(|(line, it)| {
+    drawn.moves().filter_map(|(line, it)| {
         let piece = cutting_piece(line, &it, stock)?;
         let [Some((left, right)), Some((low, high)), _] = it.extent() else { return None };
         let cutter = piece.cutter;

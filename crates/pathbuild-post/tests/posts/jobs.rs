@@ -9,7 +9,7 @@ use pathbuild_toolpath::{
 };
 use regex::Regex;
 
-use crate::support::{bare, lines, rapid, texts};
+use crate::support::{bare, lines, rapid, straight_from_anywhere, texts};
 
 fn go(to: Move) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
@@ -61,15 +61,12 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     let job = job_of(vec![lift(20.0), sweep(3.0, 4.0), lift(5.0), drill(1.0), line(200.0, 9.0, 4.0, 1.0)]);
     let operation = &job.operations[0];
     assert_eq!(operation.entry, Entry::At([0.0, 0.0, 20.0]));
-    let Step::Move(first) = operation.steps[2] else { panic!("{:?}", operation.steps) };
+    let steps = straight_from_anywhere(&operation.steps);
+    let Step::Move(first) = steps[2] else { panic!("{steps:?}") };
     assert_eq!(first.pace, Pace::Feed(150.0), "F of the header");
     let cut = Step::feed([9.0, 4.0, 1.0], Some(200.0));
-    assert_eq!(operation.steps[3..], [cut, rapid(9.0, 4.0, 20.0)]);
-    assert_eq!(
-        operation.steps[..2],
-        [rapid(3.0, 4.0, 20.0), rapid(3.0, 4.0, 5.0)],
-        "the first lift goes nowhere"
-    );
+    assert_eq!(steps[3..], [cut, rapid(9.0, 4.0, 20.0)]);
+    assert_eq!(steps[..2], [rapid(3.0, 4.0, 20.0), rapid(3.0, 4.0, 5.0)], "the first lift goes nowhere");
     assert_eq!((operation.clearance, operation.surface, operation.retract), (20.0, 5.0, 5.0));
     assert_eq!(
         (operation.plunge_feed, operation.cut_feed, operation.target_depth),
@@ -90,7 +87,7 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
             is_spiral: false,
         };
         let count = Count { class: Class::Milling, length, feed: Some(100.0) };
-        job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0].clone()
+        straight_from_anywhere(&job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps)[0].clone()
     };
     for length in [0.0, 1e-9, 0.0019] {
         assert_eq!(arc(length), Step::feed([0.0, length, 1.0], Some(100.0)), "{length}");
@@ -124,7 +121,8 @@ fn a_full_circle_ends_where_it_begins() {
 #[test]
 fn a_plunge_has_a_feed_of_its_own() {
     let job = job_of(vec![drill(1.0), line(200.0, 9.0, 4.0, 1.0), drill(0.5)]);
-    assert_eq!(job.operations[0].steps[2], Step::feed([9.0, 4.0, 0.5], Some(150.0)));
+    let steps = straight_from_anywhere(&job.operations[0].steps);
+    assert_eq!(steps[2], Step::feed([9.0, 4.0, 0.5], Some(150.0)));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Options, interpret, moves_of};
+use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
@@ -237,7 +237,7 @@ fn assert_moves_alike(name: &str, text: &[u8], program: &Program) {
     let read = interpret(text, reader(name), &Options::default());
     // The native program has three decimals; xpertmill writes a helix as chords.
     let tolerance = Tolerance { chord: 0.01, ends: Ends::Cutting, ..Tolerance::of_decimals(3) };
-    if let Some(difference) = compare(&read.moves(), &moves_of(program), &tolerance) {
+    if let Some(difference) = compare(&read.moves(), &program.moves().collect::<Vec<_>>(), &tolerance) {
         panic!("{name}: {}\n{}", difference.diagnostic().text(Lang::En), String::from_utf8_lossy(text));
     }
 }

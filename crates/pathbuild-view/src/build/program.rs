@@ -1,7 +1,6 @@
 //! Scenes of paths with their programs.
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::moves_of;
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_motion as motion;
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
@@ -56,7 +55,7 @@ pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
     }
     let (bytes, dialect) =
         emitted.map_or((text.as_bytes(), Dialect::Native), |emitted| (emitted.bytes, emitted.dialect));
-    let ways: Vec<_> = moves_of(program);
+    let ways: Vec<_> = program.moves().collect();
     let of_text = |bytes, dialect| {
         let moves: Vec<_> = ways.iter().map(|(_, way)| *way).collect();
         lines_of_moves(&moves, bytes, dialect)

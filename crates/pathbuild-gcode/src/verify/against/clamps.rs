@@ -1,9 +1,10 @@
 //! Checks whether a program hits the clamps of its drawing. (book: language/keep-outs)
 
 use pathbuild_diagnostic::messages::walk as say;
-use pathbuild_diagnostic::{Diagnostic, Point, Text, words};
-use pathbuild_motion::{Action, Axes, Move, Pace, Path, Plane, Step};
-use pathbuild_path::{Arc, Curve, KeepOut, KeepOutMap, Line, Way, Xy};
+use pathbuild_diagnostic::{Diagnostic, Point};
+use pathbuild_motion::{Action, Step};
+use pathbuild_path::{KeepOut, KeepOutMap};
+use pathbuild_toolpath::{kind_of_move, way};
 
 use super::cuts::{CHORD, PLACE};
 use crate::dialect::Dialect;
@@ -54,7 +55,7 @@ impl<'c> PastClamps<'c> {
                     .quoting("layer", layer.as_str())
                     .with("clamp", Point::new(at.x, at.y))
                     .with("height", *height)
-                    .with("what", word(it))
+                    .with("what", kind_of_move(it))
                     .with("z", way.lowest())
             });
         }
@@ -63,42 +64,5 @@ impl<'c> PastClamps<'c> {
     /// Returns the collisions found, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         self.problems.into_diagnostics()
-    }
-}
-
-/// The movement of a move, as far as it is known. If only its end is known, that point; `None` if even that is unknown.
-fn way(it: &Move) -> Option<Way> {
-    let [from, to] = [it.from, it.to].map(|end| Xy::new(end.x(), end.y()));
-    if !it.to.known.has(Axes::ALL) {
-        return None;
-    }
-    let to_z = it.to.z();
-    let from_z = if it.from.known.has(Axes::Z) { it.from.z() } else { to_z };
-    if !it.from.known.has(Axes::XY) {
-        return Some(Way { curve: Curve::Line(Line { start: to, end: to }), from_z, to_z });
-    }
-    let straight = Curve::Line(Line { start: from, end: to });
-    let Path::Arc(arc) = it.path else { return Some(Way { curve: straight, from_z, to_z }) };
-    let radius = arc.radius(&it.from);
-    if arc.plane != Plane::Xy {
-        // Seen from above the arc is a straight line. Use its lowest point for all of it.
-        let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
-        return Some(Way { curve: straight, from_z: lowest, to_z: lowest });
-    }
-    let degrees = arc.sweep(&it.from, &it.to).to_degrees().min(360.0);
-    let centre = Xy::new(arc.centre[0], arc.centre[1]);
-    let curve = Curve::Arc(Arc { centre, radius, start: from, end: to, clockwise: arc.clockwise, degrees });
-    let lowest = from_z.min(to_z);
-    // An arc with several turns reaches each point at several heights.
-    let (from_z, to_z) = if arc.extra_turns > 0 { (lowest, lowest) } else { (from_z, to_z) };
-    Some(Way { curve, from_z, to_z })
-}
-
-fn word(it: &Move) -> &'static Text {
-    match it.pace {
-        Pace::Rapid => &words::RAPID_MOVE,
-        Pace::Probe { .. } => &words::PROBING_MOVE,
-        Pace::Feed(_) if it.from.at[..2] == it.to.at[..2] && it.path == Path::Line => &words::PLUNGE,
-        Pace::Feed(_) => &words::CUT,
     }
 }

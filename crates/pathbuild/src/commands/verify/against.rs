@@ -8,7 +8,6 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret;
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{self, Clamps, PastClamps, PostWords, ToolUse};
@@ -82,7 +81,7 @@ impl ReferenceProgram {
         words: &'w PostWords,
     ) -> verify::Against<'w, impl Iterator<Item = (u32, Move)>> {
         let drawn = verify::Drawn {
-            moves: interpret::each_move_of(&self.drawn),
+            moves: self.drawn.moves(),
             clearance: self.drawn.start_height(),
             tool: self.tool(context),
             spin_up: context.settings.machine.spin_up.value,
@@ -92,7 +91,7 @@ impl ReferenceProgram {
 
     /// Reports what was compared, and how many moves are equal.
     pub(super) fn say(&self, context: &Context, program: &Program, equal: usize) {
-        let (path, moves) = (&self.drawn.path, interpret::each_move_of(&self.drawn).count());
+        let (path, moves) = (&self.drawn.path, self.drawn.moves().count());
         context.json_row(|| {
             let row = json!({
                 "file": context.file(&program.file),

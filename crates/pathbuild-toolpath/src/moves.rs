@@ -1,0 +1,178 @@
+//! The moves of a program, and their ways among clamps. (book: program/gcode)
+
+use std::f64::consts::{PI, TAU};
+
+use pathbuild_diagnostic::{Text, words};
+use pathbuild_motion::{Arc, Axes, Move, Pace, Path, Plane, Position};
+use pathbuild_path::{Curve, Line, Way, Xy};
+
+use crate::program::{Move as PlannedMove, Program, Step};
+
+impl Program {
+    /// The moves as an interpreter of the native text sees them, from (0, 0, S0) to the last lift to S0. Instead of a line, each has the
+    /// number of its step, counted from 1.
+    pub fn moves(&self) -> impl Iterator<Item = (u32, Move)> {
+        let height = self.start_height();
+        let mut tool = ToolTip::new(height);
+        let last = u32::try_from(self.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
+        let steps = (1_u32..).zip(self.steps.iter().map(Some)).chain(std::iter::once((last, None)));
+        steps.filter_map(move |(number, step)| match step {
+            Some(Step::Move { to, count }) => Some((number, tool.go(to, count.length))),
+            Some(Step::Comment(_)) => None,
+            None => Some((number, tool.lift(height))),
+        })
+    }
+}
+
+/// The tool tip on its way along the steps of a program.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolTip {
+    /// The current position.
+    pub at: Position,
+}
+
+impl ToolTip {
+    /// Starts above (0, 0) at this height in mm.
+    pub fn new(height: f64) -> Self {
+        Self { at: Position::known(0.0, 0.0, height) }
+    }
+
+    /// Makes a move that is counted with this length in the statistics, in mm.
+    pub fn go(&mut self, to: &PlannedMove, length: f64) -> Move {
+        match *to {
+            PlannedMove::Sweep { to } => self.straight(place(to, self.at.z()), Pace::Rapid),
+            PlannedMove::Lift { z } => self.lift(z.z),
+            PlannedMove::Drill { feed, z } => self.straight(self.at_height(z.z), Pace::Feed(feed)),
+            PlannedMove::Line { feed, to, z } => self.straight(place(to, z.z), Pace::Feed(feed)),
+            PlannedMove::Arc { feed, clockwise, centre, to, z, .. } => {
+                let relative = centre;
+                let centre = [self.at.x() + centre.x, self.at.y() + centre.y];
+                let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
+                let to = place(to, z.z);
+                // Ends that coincide or almost coincide may stand for an arc of almost no length or for a full circle, which the length
+                // tells. Only ends that contradict the length are corrected; an arc that is not quite a full circle remains.
+                let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
+                let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
+                let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
+                let path = if is_next_to_nothing { Path::Line } else { Path::Arc(arc) };
+                let to = if is_whole { self.at_height(z.z) } else { to };
+                self.along(to, path, Pace::Feed(feed))
+            }
+        }
+    }
+
+    /// A rapid move to a height.
+    pub fn lift(&mut self, z: f64) -> Move {
+        self.straight(self.at_height(z), Pace::Rapid)
+    }
+
+    fn at_height(&self, z: f64) -> Position {
+        Position::known(self.at.x(), self.at.y(), z)
+    }
+
+    fn straight(&mut self, to: Position, pace: Pace) -> Move {
+        self.along(to, Path::Line, pace)
+    }
+
+    fn along(&mut self, to: Position, path: Path, pace: Pace) -> Move {
+        let from = std::mem::replace(&mut self.at, to);
+        Move { from, to, path, pace, named: None }
+    }
+}
+
+fn place(at: Xy, z: f64) -> Position {
+    Position::known(at.x, at.y, z)
+}
+
+/// Whether the radius of an arc is printed as zero. Controllers do not accept that, so the arc is written as a line.
+pub fn is_point(centre: Xy) -> bool {
+    centre.coords.amax() < LAST_DIGIT / 2.0
+}
+
+/// Whether an arc of this length in mm is so short, or so close to a full turn, that three decimals may change it.
+pub fn is_doubtful(centre: Xy, length: f64) -> bool {
+    length < DOUBTFUL || length > TAU * centre.coords.norm() - DOUBTFUL
+}
+
+/// Unit of the last printed digit, in mm.
+pub const LAST_DIGIT: f64 = 0.001;
+
+/// Several times the distance in mm by which rounding moves an end along the arc.
+const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
+
+/// The way of a move, as far as it is known. If only its end is known, that point; `None` if even that is unknown.
+pub fn way(it: &Move) -> Option<Way> {
+    let [from, to] = [it.from, it.to].map(|end| Xy::new(end.x(), end.y()));
+    if !it.to.known.has(Axes::ALL) {
+        return None;
+    }
+    let to_z = it.to.z();
+    let from_z = if it.from.known.has(Axes::Z) { it.from.z() } else { to_z };
+    if !it.from.known.has(Axes::XY) {
+        return Some(Way { curve: Curve::Line(Line { start: to, end: to }), from_z, to_z });
+    }
+    let straight = Curve::Line(Line { start: from, end: to });
+    let Some(course) = it.course() else { return Some(Way { curve: straight, from_z, to_z }) };
+    let (arc, radius) = (course.arc(), course.radius());
+    if arc.plane != Plane::Xy {
+        // Seen from above the arc is a straight line. Use its lowest point for all of it.
+        let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
+        return Some(Way { curve: straight, from_z: lowest, to_z: lowest });
+    }
+    let degrees = course.sweep().to_degrees().min(360.0);
+    let (centre, clockwise) = (Xy::new(arc.centre[0], arc.centre[1]), arc.clockwise);
+    let curve = Curve::Arc(pathbuild_path::Arc { centre, radius, start: from, end: to, clockwise, degrees });
+    let lowest = from_z.min(to_z);
+    // An arc with several turns reaches each point at several heights.
+    let (from_z, to_z) = if arc.extra_turns > 0 { (lowest, lowest) } else { (from_z, to_z) };
+    Some(Way { curve, from_z, to_z })
+}
+
+/// The name of a move in findings about clamps.
+pub fn kind_of_move(it: &Move) -> &'static Text {
+    match it.pace {
+        Pace::Rapid => &words::RAPID_MOVE,
+        Pace::Probe { .. } => &words::PROBING_MOVE,
+        Pace::Feed(_) if it.from.at[..2] == it.to.at[..2] && it.path == Path::Line => &words::PLUNGE,
+        Pace::Feed(_) => &words::CUT,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::Height;
+
+    fn arc(centre: Xy, to: Xy, length: f64) -> Move {
+        let z = Height { z: 1.0, at: to };
+        let planned = PlannedMove::Arc { feed: 1.0, clockwise: false, centre, to, z, is_spiral: false };
+        ToolTip::new(1.0).go(&planned, length)
+    }
+
+    #[test]
+    fn a_radius_that_is_printed_as_zero_makes_a_line() {
+        let path = |radius: f64| arc(Xy::new(radius, 0.0), Xy::new(2.0 * radius, 0.0), PI * radius).path;
+        assert_eq!(path(0.000_49), Path::Line);
+        assert!(matches!(path(0.000_5), Path::Arc(_)));
+    }
+
+    #[test]
+    fn the_length_tells_a_full_circle_from_an_arc_of_almost_no_length() {
+        let sweep = |to: Xy, length: f64| {
+            let it = arc(Xy::new(10.0, 0.0), to, length);
+            it.course().map(|course| course.sweep())
+        };
+        let ahead = Xy::new(0.0, -0.004);
+        assert!(sweep(ahead, 0.004).unwrap() < 0.001, "an arc");
+        assert_eq!(sweep(ahead, TAU * 10.0), Some(TAU), "a circle that ends past its start");
+        assert!(
+            sweep(Xy::new(0.0, 0.004), TAU * 10.0 - 0.004).unwrap() < TAU,
+            "an arc that is not quite a circle"
+        );
+        assert_eq!(
+            sweep(Xy::new(0.0, 1e-9), 1e-9),
+            None,
+            "an arc of almost no length that ends before its start"
+        );
+    }
+}
