@@ -492,7 +492,10 @@ fn a_probe_that_does_not_fit_its_neighbours_is_told() {
     let bump = |at: (f64, f64), height: f64| {
         move |x: f64, y: f64| 0.2 * x - 0.1 * y + if (x, y) == at { height } else { 0.0 }
     };
-    assert_eq!(odd(bump((0.0, 0.0), 0.102)), ["PB607 #55 is 0.102 mm higher than expected from its neighbours"]);
+    assert_eq!(
+        odd(bump((0.0, 0.0), 0.102)),
+        ["PB607 #55 is 0.102 mm higher than expected from its neighbours"]
+    );
     assert_eq!(odd(bump((0.0, 0.0), 0.098)), [""; 0]);
     assert_eq!(odd(bump((1.0, 1.0), -0.5)), ["PB607 #59 is 0.5 mm lower than expected from its neighbours"]);
 }

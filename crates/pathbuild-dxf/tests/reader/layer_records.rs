@@ -115,10 +115,7 @@ fn what_is_broken_in_its_own_record_is_an_error() {
         kept.remove(line);
         let broken = text.replacen(&own, &(kept.join("\n") + "\n"), 1);
         let said = line_types(broken);
-        assert!(
-            said.starts_with("PB002") && said.contains("expected a group code here"),
-            "{line}: {said}"
-        );
+        assert!(said.starts_with("PB002") && said.contains("expected a group code here"), "{line}: {said}");
     }
 }
 

@@ -125,7 +125,10 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
     // The circle of the text, of 2.57 mm, touches the outline from outside, or just not.
     let beside = |x: f64| SQUARE.replace("12,4", &format!("{x},4"));
     assert_eq!(right(&beside(10.0 - 2.25 - 2.57)).len(), 1);
-    assert_wrong(&beside(10.0 - 2.25 - 2.58), &["neither inside an outline nor overlapping one", "no text gives the height"]);
+    assert_wrong(
+        &beside(10.0 - 2.25 - 2.58),
+        &["neither inside an outline nor overlapping one", "no text gives the height"],
+    );
     // A text shared by two outlines counts for both.
     let neighbour = "line 20.5,0 30,0 30,10 20.5,10 20.5,0\n";
     let shared =
@@ -143,7 +146,11 @@ fn an_outline_that_does_not_close_is_an_error() {
     assert_wrong("layer clamps\narc 5,0 to 0,5 centre 0,0\n", &["does not close"]);
     assert_wrong(
         &format!("{SQUARE}line 20,0 20,10\n"),
-        &["at (20, 0) more than two", "at (20, 10) more than two", "neither inside an outline nor overlapping one"],
+        &[
+            "at (20, 0) more than two",
+            "at (20, 10) more than two",
+            "neither inside an outline nor overlapping one",
+        ],
     );
     assert_wrong("layer clamps\nline 0,0 5,0 5,5 0,0\nline 5,5 9,9\n", &["more than two"]);
     // Closed polylines may touch.

@@ -44,7 +44,11 @@ fn commas_between_parameters_are_one_error() {
 
 #[test]
 fn a_zero_may_be_meant_as_o() {
-    assert_one(&of_text("02 T2", ElementClass::PathStart), "PB202 ", "if the zero is meant as the letter O, write \"O2\"");
+    assert_one(
+        &of_text("02 T2", ElementClass::PathStart),
+        "PB202 ",
+        "if the zero is meant as the letter O, write \"O2\"",
+    );
     assert_one(&of_text("02", ElementClass::Mill), "PB202 ", "values follow their letter without a space");
     assert_one(
         &of_text("12 T2", ElementClass::PathStart),

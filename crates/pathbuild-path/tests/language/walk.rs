@@ -177,8 +177,7 @@ fn a_curve_that_was_left_out_is_pointed_at() {
         "mill 0,0 20,0\nellipse CONTINUOUS centre 30,0 major 10,0 ratio 0.5 from 180 to 360\nmill 40,0 60,0\nend 60,0",
     );
     assert_eq!(codes, ["PB111", "PB401"]);
-    let is_pointed_at =
-        |note: &String| note.starts_with("there is a curve at") && note.contains("(ELLIPSE)");
+    let is_pointed_at = |note: &String| note.starts_with("there is a curve at") && note.contains("(ELLIPSE)");
     assert!(notes.iter().any(is_pointed_at), "{notes:?}");
 }
 

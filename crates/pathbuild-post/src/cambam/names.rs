@@ -112,7 +112,11 @@ pub(super) static WITH: &[MacroWithArguments] = &[
         expected: &Text { en: "nothing, flood, mist or off", de: "nichts, flood, mist oder off" },
         read: coolant,
     },
-    MacroWithArguments { name: "check", expected: &Text { en: "three coordinates", de: "drei Koordinaten" }, read: check },
+    MacroWithArguments {
+        name: "check",
+        expected: &Text { en: "three coordinates", de: "drei Koordinaten" },
+        read: check,
+    },
     MacroWithArguments {
         name: "set",
         expected: &Text {

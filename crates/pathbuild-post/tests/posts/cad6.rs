@@ -298,7 +298,10 @@ fn unknown_keys_are_errors_that_name_the_nearest() {
 fn wrong_values_and_broken_toml_are_errors_with_their_place() {
     let errors =
         |definition: &str| texts(&Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());
-    assert_eq!(errors("[post]\ndecimals = 10"), ["2: PB750 decimals is \"10\", but must be a whole number up to 9"]);
+    assert_eq!(
+        errors("[post]\ndecimals = 10"),
+        ["2: PB750 decimals is \"10\", but must be a whole number up to 9"]
+    );
     assert_eq!(errors("[post]\nunits = \"cm\""), ["2: PB750 units is \"cm\", but must be mm or inch"]);
     assert_eq!(errors("[text]\nline = 5"), ["2: PB750 line is \"5\", but must be a text"]);
     assert!(errors("[post\n")[0].starts_with("1: PB750 the definition cannot be read"));
@@ -359,7 +362,10 @@ fn texts_that_no_program_calls_are_errors() {
     };
     for (text, expected) in [
         ("bezier = 'a'", "bezier is never called: programs contain nothing that it is for"),
-        ("subprogram-start = 'a'", "subprogram-start is never called: programs contain nothing that it is for"),
+        (
+            "subprogram-start = 'a'",
+            "subprogram-start is never called: programs contain nothing that it is for",
+        ),
         ("subprogram-end = 'a'", "subprogram-end is never called: programs contain nothing that it is for"),
         (
             "contour-start = 'a'\nrapid = 'b'",

@@ -40,8 +40,9 @@ fn a_finding_names_the_text_that_wrote_the_line() {
         .write(&milled(), &PostOptions::default())
         .unwrap_err();
     assert!(
-        notes(&found)
-            .contains(&"it is written by the default text of ToolChange, which the definition does not contain".into()),
+        notes(&found).contains(
+            &"it is written by the default text of ToolChange, which the definition does not contain".into()
+        ),
         "{:?}",
         notes(&found)
     );

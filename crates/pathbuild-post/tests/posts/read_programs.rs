@@ -359,7 +359,10 @@ fn a_cut_from_or_to_an_unknown_place_is_an_error() {
         match written {
             Ok(_) => assert!(is_known, "{cut}"),
             Err(errors) => {
-                assert!(!is_known && errors[0].contains("PB765 a cut from or to an unknown position"), "{errors:?}");
+                assert!(
+                    !is_known && errors[0].contains("PB765 a cut from or to an unknown position"),
+                    "{errors:?}"
+                );
             }
         }
     }
