@@ -23,7 +23,7 @@ pub struct Catalogue {
 /// A file as it was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileFact {
-    /// As the run spelled it.
+    /// Its path, spelled as in the run that read it.
     pub path: Utf8PathBuf,
     /// The file's metadata when it was read.
     pub stamp: Stamp,
@@ -34,7 +34,7 @@ pub struct FileFact {
 /// A directory as it was listed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectoryFact {
-    /// As the run spelled it.
+    /// Its path, spelled as in the run that read it.
     pub path: Utf8PathBuf,
     /// The names of its drawings, sorted.
     pub names: Names,

@@ -10,7 +10,7 @@ use crate::verify::{CoversFn, DirectoryChange, FileState, Verdict};
 pub enum Reason {
     /// A file has different bytes, or is gone.
     File {
-        /// As the run spelled it.
+        /// Its path, spelled as in the run that read it.
         path: Utf8PathBuf,
         /// Whether it is gone.
         is_gone: bool,

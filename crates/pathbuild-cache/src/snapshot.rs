@@ -193,7 +193,7 @@ impl Snapshot {
 }
 
 impl<'a> CachedFile<'a> {
-    /// As the run spelled it.
+    /// Its path, spelled as in the run that read it.
     pub fn path(self) -> &'a Utf8Path {
         Utf8Path::new(self.snapshot.text(self.row, 0))
     }
@@ -211,7 +211,7 @@ impl<'a> CachedFile<'a> {
 }
 
 impl<'a> CachedDirectory<'a> {
-    /// As the run spelled it.
+    /// Its path, spelled as in the run that read it.
     pub fn path(self) -> &'a Utf8Path {
         Utf8Path::new(self.snapshot.text(self.row, 0))
     }

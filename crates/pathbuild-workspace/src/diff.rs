@@ -65,9 +65,9 @@ pub struct PathDiff {
 /// How a path differs between the sides.
 #[derive(Debug)]
 pub enum Outcome {
-    /// Only the new side has it.
+    /// The path exists on the new side only.
     Added,
-    /// Only the old side has it.
+    /// The path exists on the old side only.
     Removed,
     /// It has errors on the new side only.
     Broken,

@@ -85,8 +85,8 @@ fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
     }
     let begin = current.to_string_lossy().to_lowercase();
     let names = Session::new(&context).names_of_library().into_iter();
-    let meant = names.filter(|name| name.as_str().to_lowercase().starts_with(&begin));
-    meant
+    let matching = names.filter(|name| name.as_str().to_lowercase().starts_with(&begin));
+    matching
         .filter(|name| is_harmless(name.as_str()))
         .map(|name| CompletionCandidate::new(name.as_str()))
         .collect()

@@ -147,8 +147,9 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
     let working_directory = working_directory();
     let (user, mut faults) =
         environment::user_configuration().map(|file| User::load(&OsSystem, &file)).unwrap_or_default();
-    let given = Overrides { trusted: user.trusted, ..common.overrides() };
-    let (settings, more) = config::load(&OsSystem::shared(), &given, &command.inputs(), &working_directory);
+    let overrides = Overrides { trusted: user.trusted, ..common.overrides() };
+    let (settings, more) =
+        config::load(&OsSystem::shared(), &overrides, &command.inputs(), &working_directory);
     faults.extend(more);
     let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
     let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
@@ -164,7 +165,7 @@ fn context_of(cli: &Cli) -> (Context, Vec<Diagnostic>) {
         working_directory,
         reporter: printer.clone(),
     };
-    let context = Context::new(cli, given, printer, workspace);
+    let context = Context::new(cli, overrides, printer, workspace);
     (context, faults)
 }
 

@@ -46,10 +46,10 @@ pub enum Verbosity {
     Silent,
     /// `-q`: results and diagnostics.
     Quiet,
-    /// Also the status of the run.
+    /// Results, diagnostics and the status of the run.
     #[default]
     Normal,
-    /// `-v`: also details.
+    /// `-v`: everything of `Normal`, and details.
     Verbose,
 }
 

@@ -104,11 +104,11 @@ impl Request<'_> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
-        let mut found = session.timings().measure(&FINDING, || session.match_arguments(self.inputs));
-        let results = Results::open(session, self, &mut found);
-        let mut checked = check(session, self, &found, &results)?;
+        let mut matches = session.timings().measure(&FINDING, || session.match_arguments(self.inputs));
+        let results = Results::open(session, self, &mut matches);
+        let mut checked = check(session, self, &matches, &results)?;
         checked.diagnostics = session.with_hints(checked.diagnostics);
-        leak((results, found));
+        leak((results, matches));
         Ok(checked)
     }
 }

@@ -70,11 +70,11 @@ pub struct Overrides {
 
 /// Validates the values from the command line.
 pub(super) fn read(overrides: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
-    let given = &overrides.settings;
-    let mut reader = OptionReader { given, working_directory, diagnostics: Vec::new() };
+    let options = &overrides.settings;
+    let mut reader = OptionReader { given: options, working_directory, diagnostics: Vec::new() };
     let mut general = general::Options::given(&mut reader);
     // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
-    let comments = overrides.lang.filter(|_| given.0.contains_key("compatible"));
+    let comments = overrides.lang.filter(|_| options.0.contains_key("compatible"));
     general.comment_lang = comments.map(|lang| SourcedValue::option("lang", lang));
     (Options { general, ..Options::default() }, reader.diagnostics)
 }

@@ -22,9 +22,9 @@ impl Discovery<'_> {
     /// next argument decides, and finally the working directory.
     pub(super) fn for_run(&self) -> Option<Utf8PathBuf> {
         for input in self.inputs.iter() {
-            let found = self.above(&self.search_start_of(input));
-            if found.is_some() || !input.is_program(|place| self.is_directory(place)) {
-                return found;
+            let configuration = self.above(&self.search_start_of(input));
+            if configuration.is_some() || !input.is_program(|place| self.is_directory(place)) {
+                return configuration;
             }
         }
         self.of_working_directory()

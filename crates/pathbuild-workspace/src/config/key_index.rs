@@ -42,8 +42,9 @@ impl KeyIndex {
                 (format!("[{name}]"), properties(&value["oneOf"][1])),
                 (format!("[[{name}]]"), properties(&value["items"])),
             ];
-            let held = headers.into_iter().filter_map(|(header, keys)| Some(Table::new(Some(header), keys?)));
-            tables.extend(held);
+            let known_tables =
+                headers.into_iter().filter_map(|(header, keys)| Some(Table::new(Some(header), keys?)));
+            tables.extend(known_tables);
         }
         Self { tables }
     }

@@ -3,7 +3,7 @@ use std::fmt;
 /// Source of a setting's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// Not set.
+    /// The built-in default: nothing sets the value.
     Default,
     /// A line of the configuration, counted from 1.
     File(u32),
@@ -16,7 +16,7 @@ pub enum Origin {
 pub struct SourcedValue<T> {
     /// The value.
     pub value: T,
-    /// Where it comes from.
+    /// What set the value.
     pub origin: Origin,
 }
 

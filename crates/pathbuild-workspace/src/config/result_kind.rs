@@ -9,7 +9,7 @@ pub enum ResultKind {
     Check,
     /// Results of `emit` only.
     Emit,
-    /// Affects no cached result, only what is requested or how it is reported.
+    /// No results: the setting changes only what is requested or how it is reported.
     Neither,
 }
 

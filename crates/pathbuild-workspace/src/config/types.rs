@@ -84,11 +84,11 @@ choice! {
 choice! {
     /// How a diagnostic is reported.
     Level {
-        /// As an error.
+        /// Reported as an error.
         Error = "error",
-        /// As a warning.
+        /// Reported as a warning.
         Warning = "warning",
-        /// Not at all.
+        /// Not reported.
         Ignore = "ignore",
     }
 }
@@ -263,9 +263,9 @@ choice! {
 choice! {
     /// Unit of dwell times, for controls on which it can be configured.
     DwellTime {
-        /// As in the manuals.
+        /// Seconds, as the manuals describe it.
         Seconds = "seconds",
-        /// As configurable on Mach3 (Config > Logic).
+        /// Milliseconds, which Mach3 can be set to (Config > Logic).
         Milliseconds = "milliseconds",
     }
 }

@@ -216,16 +216,16 @@ fn unsafe_moves(
     program: &Program,
     machine: Option<&Machine>,
 ) -> Option<Vec<Diagnostic>> {
-    let mut found = rapids_into_material(program);
-    found.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
-    found.retain(Diagnostic::is_error);
-    for problem in &mut found {
+    let mut errors = rapids_into_material(program);
+    errors.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
+    errors.retain(Diagnostic::is_error);
+    for problem in &mut errors {
         // The line is a step number here, which says nothing to the user.
         problem.place.line = None;
         problem.file = Some(job.drawing(db).path(db).clone());
         problem.path = Some(job.path.clone());
     }
-    (!found.is_empty()).then_some(found)
+    (!errors.is_empty()).then_some(errors)
 }
 
 /// Writes, compares or prints the files of a job.

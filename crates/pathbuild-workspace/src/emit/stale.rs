@@ -190,14 +190,14 @@ impl<'a> StaleSearch<'a> {
 
     /// Checks paths that were named individually: only the names that their own files would have.
     fn individual_paths(&self, directories: &[Utf8PathBuf]) -> Vec<StaleProgram> {
-        let looked_at: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
-        let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !looked_at.contains(parent));
+        let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
+        let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !searched.contains(parent));
         let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
         let paths = stems.flat_map(|stem| {
             let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
-            let of_posts =
+            let posted =
                 EXTENSIONS[1..].iter().map(move |extension| format!("{stem}_Milling.{extension}").into());
-            native.into_iter().chain(of_posts)
+            native.into_iter().chain(posted)
         });
         let stale = |path: Utf8PathBuf| {
             if self.outputs.contains(&*path) {

@@ -84,8 +84,8 @@ impl Store {
     /// The cached result of the paths of one program, if it suffices for the task. Before writing, a program is regenerated if one of its
     /// files has changed.
     pub(super) fn paths(&self, system: &dyn System, subject: &str, task: Task) -> Option<CachedPaths> {
-        let mut known: CachedPaths = decode(self.0.payload(subject)?).ok()?;
-        if let Some(CachedJob { files, program: Some(program), .. }) = &mut known.job
+        let mut cached: CachedPaths = decode(self.0.payload(subject)?).ok()?;
+        if let Some(CachedJob { files, program: Some(program), .. }) = &mut cached.job
             && !program.is_wrong()
         {
             let states = self.0.outputs(subject);
@@ -105,7 +105,7 @@ impl Store {
                 return None;
             }
         }
-        Some(known)
+        Some(cached)
     }
 
     /// Stores the results computed in this run.
@@ -174,9 +174,9 @@ impl RunRecord<'_> {
             }
             _ => Default::default(),
         };
-        let known =
+        let cached =
             CachedPaths { diagnostics, job: job.map(|(job, delivered)| CachedJob::of(job, delivered)) };
-        FreshResult { subject, traces, further, outputs, payload: encode(&known) }
+        FreshResult { subject, traces, further, outputs, payload: encode(&cached) }
     }
 
     /// The files that the post-processor inserted or failed to insert, with their hashes.

@@ -134,9 +134,10 @@ impl TargetCollector<'_> {
     fn refuse_several(&mut self, drawing: &Utf8Path, names: &[PathName]) {
         let file = self.session.file(drawing);
         let checked = self.session.check(&self.session.targets(file, &Role::Checked));
-        let found: Vec<Diagnostic> = checked.into_iter().flat_map(|checked| checked.diagnostics).collect();
-        if found.iter().any(Diagnostic::is_error) {
-            self.diagnostics.extend(found);
+        let diagnostics: Vec<Diagnostic> =
+            checked.into_iter().flat_map(|checked| checked.diagnostics).collect();
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            self.diagnostics.extend(diagnostics);
         } else {
             self.diagnostics.push(several_paths(drawing, names));
         }

@@ -115,14 +115,14 @@ impl Session<'_> {
     pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
         let (files, _) = self.all_drawings();
         let result_store = cached_results(self.workspace());
-        let kept = |file: &SourceFile| {
+        let cached_names = |file: &SourceFile| {
             let payload = result_store.as_ref()?.payload(file.path(self.db()).as_str())?;
             Some(DrawingResult::decode(payload).ok()?.names)
         };
         let (mut paths, mut open) = (Vec::new(), Vec::new());
         for file in files {
-            match kept(&file) {
-                Some(kept) => paths.extend(kept.into_iter().map(|name| (name, file))),
+            match cached_names(&file) {
+                Some(cached_names) => paths.extend(cached_names.into_iter().map(|name| (name, file))),
                 None => open.push(file),
             }
         }

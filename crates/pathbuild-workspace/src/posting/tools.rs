@@ -39,10 +39,10 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 /// about unknown tool numbers. The spindle stands still while probing, and in a program that cuts nothing.
 pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
-    let mut known: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
+    let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
     for entry in &table.entries {
         if let Some(index) = entry.index {
-            known.entry(index).or_insert(entry);
+            entries.entry(index).or_insert(entry);
         }
     }
     let has_cuts = job.operations.iter().any(Operation::cuts);
@@ -51,7 +51,7 @@ pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
             continue;
         }
         let index = operation.tool.index;
-        let Some(entry) = known.get(&index) else {
+        let Some(entry) = entries.get(&index) else {
             if reported.insert(index) {
                 unknown.push(index);
             }

@@ -29,16 +29,16 @@ impl Checker<'_> {
     /// Merges the results of all combinations of a path. Each fault is reported once, with values that cause it unless all of them do.
     pub fn merged(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
         let mut merged: Vec<MergedFault<'_>> = Vec::new();
-        let mut known: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
+        let mut indices: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
         for result in results {
             for diagnostic in &result.diagnostics {
-                let index = *known.entry(Identity::of(diagnostic)).or_insert(merged.len());
+                let index = *indices.entry(Identity::of(diagnostic)).or_insert(merged.len());
                 match merged.get_mut(index) {
                     // A single result may contain the same fault with different arguments.
-                    Some(known) if known.last.target == result.target => {}
-                    Some(known) => {
-                        known.count += 1;
-                        known.last = result;
+                    Some(combination) if combination.last.target == result.target => {}
+                    Some(combination) => {
+                        combination.count += 1;
+                        combination.last = result;
                     }
                     None => merged.push(MergedFault { diagnostic, first: result, last: result, count: 1 }),
                 }

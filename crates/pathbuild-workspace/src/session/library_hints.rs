@@ -16,10 +16,10 @@ impl Session<'_> {
     /// diagnostic.
     pub(super) fn with_library_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let directories = LazyCell::new(|| self.library_directories());
-        let mut known: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
+        let mut definitions: BTreeMap<PathName, Option<Utf8PathBuf>> = BTreeMap::new();
         let with_library_hints = |diagnostic: Diagnostic| {
             let Some(name) = missing_path(&diagnostic) else { return diagnostic };
-            let file = known.entry(name.clone()).or_insert_with(|| {
+            let file = definitions.entry(name.clone()).or_insert_with(|| {
                 let files = self.definitions(&name, &directories);
                 files.first().map(|file| file.path(self.db()).clone())
             });

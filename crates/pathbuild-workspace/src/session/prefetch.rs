@@ -19,12 +19,12 @@ impl Session<'_> {
     }
 
     fn prefetch_likely(&self, inputs: &Inputs, is_known: &dyn Fn(SourceFile) -> bool) {
-        let mut known = HashSet::new();
+        let mut listed = HashSet::new();
         for input in inputs.iter() {
             let Some((file, directory)) = self.likely_drawing(input, is_known) else { continue };
             let directories = search_path(&self.db, directory).iter();
             let new: Vec<Directory> =
-                directories.copied().filter(|directory| known.insert(*directory)).collect();
+                directories.copied().filter(|directory| listed.insert(*directory)).collect();
             self.list_ahead(&new);
             if let Some(file) = file {
                 prefetch(&self.db, file);

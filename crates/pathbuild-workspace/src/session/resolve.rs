@@ -43,10 +43,10 @@ pub type NamesOf<'a> = &'a dyn Fn(SourceFile) -> &'a [PathName];
 impl Session<'_> {
     /// Resolves the arguments; without any, selects the library.
     pub fn select(&self, inputs: &Inputs) -> Selection {
-        let found = self.match_arguments(inputs);
+        let matches = self.match_arguments(inputs);
         let mut selection =
-            self.select_arguments(&found, &found.arguments, &|file| path_names(&self.db, file));
-        selection.problems.splice(..0, found.problems);
+            self.select_arguments(&matches, &matches.arguments, &|file| path_names(&self.db, file));
+        selection.problems.splice(..0, matches.problems);
         selection
     }
 

@@ -161,8 +161,8 @@ impl Session<'_> {
         }
         let drawn = drawn_path(&self.db, file, name);
         let examples = file_index(&self.db, file).path(name).map(|path| path.examples.clone());
-        let known = in_force(&self.db, file, name, &examples.unwrap_or_default(), true);
-        let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn, &known)));
+        let parameters = in_force(&self.db, file, name, &examples.unwrap_or_default(), true);
+        let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn, &parameters)));
         (drawn, diagnostics, Vec::new())
     }
 

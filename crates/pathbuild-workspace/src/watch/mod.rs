@@ -200,12 +200,12 @@ impl WatchLoop<'_> {
     }
 
     fn update(&mut self, changes: &changes::Changes) {
-        let found = self.library.apply(changes);
-        if !self.library.has_backlog() && !found.has_news() {
+        let affected = self.library.apply(changes);
+        if !self.library.has_backlog() && !affected.has_news() {
             return;
         }
         self.revision += 1;
-        let checked_files = self.work_on(found);
+        let checked_files = self.work_on(affected);
         // This may take as long as the time limit allows, so it must not delay the results of the change itself.
         if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
             let again = self.library.try_again(&self.writer.with_transient_problems(), &checked_files);

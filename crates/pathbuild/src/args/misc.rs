@@ -8,7 +8,7 @@ use crate::completion;
 /// `pathbuild texts`
 #[derive(Clone, Debug, Default, Args)]
 pub struct TextsArgs {
-    /// Which drawings.
+    /// Drawings whose texts are listed.
     #[command(flatten)]
     pub inputs: InputArgs,
     /// Show only texts that match

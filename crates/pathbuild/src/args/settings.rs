@@ -20,8 +20,8 @@ impl Args for SettingArgs {
 
 impl FromArgMatches for SettingArgs {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-        let given = OPTIONS.iter().filter_map(|option| Some((option.name, texts(option, matches)?)));
-        Ok(Self(given.collect()))
+        let options = OPTIONS.iter().filter_map(|option| Some((option.name, texts(option, matches)?)));
+        Ok(Self(options.collect()))
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {

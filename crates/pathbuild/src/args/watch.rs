@@ -12,7 +12,7 @@ pub struct WatchArgs {
     /// Write the files of `[emit] targets` as well
     #[arg(long)]
     pub emit: bool,
-    /// As a page.
+    /// Options of the live page.
     #[command(flatten)]
     pub serving: ServeArgs,
     /// Look for changes at intervals (for network drives)

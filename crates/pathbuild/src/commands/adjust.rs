@@ -203,15 +203,15 @@ impl<'a> Adjustment<'a> {
             context.choose("not compared with its drawing", "nicht mit der Zeichnung verglichen");
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
         let mut session = Session::new(context);
-        let found = compare_with_drawing(&mut session, clean, beside, job.drawing.as_deref());
+        let comparison = compare_with_drawing(&mut session, clean, beside, job.drawing.as_deref());
         let is_other = matches!(
-            found,
+            comparison,
             DrawingComparison::Other { .. } | DrawingComparison::Edited { .. } | DrawingComparison::Wrong(_)
         );
         if is_other && let Some(problem) = self.other_mode(job, clean) {
             return Err(vec![problem]);
         }
-        match found {
+        match comparison {
             DrawingComparison::Same => return Ok(true),
             DrawingComparison::Unknown => {}
             DrawingComparison::Wrong(problems) => return Err(problems),
@@ -248,13 +248,13 @@ impl<'a> Adjustment<'a> {
         let is_compatible = self.context.settings.general.compatible.value;
         let workspace = self.context.in_mode(!is_compatible);
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
-        let found =
+        let comparison =
             compare_with_drawing(&mut Session::new(&workspace), clean, beside, job.drawing.as_deref());
         let message =
             if is_compatible { &probes::NOT_COMPATIBLE_PROGRAM } else { &probes::COMPATIBLE_PROGRAM };
         let name = job.clean.file_name().unwrap_or_default();
         let problem = || Diagnostic::new(message).quoting("name", name).in_file(&job.clean);
-        matches!(found, DrawingComparison::Same).then(problem)
+        matches!(comparison, DrawingComparison::Same).then(problem)
     }
 
     /// Reads program, values and log. Reports every file that cannot be read.

@@ -89,9 +89,9 @@ impl<'a> Repository<'a> {
     pub(super) fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
         let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
         let place = real(place);
-        let found = config::repository(&*workspace.system, &place);
-        let is_found = workspace.system.kind(&found.join(".git")) != FileKind::Missing;
-        let root = if is_found { found.to_owned() } else { real(Utf8Path::new("")) };
+        let directory = config::repository(&*workspace.system, &place);
+        let is_found = workspace.system.kind(&directory.join(".git")) != FileKind::Missing;
+        let root = if is_found { directory.to_owned() } else { real(Utf8Path::new("")) };
         let repository = Self { workspace, root };
         if workspace.settings.confined.is_some() && repository.leads_out() {
             return Err(workspace.phrase(
@@ -249,15 +249,15 @@ impl<'a> Repository<'a> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut child = command.spawn().map_err(|error| self.not_run(&error))?;
         let (stdin, stdout) = (child.stdin.take(), child.stdout.take());
-        let taken = thread::scope(|scope| {
+        let answer = thread::scope(|scope| {
             // Git answers while it reads, so both must happen concurrently to avoid a deadlock.
             scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines.as_bytes())));
             stdout.map(|stdout| take(BufReader::new(stdout)))
         });
         let is_well = child.wait().is_ok_and(|status| status.success());
-        taken
+        answer
             .unwrap_or_else(|| Err(io::ErrorKind::BrokenPipe.into()))
-            .map(|taken| (taken, is_well))
+            .map(|answer| (answer, is_well))
             .map_err(|error| format!("git: {error}"))
     }
 

@@ -29,9 +29,9 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     };
     let selection = session.with_stable_files(|session| session.select(&args.inputs));
     let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
-    let mut known = HashSet::new();
+    let mut listed = HashSet::new();
     let all = selection.drawings.iter().chain(named.map(|file| file.path(session.db())));
-    for drawing in all.filter(|drawing| known.insert(*drawing)) {
+    for drawing in all.filter(|drawing| listed.insert(*drawing)) {
         let answer = DrawingState { drawing, reasons: result_store.why(drawing.as_str()) };
         match context.format {
             Format::Json => context.row("result", answer.json(context)),

@@ -76,8 +76,8 @@ pub(in crate::config) fn read_choice<T: Choice>(
     reader: &mut TomlReader<'_>,
 ) -> Option<T> {
     let text = reader.text(value)?;
-    let found = T::ALL.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
-    if found.is_none() {
+    let choice = T::ALL.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
+    if choice.is_none() {
         let names = || T::ALL.iter().map(|(name, _)| *name);
         let fault = match nearest(text, names()) {
             Some(near) => reader.fault(&messages::NEAR_CHOICE, value.span()).quoting("near", near),
@@ -87,7 +87,7 @@ pub(in crate::config) fn read_choice<T: Choice>(
         };
         reader.report(fault.quoting("found", quoted(text)));
     }
-    found
+    choice
 }
 
 pub(in crate::config) fn choice_schema<T: Choice>() -> Json {

@@ -59,9 +59,9 @@ pub enum End {
 /// Direction in which embeddings are followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// To the embedded paths.
+    /// From a path to the paths that it embeds.
     Down,
-    /// To the embedding paths.
+    /// From a path to the paths that embed it.
     Up,
 }
 
@@ -69,12 +69,12 @@ impl Graph {
     /// The nodes of a path, for all sets of values. The example node counts only if nothing embeds the path.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
         let is_it = |node: &Node| node.name == *name && node.file == *file;
-        let mut found: Vec<usize> =
+        let mut indices: Vec<usize> =
             (0..self.nodes.len()).filter(|index| is_it(&self.nodes[*index])).collect();
-        if found.iter().any(|index| !self.nodes[*index].is_example) {
-            found.retain(|index| !self.nodes[*index].is_example);
+        if indices.iter().any(|index| !self.nodes[*index].is_example) {
+            indices.retain(|index| !self.nodes[*index].is_example);
         }
-        found
+        indices
     }
 
     /// For each node, its embeddings in a direction, as indices into [`Graph::embeddings`].

@@ -125,11 +125,11 @@ impl<'a> CatalogueBuilder<'a> {
     /// Adds a drawing that was read in this run.
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
-        let known = self.result_store.kept.find_file(path);
+        let number = self.result_store.kept.find_file(path);
         let is_known = |number: &usize| {
             self.result_store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
         };
-        match known.filter(is_known) {
+        match number.filter(is_known) {
             Some(number) => self.kept_file(number),
             None => self.new_file(path, self.seen.content(path)),
         }

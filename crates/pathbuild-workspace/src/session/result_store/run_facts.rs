@@ -57,9 +57,9 @@ impl<'a> RunFacts<'a> {
         if !self.searched.contains(&*fact.path) {
             return true;
         }
-        let mut seen: Vec<&str> = drawing_names(self.db, self.db.directory(&fact.path)).iter().collect();
-        seen.sort_unstable();
-        seen.into_iter().eq(fact.names.iter())
+        let mut names: Vec<&str> = drawing_names(self.db, self.db.directory(&fact.path)).iter().collect();
+        names.sort_unstable();
+        names.into_iter().eq(fact.names.iter())
     }
 }
 

@@ -140,13 +140,13 @@ impl<'a> RevisionFiles<'a> {
 
 impl EarlierFiles for RevisionFiles<'_> {
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
-        let known: Vec<_> = files.iter().map(|file| self.known(file)).collect();
-        let comparable: Vec<&Utf8Path> = known.iter().flatten().map(|(real, _)| &**real).collect();
+        let committed: Vec<_> = files.iter().map(|file| self.known(file)).collect();
+        let comparable: Vec<&Utf8Path> = committed.iter().flatten().map(|(real, _)| &**real).collect();
         let mut ids = self.repository.ids(&comparable).into_iter();
         let is_same = |(_, id): &(Utf8PathBuf, &str)| ids.next().is_some_and(|now| now == *id);
-        let same: Vec<bool> = known.iter().flatten().map(is_same).collect();
+        let same: Vec<bool> = committed.iter().flatten().map(is_same).collect();
         let mut same = same.into_iter();
-        known.iter().map(|known| known.is_none() || same.next() != Some(true)).collect()
+        committed.iter().map(|committed| committed.is_none() || same.next() != Some(true)).collect()
     }
 
     fn drawings(&self, directory: &Utf8Path) -> &[String] {

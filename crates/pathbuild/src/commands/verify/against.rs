@@ -149,25 +149,25 @@ impl ReferenceProgram {
             return Ok(vec![other_line(&say::PROBING_NOT_DRAWN, other)]);
         }
         let correction = writing(context).options.correction;
-        let mut found = Vec::new();
+        let mut differences = Vec::new();
         if !is_probing {
-            found = native::formula_differences(&program.text, &self.drawn, correction);
+            differences = native::formula_differences(&program.text, &self.drawn, correction);
         }
         let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
         let now = Provenances::new(&context.settings, None).of(&[&*self.drawn]);
         // A program of ours whose first line was removed or damaged still has its title.
         let has_same_options =
             header.map_or_else(|| native::has_title(&program.text), |header| header.options == now.options);
-        if !found.is_empty() || !is_sound || !has_same_options {
-            return Ok(found);
+        if !differences.is_empty() || !is_sound || !has_same_options {
+            return Ok(differences);
         }
         let source = |bytes| Source { file: &program.file, bytes };
         let is_adjusted = states_heights(source(&program.text));
         let text =
             if is_adjusted { adjusted_again(source(&program.text), source(&text)) } else { Some(text) };
         let other = text.and_then(|text| native::first_other_line(&program.text, &text, Parts::Comments));
-        found.extend(other.map(|other| other_line(&say::TEXT_DIFFERS, other)));
-        Ok(found)
+        differences.extend(other.map(|other| other_line(&say::TEXT_DIFFERS, other)));
+        Ok(differences)
     }
 
     /// Checks a program in a dialect against the clamps around it, if there are any.

@@ -146,13 +146,13 @@ static SURFACE: Text = Text { en: "--surface", de: "--surface" };
 /// Warns about tools that are not in the table, unless the table has no numbers at all.
 pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools) -> Vec<Diagnostic> {
     let table = tool_table(context);
-    let known: Vec<u32> = table.entries.iter().filter_map(|entry| entry.index).collect();
+    let table_numbers: Vec<u32> = table.entries.iter().filter_map(|entry| entry.index).collect();
     // Layers are not tools, and native programs always say T1.
     let is_no_tool = matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
     let mut unknown: Vec<(u32, u32)> = Vec::new();
     for (line, number) in tools.used() {
         let is_new = unknown.iter().all(|(_, met)| met != number);
-        if is_new && !known.is_empty() && !known.contains(number) && !is_no_tool {
+        if is_new && !table_numbers.is_empty() && !table_numbers.contains(number) && !is_no_tool {
             unknown.push((*line, *number));
         }
     }
