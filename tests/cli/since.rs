@@ -143,7 +143,7 @@ fn timings_name_the_phases_and_the_slowest_paths() {
         "verifying cached results",
         "reading drawings",
         "checking paths",
-        "keeping results",
+        "storing results",
     ] {
         assert!(run.stderr.contains(phase), "{phase}: {run}");
     }

@@ -50,7 +50,7 @@ pub struct DiffArgs {
     /// Before the change: a directory, a drawing, a Git revision, or a G-code program
     #[arg(value_name = "OLD")]
     pub old: String,
-    /// After the change: one of the same, or a path if OLD is a program; without it the working directory
+    /// After the change: the same, or a path if OLD is a program (default: working directory)
     #[arg(value_name = "NEW")]
     pub new: Option<String>,
     /// Also write a file: .html (with pictures) or .md (for a pull request)

@@ -125,8 +125,8 @@ pub const CATALOGUE: &[(&str, &str)] = &[
         "Vor der Änderung: ein Verzeichnis, eine Zeichnung, eine Git-Revision oder ein G-Code-Programm",
     ),
     (
-        "After the change: one of the same, or a path if OLD is a program; without it the working directory",
-        "Nach der Änderung: ebenso, oder ein Pfad, wenn ALT ein Programm ist; sonst das Arbeitsverzeichnis",
+        "After the change: the same, or a path if OLD is a program (default: working directory)",
+        "Nach der Änderung: ebenso, zu einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis",
     ),
     ("G-code programs", "G-Code-Programme"),
     ("G-code program", "G-Code-Programm"),
@@ -190,7 +190,7 @@ pub const CATALOGUE: &[(&str, &str)] = &[
     ("Write the program to standard output: `-o -`", "Schreibt das Programm in die Standardausgabe: `-o -`"),
     (
         "Remove programs that pathbuild wrote earlier and would no longer write",
-        "Löscht Programme, die pathbuild früher geschrieben hat und jetzt nicht mehr schreiben würde",
+        "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde",
     ),
     (
         "G-code dialect for checking the post's output, if the post names none",
