@@ -93,7 +93,7 @@ pub(super) fn has_room<'c>(
 fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, &Move)) {
     program.each(&mut |step| match &step.action {
         Action::Move(movement) if movement.from.known.and(movement.to.known) == Axes::ALL => {
-            take(step.line, movement)
+            take(step.line, movement);
         }
         _ => {}
     });
