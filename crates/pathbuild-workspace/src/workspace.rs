@@ -85,10 +85,7 @@ impl Workspace {
 
     /// Picks the phrase in the language of messages.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
-        match self.lang() {
-            Lang::En => en,
-            Lang::De => de,
-        }
+        self.lang().choose(en, de)
     }
 
     /// Picks a phrase and inserts a value in place of `{}`.

@@ -305,7 +305,7 @@ impl Writer<'_> {
                 format!("{} [{}|{}] Z{}", self.kind(kind), f3(at.x), f3(at.y), f3(bottom))
             }
             Comment::Pass { number, z } => {
-                format!("{} {number}: Z{}", self.either("Pass", "Durchgang"), f3(z))
+                format!("{} {number}: Z{}", self.options.lang.choose("Pass", "Durchgang"), f3(z))
             }
         };
         self.comment(&text);
@@ -313,17 +313,10 @@ impl Writer<'_> {
 
     fn kind(&self, kind: ElementKind) -> &'static str {
         match kind {
-            ElementKind::MillingChain => self.either("Milling chain", "Fräskette"),
-            ElementKind::DrilledHole => self.either("Drilled hole", "Bohrloch"),
-            ElementKind::HelicalCircle => self.either("Helical circle", "Helixkreis"),
-            ElementKind::Sweep => self.either("Sweep", "Leerfahrt"),
-        }
-    }
-
-    fn either(&self, en: &'static str, de: &'static str) -> &'static str {
-        match self.options.lang {
-            Lang::En => en,
-            Lang::De => de,
+            ElementKind::MillingChain => self.options.lang.choose("Milling chain", "Fräskette"),
+            ElementKind::DrilledHole => self.options.lang.choose("Drilled hole", "Bohrloch"),
+            ElementKind::HelicalCircle => self.options.lang.choose("Helical circle", "Helixkreis"),
+            ElementKind::Sweep => self.options.lang.choose("Sweep", "Leerfahrt"),
         }
     }
 }

@@ -51,10 +51,7 @@ impl VisibleParts {
     }
 
     fn either(self, en: &'static str, de: &'static str) -> &'static str {
-        match self.lang {
-            Lang::En => en,
-            Lang::De => de,
-        }
+        self.lang.choose(en, de)
     }
 }
 

@@ -69,12 +69,8 @@ impl Timings {
     /// Formats one line per phase, followed by one line for each of the slowest paths.
     pub fn lines(&self, lang: pathbuild_diagnostic::Lang) -> Vec<String> {
         let line = |time: Duration, what: &str| format!("{:>10.1} ms  {what}", time.as_secs_f64() * 1000.0);
-        let word = |word: &Text| match lang {
-            pathbuild_diagnostic::Lang::En => word.en,
-            pathbuild_diagnostic::Lang::De => word.de,
-        };
         let mut lines: Vec<String> =
-            lock(&self.phases).iter().map(|(phase, time)| line(*time, word(phase))).collect();
+            lock(&self.phases).iter().map(|(phase, time)| line(*time, phase.in_lang(lang))).collect();
         let mut paths = lock(&self.paths).clone();
         paths.sort_by(|(a, slow), (b, slower)| slower.cmp(slow).then_with(|| a.cmp(b)));
         lines.extend(paths.iter().take(SLOWEST).map(|(name, time)| line(*time, name)));

@@ -119,7 +119,7 @@ impl Program {
     pub(super) fn read_as(&self, context: &Context) -> String {
         let mut text = self.dialect.to_string();
         if let Some(evidence) = self.evidence {
-            let reason = context.choose(evidence.reason.en, evidence.reason.de);
+            let reason = evidence.reason.in_lang(context.lang());
             _ = write!(text, " ({}: {reason}", context.choose("guessed", "vermutet"));
             if let Some(line) = evidence.line {
                 _ = write!(text, ", {} {line}", context.choose("line", "Zeile"));

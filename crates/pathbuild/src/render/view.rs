@@ -58,9 +58,6 @@ impl View {
 
     /// Picks the phrase in the view's language.
     pub fn choose<'a>(&self, en: &'a str, de: &'a str) -> &'a str {
-        match self.lang {
-            Lang::En => en,
-            Lang::De => de,
-        }
+        self.lang.choose(en, de)
     }
 }

@@ -8,10 +8,7 @@ pub(super) struct Words(pub(super) Lang);
 
 impl Words {
     pub(super) fn either<T>(self, en: T, de: T) -> T {
-        match self.0 {
-            Lang::En => en,
-            Lang::De => de,
-        }
+        self.0.choose(en, de)
     }
 
     /// The position of zero relative to the lower end of a length along X or Y.

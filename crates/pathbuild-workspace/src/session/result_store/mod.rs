@@ -127,7 +127,7 @@ impl ResultStore {
         if let Some(reason) = is_untrusted.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
             let phrase =
                 context.choose("no results are cached there", "dort werden keine Ergebnisse gespeichert");
-            let reason = context.choose(reason.en, reason.de);
+            let reason = reason.in_lang(context.lang());
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
             return None;
         }

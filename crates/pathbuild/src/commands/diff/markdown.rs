@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Lang, shown};
 use pathbuild_workspace::diff::{Comparison, Outcome};
 
-use super::text::{details, either, outcome, place, problems, summary};
+use super::text::{details, outcome, place, problems, summary};
 
 /// A table with one row per path.
 pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
@@ -24,7 +24,7 @@ pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
 }
 
 fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
-    let head = either(lang, "| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
+    let head = lang.choose("| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
     _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
     for path in &comparison.paths {
         let mut cell = outcome(path, comparison, lang).to_owned();

@@ -6,14 +6,14 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_view::escaped;
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet};
 
-use super::text::{details, either, outcome, place, problems, summary};
+use super::text::{details, outcome, place, problems, summary};
 
 const TEMPLATE: &str = include_str!("page.html");
 
 /// Renders the page.
 pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
     let (before, behind) = TEMPLATE.split_once("{{paths}}").unwrap_or((TEMPLATE, ""));
-    let code = either(lang, "en", "de");
+    let code = lang.choose("en", "de");
     let title = format!("pathbuild diff: {}", summary(comparison, lang));
     let mut page = before.replace("{{lang}}", code).replace("{{title}}", &escaped(&title));
     for problem in problems(comparison, lang) {
@@ -49,8 +49,8 @@ fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: La
 
 /// Shows the pictures in three ways. Without scripts, only the changes are visible.
 fn show(page: &mut String, PictureSet { changes, old, new }: &PictureSet, lang: Lang) {
-    let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", either(lang, en, de));
-    let label = either(lang, "old to new", "alt bis neu");
+    let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", lang.choose(en, de));
+    let label = lang.choose("old to new", "alt bis neu");
     _ = writeln!(
         page,
         "<div class=\"pictures\" data-way=\"changes\">\n<nav>{}{}{}</nav>\n<div class=\"changes\">{changes}</div>\n\

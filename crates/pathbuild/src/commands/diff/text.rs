@@ -56,7 +56,7 @@ pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &
         }
         Outcome::Changed(_) => ("changed", "geändert"),
     };
-    either(lang, en, de)
+    lang.choose(en, de)
 }
 
 /// Errors that kept paths and drawings from being compared, one per line.
@@ -84,7 +84,7 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
 }
 
 fn line(group: &Group, lang: Lang) -> String {
-    let first = either(lang, "the first to", "die erste nach");
+    let first = lang.choose("the first to", "die erste nach");
     let at = group.at.map(|[x, y]| format!(", {first} ({}, {})", Number(x), Number(y))).unwrap_or_default();
     format!("{}: {}, {} mm{at}", phrase(group, lang), moves(group, lang), tenths(group.length).prose(lang))
 }
@@ -98,7 +98,7 @@ fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
         (_, Some(new)) => format!(", {} min", Number(new).prose(lang)),
         _ => String::new(),
     };
-    format!("{}: {} → {} mm{minutes}", either(lang, "cutting", "Fräsweg"), length(old), length(new))
+    format!("{}: {} → {} mm{minutes}", lang.choose("cutting", "Fräsweg"), length(old), length(new))
 }
 
 /// "2 of 35 paths changed, 1 new".
@@ -115,7 +115,7 @@ pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
     }];
     let mut add = |number: usize, en: &str, de: &str| {
         if number > 0 {
-            parts.push(format!("{number} {}", either(lang, en, de)));
+            parts.push(format!("{number} {}", lang.choose(en, de)));
         }
     };
     add(count(|outcome| matches!(outcome, Outcome::Added)), "new", "neu");
@@ -133,13 +133,6 @@ pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
         "aus anderer Zeichnung",
     );
     parts.join(", ")
-}
-
-pub(super) fn either<'a>(lang: Lang, en: &'a str, de: &'a str) -> &'a str {
-    match lang {
-        Lang::En => en,
-        Lang::De => de,
-    }
 }
 
 fn tenths(value: f64) -> Number {

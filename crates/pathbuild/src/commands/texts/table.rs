@@ -42,7 +42,7 @@ fn table<'a>(
         let element = named(origin.entity.name(), position);
         let at = context.choose("at", "bei");
         let Point { x, y } = origin.point;
-        _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", context.choose(what.en, what.de));
+        _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", what.in_lang(context.lang()));
         for Parameter { letter, value, from } in parameters {
             let value = shown::line(value);
             _ = writeln!(text, "    {} {value:<12} {}", letter.as_char(), source(context, from));
@@ -53,7 +53,7 @@ fn table<'a>(
 
 /// Describes the source of a parameter.
 fn source(context: &Context, from: &Provider) -> String {
-    let word = context.choose(from.word().en, from.word().de);
+    let word = from.word().in_lang(context.lang());
     match from {
         Provider::Option(name) => option(context, word, name),
         Provider::Lender(path) => format!("{word}: {}", shown::line(path.as_str())),
