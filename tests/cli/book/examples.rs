@@ -226,7 +226,7 @@ fn circle_name(entity: &Entity, diameter: f64, lang: Lang) -> String {
     let circle = format!("{} {} mm", say(lang, "circle of", "Kreis von"), decimal(diameter, lang));
     let is_marker = entity.line_type.as_deref() == Some("PHANTOM");
     let meaning =
-        [(1.0, "start", "Start"), (1.5, "turn", "Wende"), (2.0, "end", "Ende"), (6.0, "probe", "Z-Probe")];
+        [(1.0, "start", "Anfang"), (1.5, "turn", "Wende"), (2.0, "end", "Ende"), (6.0, "probe", "Z-Probe")];
     let meaning = meaning.iter().find(|(marker, ..)| is_marker && (marker - diameter).abs() < 1e-9);
     meaning.map_or(circle.clone(), |(_, en, de)| format!("{}: {circle}", say(lang, en, de)))
 }

@@ -68,7 +68,7 @@ pub(super) static SETTINGS: &[Setting] = &[
         name: "description",
         expected: &Text { en: "a text", de: "ein Text" },
         set: |_, v| v.as_str().map(drop),
-        about: Text { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
+        about: Text { en: "a comment on the definition", de: "ein Kommentar zur Definition" },
     },
     Setting {
         name: "extension",
@@ -91,7 +91,7 @@ pub(super) static SETTINGS: &[Setting] = &[
         set: |s, v| put(&mut s.decimals, decimals(v)),
         about: Text {
             en: "decimals of rounded numbers; 3 without it",
-            de: "Dezimalen gerundeter Zahlen; sonst 3",
+            de: "Nachkommastellen gerundeter Zahlen; sonst 3",
         },
     },
     Setting {
@@ -117,7 +117,7 @@ pub(super) static SETTINGS: &[Setting] = &[
         expected: &Text { en: "true or false", de: "true oder false" },
         set: |s, v| put(&mut s.trim, v.as_bool()),
         about: Text {
-            en: "whether blanks at line ends are taken away; `true` without it",
+            en: "whether blanks at line ends are removed; `true` without it",
             de: "ob Leerzeichen am Zeilenende entfallen; sonst `true`",
         },
     },
@@ -144,7 +144,7 @@ pub(super) static SETTINGS: &[Setting] = &[
         expected: &Text { en: "degrees from 10 to 360", de: "Grad von 10 bis 360" },
         set: |s, v| put(&mut s.arc_sweep, sweep(v)),
         about: Text {
-            en: "widest angle of an arc, wider ones are divided; 360 without it",
+            en: "largest angle of an arc, larger ones are divided; 360 without it",
             de: "größter Winkel eines Bogens, größere werden geteilt; sonst 360",
         },
     },

@@ -77,7 +77,7 @@ pub(super) static STATEMENTS: &[StatementForm] = &[
         sign: '*',
         kind: StatementKind::Remark,
         form: "{*…}",
-        about: Text { en: "nothing: a remark", de: "nichts: eine Bemerkung" },
+        about: Text { en: "nothing: a comment", de: "nichts: ein Kommentar" },
     },
     StatementForm {
         sign: '§',

@@ -57,7 +57,7 @@ impl Presence {
             Self::Waits => {
                 word("from the first hole or `dwell` on", "ab der ersten Bohrung oder dem ersten `dwell`")
             }
-            Self::Comments => word("from the first remark on", "ab der ersten Bemerkung"),
+            Self::Comments => word("from the first comment on", "ab dem ersten Kommentar"),
             Self::Dated => word("with `--date`", "mit `--date`"),
             Self::Never => word("never: no program has curves", "nie: Kein Programm hat Kurven"),
         }
@@ -97,8 +97,8 @@ pub(super) static VARIABLES: &[Variable] = &[
     Variable::number(
         "PrevX",
         Presence::FirstMove,
-        "where the tool is before",
-        "wo das Werkzeug vorher steht",
+        "where the tool was before the move",
+        "wo der Fräser vor der Bewegung stand",
     ),
     Variable::number("PrevY", Presence::FirstMove, "likewise", "ebenso"),
     Variable::number("PrevZ", Presence::FirstMove, "likewise", "ebenso"),
@@ -120,7 +120,7 @@ pub(super) static VARIABLES: &[Variable] = &[
     Variable::number("LoweringVel", Presence::Feed, "the feed down", "der Vorschub abwärts"),
     Variable::number("MovingVel", Presence::Feed, "the feed of the element", "der Vorschub des Elements"),
     Variable::number("MachineToolNo", Presence::ToolNumber, "the tool's number", "die Nummer des Werkzeugs"),
-    Variable::number("MillingSpindleRate", Presence::Speed, "revolutions a minute", "Umdrehungen je Minute"),
+    Variable::number("MillingSpindleRate", Presence::Speed, "revolutions per minute", "Umdrehungen pro Minute"),
     Variable::number(
         "MillingSpindleDir",
         Presence::Always,
@@ -198,7 +198,7 @@ pub(super) static VARIABLES: &[Variable] = &[
     Variable::number(
         "ToolChanged",
         Presence::FirstMove,
-        "1 in the first call after a change of tools",
+        "1 in the first call after a tool change",
         "1 beim ersten Aufruf nach einem Werkzeugwechsel",
     ),
     Variable::number("ToolDiameter", Presence::Always, "O", "O"),
@@ -214,7 +214,7 @@ pub(super) static VARIABLES: &[Variable] = &[
         "Tiefe je Stich, 0 ohne Spanbruch",
     ),
     Variable::number("DwellTime", Presence::Waits, "seconds", "Sekunden"),
-    Variable::text("CommentText", Presence::Comments, "the remark", "die Bemerkung"),
+    Variable::text("CommentText", Presence::Comments, "the comment", "der Kommentar"),
     Variable::number(
         "SpinUpTime",
         Presence::Always,

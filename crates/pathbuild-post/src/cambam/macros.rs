@@ -141,12 +141,12 @@ impl Value {
                 word("`--date`, else left out with its line", "`--date`, sonst entfällt es mit seiner Zeile")
             }
             Self::OutFile => word("the file that is written", "die geschriebene Datei"),
-            Self::PartName => word("the path that was asked for", "der verlangte Pfad"),
+            Self::PartName => word("the requested path", "der angeforderte Pfad"),
             Self::MopName => {
-                word("the operation: the path that is embedded", "der Vorgang: der eingebettete Pfad")
+                word("the operation: the path that is embedded", "die Operation: der eingebettete Pfad")
             }
             Self::MopTag => {
-                word("where the operation's path is drawn", "wo der Pfad des Vorgangs gezeichnet ist")
+                word("where the operation's path is drawn", "wo der Pfad der Operation gezeichnet ist")
             }
             Self::MopClearancePlane => {
                 word("the height of rapid moves in the plane", "die Höhe der Eilgänge in der Ebene")
@@ -156,9 +156,9 @@ impl Value {
                 "die Höhe, in der der Eilgang abwärts endet",
             ),
             Self::MopPlungeFeedrate => {
-                word("the feed down, where one is given", "der Vorschub abwärts, wo einer vorliegt")
+                word("the plunge feed, if one is given", "der Vorschub beim Eintauchen, wenn einer vorliegt")
             }
-            Self::MopCutFeedrate => word("the feed, where one is given", "der Vorschub, wo einer vorliegt"),
+            Self::MopCutFeedrate => word("the feed, if one is given", "der Vorschub, wenn einer vorliegt"),
             Self::MopDepthIncrement => word("I, else 0", "I, sonst 0"),
             Self::MopDwell => word(
                 "seconds of the first hole that waits, else 0",
@@ -175,16 +175,16 @@ impl Value {
             }
             Self::MopFirst(_) => word(
                 "where the operation begins, if that is known",
-                "wo der Vorgang beginnt, wenn das bekannt ist",
+                "wo die Operation beginnt, wenn das bekannt ist",
             ),
             Self::ToolIndex => word("the tool's number", "die Nummer des Werkzeugs"),
             Self::ToolDiameter => word("O", "O"),
             Self::ToolName => word("the tool's name", "der Name des Werkzeugs"),
             Self::ToolRadius => word("half of O", "die Hälfte von O"),
-            Self::ToolLength => word("length in the table of tools", "Länge in der Werkzeugtabelle"),
-            Self::ToolProfile => word("profile in the table of tools", "Form in der Werkzeugtabelle"),
-            Self::ToolComment => word("remark in the table of tools", "Bemerkung in der Werkzeugtabelle"),
-            Self::ToolVeeAngle => word("angle in the table of tools", "Winkel in der Werkzeugtabelle"),
+            Self::ToolLength => word("length in the tool table", "Länge in der Werkzeugtabelle"),
+            Self::ToolProfile => word("profile in the tool table", "Form in der Werkzeugtabelle"),
+            Self::ToolComment => word("comment in the tool table", "Kommentar in der Werkzeugtabelle"),
+            Self::ToolVeeAngle => word("angle in the tool table", "Winkel in der Werkzeugtabelle"),
             Self::MoveAxis(_) => word("the number of the present move", "die Zahl der laufenden Bewegung"),
             Self::ArcOffset(_) => word(
                 "from the start of the present arc to its centre",
@@ -220,9 +220,9 @@ impl Block {
         let word = |en, de| Text { en, de };
         match self {
             Self::Mops => {
-                word("each operation through the section `MOP`", "jeden Vorgang durch den Abschnitt `MOP`")
+                word("each operation through the section `MOP`", "jede Operation durch den Abschnitt `MOP`")
             }
-            Self::Blocks => word("the moves of the operation", "die Bewegungen des Vorgangs"),
+            Self::Blocks => word("the moves of the operation", "die Bewegungen der Operation"),
             Self::ToolTable => word("`ToolTableItem` for each tool", "`ToolTableItem` für jedes Werkzeug"),
             Self::ToolChange => word(
                 "the section `ToolChange`, unless the tool is in",
@@ -230,7 +230,7 @@ impl Block {
             ),
             Self::FirstToolChange => word(
                 "the same for the first operation's tool",
-                "dasselbe für das Werkzeug des ersten Vorgangs",
+                "dasselbe für das Werkzeug der ersten Operation",
             ),
             Self::Clearance => word(
                 "a rapid move up to the clearance plane, unless the tool is there",
@@ -246,11 +246,11 @@ impl Block {
             ),
             Self::MopHeader => word(
                 "custom text before the operation; drawings have none",
-                "eigener Text vor dem Vorgang; Zeichnungen haben keinen",
+                "eigener Text vor der Operation; Zeichnungen haben keinen",
             ),
             Self::MopFooter => word(
                 "custom text after the operation; drawings have none",
-                "eigener Text nach dem Vorgang; Zeichnungen haben keinen",
+                "eigener Text nach der Operation; Zeichnungen haben keinen",
             ),
         }
     }
@@ -262,8 +262,8 @@ impl State {
         let word = |en, de| Text { en, de };
         match self {
             Self::Velocity => word(
-                "`VelocityMode...` that the operation wants, where it changes",
-                "`VelocityMode...`, das der Vorgang verlangt, wo es wechselt",
+                "the `VelocityMode...` that the operation needs, if it changes",
+                "das `VelocityMode...`, das die Operation braucht, wenn es wechselt",
             ),
             Self::WorkPlane => word("`WorkPlane...`, where it changes", "`WorkPlane...`, wo sie wechselt"),
             Self::Spindle => word(

@@ -263,8 +263,8 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         default: "true",
         is_own: false,
         about: Text {
-            en: "whether the way down to the clearance plane is a rapid move",
-            de: "ob der Weg abwärts zur Sicherheitsebene ein Eilgang ist",
+            en: "whether the tool moves down to the clearance plane by a rapid move",
+            de: "ob der Fräser im Eilgang zur Sicherheitsebene hinunterfährt",
         },
     },
     ElementOption {
@@ -361,7 +361,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         default: "",
         is_own: false,
         about: Text {
-            en: "program that is run on the file, with `--run-post-build` alone",
+            en: "program that is run on the file, only with `--run-post-build`",
             de: "Programm, das die Datei bearbeitet, nur mit `--run-post-build`",
         },
     },
@@ -380,7 +380,7 @@ pub(super) static OPTIONS: &[ElementOption] = &[
         set: |_, _| Ok(()),
         default: "",
         is_own: false,
-        about: Text { en: "a remark for the reader of the file", de: "Bemerkung für den Leser der Datei" },
+        about: Text { en: "a comment on the definition", de: "ein Kommentar zur Definition" },
     },
     ElementOption {
         element: "Dialect",
@@ -492,8 +492,8 @@ fn end_of_line(text: &str) -> OptionResult<Box<str>> {
     let is_sign = sign.len() <= 8 && sign.chars().all(|c| c.is_ascii_punctuation() || c == ' ');
     if !is_sign || end.is_empty() || end.len() > 2 {
         return Err(Refusal::Expected(&Text {
-            en: "made of \\r and \\n, with at most signs in front",
-            de: "aus \\r und \\n, davor höchstens Zeichen",
+            en: "\\r and \\n, optionally with other characters in front",
+            de: "\\r und \\n, davor auch andere Zeichen",
         }));
     }
     // Blanks before a symbol are part of it.

@@ -47,8 +47,8 @@ pub(crate) fn macros_with_arguments(lang: Lang) -> Vec<Row> {
 const OWN: Text = Text { en: "pathbuild's own", de: "Zusatz von pathbuild" };
 const TEXT_OF: Text = Text { en: "the text of the element", de: "der Text des Elements" };
 const SPEED: Text =
-    Text { en: "`S` with the speed, where one is given", de: "`S` mit der Drehzahl, wo eine vorliegt" };
-const OPEN: Text = Text { en: "; a user macro may give it", de: "; ein eigenes Makro kann es angeben" };
+    Text { en: "`S` with the speed, if one is given", de: "`S` mit der Drehzahl, wenn eine vorliegt" };
+const OPEN: Text = Text { en: "; a user macro may set it", de: "; ein eigenes Makro kann es setzen" };
 
 fn meaning(what: &Macro, lang: Lang) -> String {
     match what {
