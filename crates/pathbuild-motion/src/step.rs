@@ -1,5 +1,7 @@
 //! The canonical steps of a program.
 
+use std::fmt;
+
 use crate::moves::Move;
 use crate::position::{Axes, Plane};
 
@@ -96,7 +98,7 @@ pub struct Spindle {
     pub speed: f64,
 }
 
-/// Whether the spindle turns, and in which direction.
+/// Whether the spindle turns, and in which direction. The names are part of the hash of options in programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Turning {
     /// The program has not specified it.
@@ -107,23 +109,35 @@ pub enum Turning {
     /// M3.
     Clockwise,
     /// M4.
-    Counterclockwise,
+    CounterClockwise,
 }
 
 impl Turning {
     /// Whether it is known to turn.
     pub fn is_on(self) -> bool {
-        matches!(self, Self::Clockwise | Self::Counterclockwise)
+        matches!(self, Self::Clockwise | Self::CounterClockwise)
     }
 }
 
 /// State of the coolant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct Coolant {
     /// M7.
     pub mist: bool,
     /// M8.
     pub flood: bool,
+}
+
+/// The names are part of the hash of options in programs: changing one makes existing programs stale.
+impl fmt::Debug for Coolant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match (self.flood, self.mist) {
+            (false, false) => "Off",
+            (true, false) => "Flood",
+            (false, true) => "Mist",
+            (true, true) => "FloodAndMist",
+        })
+    }
 }
 
 impl Coolant {

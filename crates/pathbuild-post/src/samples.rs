@@ -33,7 +33,7 @@ pub fn samples() -> Vec<Job> {
     vec![
         job(vec![plain()]),
         job(vec![plain(), operation(2, Coolant::MIST, down()), operation(1, Coolant::OFF, down())]),
-        job(vec![Operation { spindle: Some(Turning::Counterclockwise), ..plain() }]),
+        job(vec![Operation { spindle: Some(Turning::CounterClockwise), ..plain() }]),
         job(vec![operation(1, Coolant::OFF, vec![line(0.0, -1.0), arc])]),
         job(vec![operation(1, Coolant::OFF, vec![hole(HoleKind::Plain)])]),
         job(vec![operation(1, Coolant::OFF, vec![hole(HoleKind::Peck { depth: 2.0 })])]),

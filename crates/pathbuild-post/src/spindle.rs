@@ -33,7 +33,7 @@ pub(super) fn check(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnost
                     Turning::Unstated => &posts::SPINDLE_NOT_STARTED,
                     // Reported by the rules of `verify`.
                     Turning::Off => return None,
-                    Turning::Clockwise | Turning::Counterclockwise => &posts::SPINDLE_OTHER_WAY,
+                    Turning::Clockwise | Turning::CounterClockwise => &posts::SPINDLE_OTHER_WAY,
                 };
                 return Some(Diagnostic::new(message).at_line(step.line, None));
             }

@@ -66,7 +66,7 @@ impl Interpreter<'_> {
     pub(super) fn spindle_and_coolant(&mut self, block: &Block<'_>) {
         let turning = self.words.m_code(SPINDLE).and_then(|(code, _)| match code {
             30 => Some(Turning::Clockwise),
-            40 => Some(Turning::Counterclockwise),
+            40 => Some(Turning::CounterClockwise),
             50 => Some(Turning::Off),
             _ => None,
         });

@@ -172,10 +172,10 @@ impl<'c> Rules<'c> {
                 return;
             }
             Turning::Off => &say::SPINDLE_OFF,
-            Turning::Clockwise | Turning::Counterclockwise if self.spindle.speed == 0.0 => {
+            Turning::Clockwise | Turning::CounterClockwise if self.spindle.speed == 0.0 => {
                 &say::SPINDLE_WITHOUT_SPEED
             }
-            Turning::Clockwise | Turning::Counterclockwise => return,
+            Turning::Clockwise | Turning::CounterClockwise => return,
         };
         if !std::mem::replace(&mut self.spindle_said, true) {
             self.problems.add_at_line(message, line, |d| d);

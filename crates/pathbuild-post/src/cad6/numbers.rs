@@ -45,7 +45,10 @@ pub(super) static FORMS: [(char, Form, Text); 7] = [
     (
         '\'',
         Form::Money,
-        Text { en: "two decimals, with a thousands separator", de: "zwei Nachkommastellen, mit Tausendertrennzeichen" },
+        Text {
+            en: "two decimals, with a thousands separator",
+            de: "zwei Nachkommastellen, mit Tausendertrennzeichen",
+        },
     ),
     ('%', Form::Rounded, Text { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),
     ('.', Form::Rounded, Text { en: "rounded to `decimals`", de: "gerundet auf `decimals`" }),

@@ -124,7 +124,7 @@ impl Caller<'_, '_> {
             _ => self.runner.variables.remove("MachineToolNo"),
         }
         self.length("ToolDiameter", operation.tool.diameter);
-        self.flag("MillingSpindleDir", operation.spindle == Some(Turning::Counterclockwise));
+        self.flag("MillingSpindleDir", operation.spindle == Some(Turning::CounterClockwise));
         match operation.speed {
             Some(speed) => self.set("MillingSpindleRate", speed),
             None => self.runner.variables.remove("MillingSpindleRate"),

@@ -67,7 +67,8 @@ pub(crate) fn functions(lang: Lang) -> Vec<Row> {
     FUNCTIONS.iter().map(row).collect()
 }
 
-const SHORTEST: Text = Text { en: "the number with all its decimals", de: "die Zahl mit allen Nachkommastellen" };
+const SHORTEST: Text =
+    Text { en: "the number with all its decimals", de: "die Zahl mit allen Nachkommastellen" };
 const AS_IN_C: Text = Text {
     en: "as in C, also with `g`, `d`, `x`, `b` or `s`; flags, width and precision come before the letter (pathbuild's own)",
     de: "wie in C, auch mit `g`, `d`, `x`, `b` oder `s`; Schalter, Breite und Genauigkeit stehen vor dem Buchstaben (Zusatz von pathbuild)",

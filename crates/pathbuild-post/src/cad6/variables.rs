@@ -120,7 +120,12 @@ pub(super) static VARIABLES: &[Variable] = &[
     Variable::number("LoweringVel", Presence::Feed, "the feed down", "der Vorschub abwärts"),
     Variable::number("MovingVel", Presence::Feed, "the feed of the element", "der Vorschub des Elements"),
     Variable::number("MachineToolNo", Presence::ToolNumber, "the tool's number", "die Nummer des Werkzeugs"),
-    Variable::number("MillingSpindleRate", Presence::Speed, "revolutions per minute", "Umdrehungen pro Minute"),
+    Variable::number(
+        "MillingSpindleRate",
+        Presence::Speed,
+        "revolutions per minute",
+        "Umdrehungen pro Minute",
+    ),
     Variable::number(
         "MillingSpindleDir",
         Presence::Always,

@@ -102,7 +102,7 @@ impl Machine {
     fn miscellaneous(&mut self, code: u32) {
         match code {
             30 => self.spindle = Some(Turning::Clockwise),
-            40 => self.spindle = Some(Turning::Counterclockwise),
+            40 => self.spindle = Some(Turning::CounterClockwise),
             50 => self.spindle = Some(Turning::Off),
             60 => {
                 self.tool = self.selected.or(self.tool);

@@ -151,7 +151,7 @@ fn spindle(argument: Option<&str>) -> Option<Macro> {
     }
     Some(Macro::Section(match argument.to_ascii_lowercase().as_str() {
         "cw" => spindle_section(Turning::Clockwise),
-        "ccw" => spindle_section(Turning::Counterclockwise),
+        "ccw" => spindle_section(Turning::CounterClockwise),
         "off" => spindle_section(Turning::Off),
         _ => return None,
     }))

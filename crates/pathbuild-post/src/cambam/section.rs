@@ -137,7 +137,7 @@ impl Section {
 pub(super) fn spindle_section(spindle: Turning) -> Section {
     match spindle {
         Turning::Clockwise => Section::SpindleCw,
-        Turning::Counterclockwise => Section::SpindleCcw,
+        Turning::CounterClockwise => Section::SpindleCcw,
         Turning::Off | Turning::Unstated => Section::SpindleOff,
     }
 }

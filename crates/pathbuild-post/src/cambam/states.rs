@@ -82,7 +82,7 @@ impl Writer<'_> {
         }
         match section {
             Section::SpindleCw => self.machine.spindle = Some(Turning::Clockwise),
-            Section::SpindleCcw => self.machine.spindle = Some(Turning::Counterclockwise),
+            Section::SpindleCcw => self.machine.spindle = Some(Turning::CounterClockwise),
             Section::SpindleOff => self.machine.spindle = Some(Turning::Off),
             Section::CoolantFlood => self.machine.coolant = Some(Coolant::FLOOD),
             Section::CoolantMist => self.machine.coolant = Some(Coolant::MIST),

@@ -260,7 +260,7 @@ fn xpertmill_has_one_speed_for_each_layer() {
 #[test]
 fn a_program_that_ends_with_the_spindle_turning_is_refused() {
     let mut job = high(vec![rapid(0.0, 0.0, 2.0), feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 25.0)]);
-    job.operations[0].spindle = Some(Turning::Counterclockwise);
+    job.operations[0].spindle = Some(Turning::CounterClockwise);
     let with = |end: &str| {
         let options = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
         read_toml(&DIN.replace("'M30'", end)).write(&job, &options)

@@ -47,7 +47,7 @@ fn tools_spindle_and_coolant_divide_operations() {
     );
     let found: Vec<_> =
         job.operations.iter().map(|it| (it.tool.index, it.spindle, it.speed, it.coolant)).collect();
-    let (cw, ccw, flood) = (Some(Turning::Clockwise), Some(Turning::Counterclockwise), Some(Coolant::FLOOD));
+    let (cw, ccw, flood) = (Some(Turning::Clockwise), Some(Turning::CounterClockwise), Some(Coolant::FLOOD));
     let speed = Some(900.0);
     assert_eq!(
         found,

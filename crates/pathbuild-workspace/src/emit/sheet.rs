@@ -262,7 +262,7 @@ fn tools(programs: &[Arc<Program>], table: &ToolTable) -> Vec<SheetTool> {
             speed: entry.and_then(|entry| entry.speed),
             clockwise: entry.and_then(|entry| entry.spindle).and_then(|spindle| match spindle {
                 Turning::Clockwise => Some(true),
-                Turning::Counterclockwise => Some(false),
+                Turning::CounterClockwise => Some(false),
                 Turning::Off | Turning::Unstated => None,
             }),
             paths: Vec::new(),

@@ -24,7 +24,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
         index: tool.number,
         spindle: direction.map(|direction| match direction {
             types::Direction::Clockwise => Turning::Clockwise,
-            types::Direction::Counterclockwise => Turning::Counterclockwise,
+            types::Direction::Counterclockwise => Turning::CounterClockwise,
         }),
         speed: tool.spindle,
         coolant: tool.coolant.map(|coolant| match coolant {

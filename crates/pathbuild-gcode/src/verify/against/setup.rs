@@ -365,7 +365,7 @@ fn coolant_text(coolant: Coolant) -> &'static str {
 fn spindle_text(turning: Option<Turning>, speed: Option<f64>) -> String {
     let word = match turning {
         Some(Turning::Clockwise) => "M3",
-        Some(Turning::Counterclockwise) => "M4",
+        Some(Turning::CounterClockwise) => "M4",
         Some(Turning::Off) => "M5",
         Some(Turning::Unstated) | None => "",
     };
