@@ -67,7 +67,7 @@ impl Summary {
 struct Collector {
     summary: Summary,
     /// The tools used so far, with what has been recorded for each.
-    known: HashMap<Option<u32>, Known>,
+    known: HashMap<Option<u32>, KnownTool>,
     /// Whether M6 changes tools; in programs without it, T does.
     has_changes: bool,
     layers: bool,
@@ -77,7 +77,7 @@ struct Collector {
 }
 
 /// A tool used so far.
-struct Known {
+struct KnownTool {
     /// Index among the tools used.
     index: usize,
     feeds: HashSet<u64>,
@@ -121,11 +121,11 @@ impl Collector {
         }
     }
 
-    fn used(&mut self) -> (&mut Used, &mut Known) {
+    fn used(&mut self) -> (&mut Used, &mut KnownTool) {
         let tools = &mut self.summary.tools;
         let known = self.known.entry(self.tool).or_insert_with(|| {
             tools.push(Used { tool: self.tool, ..Used::default() });
-            Known { index: tools.len() - 1, feeds: HashSet::new(), speeds: HashSet::new() }
+            KnownTool { index: tools.len() - 1, feeds: HashSet::new(), speeds: HashSet::new() }
         });
         (&mut tools[known.index], known)
     }

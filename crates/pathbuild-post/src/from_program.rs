@@ -10,7 +10,7 @@ use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as Pro
 
 use super::job::{Entry, Job, Operation, describe};
 use super::step::{Hole, HoleKind, Step};
-use super::tools::{Fitted, Fitter, ToolTable};
+use super::tools::{Fitter, ToolAssignment, ToolTable};
 
 /// Arcs shorter than this, in mm, are written as lines. A post might print the same coordinates for both ends, which would be a full circle
 /// that
@@ -31,8 +31,8 @@ impl Job {
     ) -> (Self, Vec<Diagnostic>) {
         let mut fitter = Fitter::new(tools);
         let operations = programs.iter().map(Borrow::borrow).flat_map(|program| {
-            let fitted = fitter.fit(&program.path, program.tool);
-            Builder::new(program, fitted, pecks).run()
+            let assignment = fitter.fit(&program.path, program.tool);
+            Builder::new(program, assignment, pecks).run()
         });
         let mut operations: Vec<Operation> = operations.collect();
         // Between two programs the tool is above everything in both.
@@ -49,7 +49,7 @@ impl Job {
 /// Converts a program to operations.
 struct Builder<'a> {
     program: &'a Program,
-    fitted: Fitted,
+    assignment: ToolAssignment,
     pecks: bool,
     /// The embedded paths that are open, outermost first.
     embedded: Vec<&'a str>,
@@ -60,10 +60,10 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(program: &'a Program, fitted: Fitted, pecks: bool) -> Self {
+    fn new(program: &'a Program, assignment: ToolAssignment, pecks: bool) -> Self {
         let tool = ToolTip::new(program.sweep_height);
         let (embedded, operations) = (Vec::new(), Vec::new());
-        Self { program, fitted, pecks, embedded, operations, tool, surface: None }
+        Self { program, assignment, pecks, embedded, operations, tool, surface: None }
     }
 
     fn run(mut self) -> Vec<Operation> {
@@ -149,17 +149,17 @@ impl<'a> Builder<'a> {
 
     /// Adds a move whose length is given in mm.
     fn go(&mut self, to: &Move, length: f64) {
-        let mut it = self.tool.go(to, length);
+        let mut movement = self.tool.go(to, length);
         if length < SHORTEST_ARC {
-            it.path = Path::Line;
+            movement.path = Path::Line;
         }
-        self.push(it);
+        self.push(movement);
     }
 
     /// Adds a move; a rapid one only if it leads somewhere.
-    fn push(&mut self, it: motion::Move) {
-        if it.pace != Pace::Rapid || !it.is_nothing() {
-            self.operation_from(it.from.at).steps.push(Step::Move(it));
+    fn push(&mut self, movement: motion::Move) {
+        if movement.pace != Pace::Rapid || !movement.is_nothing() {
+            self.operation_from(movement.from.at).steps.push(Step::Move(movement));
         }
     }
 
@@ -180,7 +180,7 @@ impl<'a> Builder<'a> {
     }
 
     fn new_operation(&self, name: &str, at: [f64; 3]) -> Operation {
-        let Fitted { tool, spindle, speed, coolant } = self.fitted.clone();
+        let ToolAssignment { tool, spindle, speed, coolant } = self.assignment.clone();
         Operation {
             part: self.program.path.clone(),
             spindle,

@@ -36,7 +36,7 @@ pub struct ToolEntry {
 
 /// A cutter with its settings.
 #[derive(Clone, Debug)]
-pub(super) struct Fitted {
+pub(super) struct ToolAssignment {
     pub(super) tool: Tool,
     pub(super) spindle: Option<Turning>,
     pub(super) speed: Option<f64>,
@@ -77,7 +77,7 @@ impl<'a> Fitter<'a> {
     }
 
     /// The cutter of a path.
-    pub(super) fn fit(&mut self, path: &str, diameter: f64) -> Fitted {
+    pub(super) fn fit(&mut self, path: &str, diameter: f64) -> ToolAssignment {
         let position = self.table.position(path, diameter);
         let entry = position.map(|index| &self.table.entries[index]);
         let key = position.map_or(Key::Diameter(diameter), Key::Entry);
@@ -85,7 +85,7 @@ impl<'a> Fitter<'a> {
             Some((_, tool)) => tool.clone(),
             None => self.add(key, entry, path, diameter),
         };
-        Fitted {
+        ToolAssignment {
             tool,
             spindle: entry.and_then(|entry| entry.spindle),
             speed: entry.and_then(|entry| entry.speed),

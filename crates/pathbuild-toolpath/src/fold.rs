@@ -12,7 +12,7 @@ use crate::probes;
 use crate::program::{
     Class, Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, Move, Names, ProbePoint, Program, Step,
 };
-use crate::trace::{Drawn, Occurrence, Trace};
+use crate::trace::{Occurrence, StepOrigin, Trace};
 
 /// Provides the paths to be joined: the emitted path and all paths it embeds.
 pub trait Parts {
@@ -82,7 +82,7 @@ fn folded<P: Parts>(
         probes: Vec::new(),
         left_out: BTreeMap::new(),
         mergeable: None,
-        here: Drawn::default(),
+        here: StepOrigin::default(),
         trace,
     };
     fold.path(root, Placement::from_origin(path.start), 0.0, sweep_height);
@@ -122,7 +122,7 @@ pub(crate) struct Fold<'a, P: Parts> {
     /// Index of the last sweep as long as only comments follow it; another sweep replaces it.
     mergeable: Option<usize>,
     /// The current element.
-    here: Drawn,
+    here: StepOrigin,
     /// Records the origin of the steps, if requested.
     trace: Option<Trace<P::Id>>,
 }
@@ -202,13 +202,13 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Makes the given path the current one and returns the previous element.
-    fn enter(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> Drawn {
+    fn enter(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> StepOrigin {
         let outside = self.here;
         if let Some(trace) = &mut self.trace {
             let parent = (!trace.occurrences.is_empty()).then_some(outside);
             let occurrence = u32::try_from(trace.occurrences.len()).unwrap_or(u32::MAX);
             trace.occurrences.push(Occurrence { id, parent, placement, raised, sweep_height });
-            self.here = Drawn { occurrence, element: None };
+            self.here = StepOrigin { occurrence, element: None };
         }
         outside
     }

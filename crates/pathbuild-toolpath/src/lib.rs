@@ -29,5 +29,5 @@ pub use program::{
     Class, Comment, Count, ElementKind, Height, LeftOut, Move, NameId, Names, ProbePoint, Program, Step,
 };
 pub use statistics::{Statistics, Total};
-pub use trace::{Drawn, Occurrence, Trace};
+pub use trace::{Occurrence, StepOrigin, Trace};
 pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

@@ -101,18 +101,18 @@ pub const LAST_DIGIT: f64 = 0.001;
 const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
 
 /// The way of a move, as far as it is known. If only its end is known, that point; `None` if even that is unknown.
-pub fn way(it: &Move) -> Option<Way> {
-    let [from, to] = [it.from, it.to].map(|end| Xy::new(end.x(), end.y()));
-    if !it.to.known.has(Axes::ALL) {
+pub fn way(movement: &Move) -> Option<Way> {
+    let [from, to] = [movement.from, movement.to].map(|end| Xy::new(end.x(), end.y()));
+    if !movement.to.known.has(Axes::ALL) {
         return None;
     }
-    let to_z = it.to.z();
-    let from_z = if it.from.known.has(Axes::Z) { it.from.z() } else { to_z };
-    if !it.from.known.has(Axes::XY) {
+    let to_z = movement.to.z();
+    let from_z = if movement.from.known.has(Axes::Z) { movement.from.z() } else { to_z };
+    if !movement.from.known.has(Axes::XY) {
         return Some(Way { curve: Curve::Line(Line { start: to, end: to }), from_z, to_z });
     }
     let straight = Curve::Line(Line { start: from, end: to });
-    let Some(course) = it.course() else { return Some(Way { curve: straight, from_z, to_z }) };
+    let Some(course) = movement.course() else { return Some(Way { curve: straight, from_z, to_z }) };
     let (arc, radius) = (course.arc(), course.radius());
     if arc.plane != Plane::Xy {
         // Seen from above the arc is a straight line. Use its lowest point for all of it.
@@ -129,11 +129,13 @@ pub fn way(it: &Move) -> Option<Way> {
 }
 
 /// The name of a move in findings about clamps.
-pub fn kind_of_move(it: &Move) -> &'static Text {
-    match it.pace {
+pub fn kind_of_move(movement: &Move) -> &'static Text {
+    match movement.pace {
         Pace::Rapid => &words::RAPID_MOVE,
         Pace::Probe { .. } => &words::PROBING_MOVE,
-        Pace::Feed(_) if it.from.at[..2] == it.to.at[..2] && it.path == Path::Line => &words::PLUNGE,
+        Pace::Feed(_) if movement.from.at[..2] == movement.to.at[..2] && movement.path == Path::Line => {
+            &words::PLUNGE
+        }
         Pace::Feed(_) => &words::CUT,
     }
 }
@@ -159,8 +161,8 @@ mod tests {
     #[test]
     fn the_length_tells_a_full_circle_from_an_arc_of_almost_no_length() {
         let sweep = |to: Xy, length: f64| {
-            let it = arc(Xy::new(10.0, 0.0), to, length);
-            it.course().map(|course| course.sweep())
+            let movement = arc(Xy::new(10.0, 0.0), to, length);
+            movement.course().map(|course| course.sweep())
         };
         let ahead = Xy::new(0.0, -0.004);
         assert!(sweep(ahead, 0.004).unwrap() < 0.001, "an arc");

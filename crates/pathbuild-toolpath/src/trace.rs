@@ -8,7 +8,7 @@ pub struct Trace<Id> {
     /// The paths in the program, beginning with the emitted one. A path that is embedded twice occurs twice.
     pub occurrences: Vec<Occurrence<Id>>,
     /// The element of each step of the program.
-    pub steps: Vec<Drawn>,
+    pub steps: Vec<StepOrigin>,
 }
 
 /// A path at its place in a program.
@@ -17,7 +17,7 @@ pub struct Occurrence<Id> {
     /// Identifies the path and the values of its variables.
     pub id: Id,
     /// The element that embeds it, or `None` for the emitted path.
-    pub parent: Option<Drawn>,
+    pub parent: Option<StepOrigin>,
     /// Placement of its drawing in the program.
     pub placement: Placement,
     /// Height by which it is raised, in mm.
@@ -28,7 +28,7 @@ pub struct Occurrence<Id> {
 
 /// An element in a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Drawn {
+pub struct StepOrigin {
     /// Index into [`Trace::occurrences`].
     pub occurrence: u32,
     /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements) of its path; `None` before the first element.

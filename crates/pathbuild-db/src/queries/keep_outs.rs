@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::messages::walk as messages;
 use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, TraceStep};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap, KeepOuts};
-use pathbuild_toolpath::{Drawn, kind_of_move, way};
+use pathbuild_toolpath::{StepOrigin, kind_of_move, way};
 use rustc_hash::FxHashSet;
 
 use super::closures::closure;
@@ -144,7 +144,7 @@ impl<'t> Search<'t> {
     }
 
     /// The innermost path that contains both an element and a clamp, and its element that leads to the former.
-    fn common(&self, mut at: Drawn, clamp: u32) -> (u32, Option<u32>) {
+    fn common(&self, mut at: StepOrigin, clamp: u32) -> (u32, Option<u32>) {
         let around_clamp: Vec<u32> = self.outwards(clamp).collect();
         while !around_clamp.contains(&at.occurrence) {
             let Some(parent) = self.parent(at.occurrence) else { break };
@@ -159,7 +159,7 @@ impl<'t> Search<'t> {
         std::iter::successors(Some(occurrence), parent)
     }
 
-    fn parent(&self, occurrence: u32) -> Option<Drawn> {
+    fn parent(&self, occurrence: u32) -> Option<StepOrigin> {
         self.traced.trace.occurrences[occurrence as usize].parent
     }
 
@@ -186,7 +186,7 @@ impl<'t> Search<'t> {
     /// The embeddings that lead to a path, outermost first.
     fn embeddings_leading_to(&self, occurrence: u32) -> Vec<TraceStep> {
         let step = |inner: u32| {
-            let Drawn { occurrence, element } = self.parent(inner)?;
+            let StepOrigin { occurrence, element } = self.parent(inner)?;
             let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
             let element = part.path.drawn.elements.get(element? as usize)?;
             Some(TraceStep {

@@ -150,8 +150,8 @@ fn differs(found: &Difference) -> Box<Diagnostic> {
 /// Reports a problem in the text as an error of pathbuild.
 fn told(problem: &Diagnostic) -> Box<Diagnostic> {
     let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
-    let said = problem.text(pathbuild_diagnostic::Lang::En);
-    internal(&format!("the program, read back, is not what it was made from: {said}{line}"))
+    let message = problem.text(pathbuild_diagnostic::Lang::En);
+    internal(&format!("the program, read back, is not what it was made from: {message}{line}"))
 }
 
 fn internal(reason: &str) -> Box<Diagnostic> {

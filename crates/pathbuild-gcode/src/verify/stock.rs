@@ -80,9 +80,9 @@ impl Stock {
                 pieces.extend(section.piece(cutter));
                 section = Section { line: step.line, surface: None };
             }
-            Action::Move(it) => {
-                if let Some(last) = before.replace(*it) {
-                    section.hand_over(&last, it);
+            Action::Move(movement) => {
+                if let Some(last) = before.replace(*movement) {
+                    section.hand_over(&last, movement);
                 }
             }
             _ => {}
@@ -152,7 +152,9 @@ struct Section {
 impl Section {
     /// Checks two consecutive moves for a descent by rapid followed by a descent at feed.
     fn hand_over(&mut self, first: &Move, second: &Move) {
-        let is_vertical = |it: &Move| it.from.at[..2] == it.to.at[..2] && it.to.z() < it.from.z();
+        let is_vertical = |movement: &Move| {
+            movement.from.at[..2] == movement.to.at[..2] && movement.to.z() < movement.from.z()
+        };
         if is_vertical(first)
             && is_vertical(second)
             && first.pace == Pace::Rapid

@@ -4,7 +4,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_motion as motion;
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
-use pathbuild_toolpath::{Drawn, Occurrence, Program, Trace, support_bars};
+use pathbuild_toolpath::{Occurrence, Program, StepOrigin, Trace, support_bars};
 
 use super::drawn::{DrawnSource, curve_shape, pair};
 use super::gcode::plain_lines;
@@ -125,7 +125,7 @@ impl Builder {
         self.bars(path, placement, *raised, first);
     }
 
-    fn element(&self, drawn: Drawn) -> Option<u32> {
+    fn element(&self, drawn: StepOrigin) -> Option<u32> {
         Some(self.first_elements.get(drawn.occurrence as usize)? + drawn.element?)
     }
 
@@ -160,24 +160,24 @@ impl Builder {
 
     fn moves(&mut self, ways: &[(u32, motion::Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
         for ((step, way), line) in ways.iter().zip(lines) {
-            let mut it = Move::new(*way, *line);
+            let mut movement = Move::new(*way, *line);
             let step = *step as usize - 1;
-            it.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
-            let kind = it.element.map(|element| self.scene.elements[element as usize].kind);
-            if it.kind == MoveKind::Mill && kind == Some(ElementKind::Mark) {
-                it.kind = MoveKind::Mark;
+            movement.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
+            let kind = movement.element.map(|element| self.scene.elements[element as usize].kind);
+            if movement.kind == MoveKind::Mill && kind == Some(ElementKind::Mark) {
+                movement.kind = MoveKind::Mark;
             }
-            self.scene.moves.push(it);
+            self.scene.moves.push(movement);
         }
     }
 
     /// Numbers the elements in cutting order.
     fn number_elements(&mut self) {
         let mut next = 1;
-        for it in &self.scene.moves {
-            let Some(element) = it.element else { continue };
+        for movement in &self.scene.moves {
+            let Some(element) = movement.element else { continue };
             let element = &mut self.scene.elements[element as usize];
-            if it.kind.cuts() && element.order.is_none() {
+            if movement.kind.cuts() && element.order.is_none() {
                 element.order = Some(next);
                 next += 1;
             }
