@@ -195,6 +195,7 @@ codes! {
     776 UncheckedFormula "unchecked-formula" Error "PB776: a correction formula whose probes or measured heights the program does not state, or a height that lacks one";
     777 Disagreement "disagreement" Warning "PB777: two places say different things: header and tool table, option and drawing, comments and moves";
     778 ForeignWord "foreign-word" Warning "PB778: a word that the post does not write and that is not followed";
+    779 UnnamedDialect "unnamed-dialect" Warning "PB779: a word on which dialects disagree, in a program whose dialect is not named";
 }
 
 impl Code {

@@ -187,4 +187,5 @@ pages! {
     UncheckedFormula "PB776" example;
     Disagreement "PB777" example;
     ForeignWord "PB778" example;
+    UnnamedDialect "PB779" example;
 }

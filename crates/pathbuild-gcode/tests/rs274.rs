@@ -11,7 +11,7 @@ use pathbuild_gcode::dialect::Dialect::LinuxCnc;
 use pathbuild_gcode::interpret::{Options, interpret};
 
 fn assert_same(program: &Path, name: &str, text: &str) {
-    assert_eq!(difference(program, text, LinuxCnc), None, "{name}");
+    assert_eq!(difference(program, text, text, LinuxCnc), None, "{name}");
 }
 
 #[test]

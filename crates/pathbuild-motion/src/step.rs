@@ -36,6 +36,8 @@ impl Step {
 pub enum Action {
     /// The tool moves, or would if it were not there already.
     Move(Move),
+    /// O: the number by which the control knows the program.
+    ProgramNumber(u32),
     /// A dwell, in seconds.
     Dwell(f64),
     /// T: selects the next tool.

@@ -7,12 +7,13 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts, nearest};
 
 use super::built_in::Language;
-use super::job::{Job, Operation};
+use super::job::{Job, Operation, Units};
 use super::options::{PostMacro, PostOptions};
 use super::origin::LineOrigin;
 use super::read_back::{self, Expected};
-use super::shadow::Unfollowed;
+use super::shadow::TranslatedText;
 use super::target::{self, Target};
+use super::words::{CommentMarks, first_other_line};
 use super::{cad6, cambam};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::too_large;
@@ -111,6 +112,29 @@ impl Post {
         Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
 
+    /// What a program of this post says, in the words of RS274: how [`write`](Self::write) reads one back where no dialect is named.
+    pub fn translate(&self, text: &[u8]) -> TranslatedText {
+        match &self.engine {
+            Engine::CamBam(definition) => cambam::translate(definition, text),
+            Engine::Cad6(definition) => cad6::translate(definition, text, Units::default()),
+        }
+    }
+
+    /// The first line, from 1, in which a program differs from another one of this post, and that one's line. Lines that are only a comment
+    /// in both are equal.
+    pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
+        let marks = match &self.engine {
+            Engine::CamBam(definition) => definition.comment_marks(),
+            Engine::Cad6(_) => CommentMarks::default(),
+        };
+        first_other_line(found, expected, &marks)
+    }
+
+    /// Whether axes of its programs are not those of the drawing: wrapped round a cylinder, or mirrored.
+    pub fn has_own_axes(&self) -> bool {
+        matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes())
+    }
+
     /// Writes a program.
     ///
     /// # Errors
@@ -128,14 +152,14 @@ impl Post {
             post_build: None,
         };
         let target = target.as_ref();
-        let (shadow, unfollowed, origins) = match &self.engine {
+        let (shadow, origins) = match &self.engine {
             Engine::CamBam(definition) => self.write_cambam(definition, job, target, options, &mut output)?,
             Engine::Cad6(definition) => {
                 let written = cad6::write(definition, &self.file, job, target, options)?;
                 output.text = written.text;
                 output.warnings.extend(written.warnings);
                 output.note_switches(&written.switches, job, options.spin_up);
-                (written.shadow, written.unfollowed, written.origins)
+                (written.shadow, written.origins)
             }
         };
         output.text = target::plain(&output.text, target, options.charset);
@@ -146,7 +170,7 @@ impl Post {
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
         let found = match refused {
             Some(errors) => Err(errors),
-            None => self.read_back(&output.text, (&shadow, &unfollowed), job, target, options),
+            None => self.read_back(&output.text, &shadow, job, target, options),
         };
         if options.unchecked {
             output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
@@ -166,7 +190,7 @@ impl Post {
     fn read_back(
         &self,
         text: &[u8],
-        (shadow, unfollowed): (&str, &[Unfollowed]),
+        shadow: &TranslatedText,
         job: &Job,
         target: Option<&Target>,
         options: &PostOptions<'_>,
@@ -178,15 +202,14 @@ impl Post {
         let half = 0.5 * libm::pow(10.0, -f64::from(decimals)) * self.unit(job) * (1.0 + 1e-6);
         // Some definitions round feeds to integers.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
-        let has_own_axes = matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes());
-        let target = target.filter(|_| !has_own_axes);
-        let (text, unfollowed) =
-            if target.is_some() { (text, &[][..]) } else { (shadow.as_bytes(), unfollowed) };
+        let target = target.filter(|_| !self.has_own_axes());
+        let translated = target.is_none().then_some(shadow);
+        let text = translated.map_or(text, |translated| translated.text.as_bytes());
         let tolerance = (!options.unchecked).then_some(tolerance);
         let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
         let machine = options.machine.as_ref();
         let is_flat = matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat());
-        read_back::check(text, job, &Expected { target, tolerance, machine, unfollowed, is_manual, is_flat })
+        read_back::check(text, job, &Expected { target, tolerance, machine, translated, is_manual, is_flat })
     }
 
     /// The output unit, in mm.
@@ -255,7 +278,7 @@ impl Post {
         target: Option<&Target>,
         options: &PostOptions<'_>,
         output: &mut Output,
-    ) -> Result<(String, Vec<Unfollowed>, Vec<LineOrigin>), Vec<Diagnostic>> {
+    ) -> Result<(TranslatedText, Vec<LineOrigin>), Vec<Diagnostic>> {
         let cambam::EngineOutput { text: written, post_build, leaves_out_coolant } =
             cambam::write(definition, &self.file, job, target, options)?;
         output.text = written.text.into_bytes();
@@ -272,7 +295,7 @@ impl Post {
             }
             command => output.post_build = command,
         }
-        Ok((written.shadow, written.unfollowed, written.origins))
+        Ok((written.shadow, written.origins))
     }
 }
 

@@ -62,8 +62,8 @@ impl Job {
         // If the beginning of a line is not a hole, the rest of it is not one either.
         let mut plain_line = None;
         while let Some((step, after)) = rest.split_first() {
-            // The word of a cycle precedes its moves.
-            if matches!(step.action, Action::Word(_)) {
+            // The word of a cycle stands in front of its moves.
+            if matches!(step.action, Action::Word(_) | Action::ProgramNumber(_)) {
                 rest = after;
                 continue;
             }
@@ -174,8 +174,12 @@ impl Builder {
                 }
             },
             Action::Stop { .. } => self.push(Step::Stop),
-            Action::SelectTool(_) | Action::System(_) | Action::Word(_) | Action::Change(_) | Action::End => {
-            }
+            Action::SelectTool(_)
+            | Action::System(_)
+            | Action::Word(_)
+            | Action::ProgramNumber(_)
+            | Action::Change(_)
+            | Action::End => {}
         }
     }
 

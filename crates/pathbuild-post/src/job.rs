@@ -33,7 +33,17 @@ pub struct Job {
     pub has_no_surface: bool,
 }
 
+/// The number of a program, where it is not configured: the first one in its name. Of 8001.1P it is 8001.
+pub fn program_number(name: &str) -> Option<u32> {
+    name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
+}
+
 impl Job {
+    /// The program's number: that in its name, else in its first part's.
+    pub(super) fn number(&self) -> Option<u32> {
+        program_number(&self.name).or_else(|| program_number(&self.operations.first()?.part))
+    }
+
     /// Checks that the job can be written: it has operations, and all its numbers are finite.
     pub(super) fn check(&self) -> Result<(), Box<Diagnostic>> {
         if self.operations.is_empty() {

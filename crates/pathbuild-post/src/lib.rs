@@ -32,10 +32,11 @@ mod words;
 pub use built_in::{BUILT_IN, BuiltIn, Language, load};
 pub use definition::{Output, Post};
 pub use from_steps::{Remark, is_of_head, native_remark};
-pub use job::{Entry, Job, Operation, Stock, Texts, Tool, Units, VelocityMode};
+pub use job::{Entry, Job, Operation, Stock, Texts, Tool, Units, VelocityMode, program_number};
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
 pub use reference::{Row, reference_table};
 pub use samples::samples;
+pub use shadow::{Doubt, DoubtfulWord, TranslatedText};
 pub use step::{Hole, HoleKind, Step};
 pub use tools::{ToolEntry, ToolTable};
 

@@ -8,7 +8,7 @@ use pathbuild_motion::{Action, Axes, Change, Move, Named, Pace, Path, Position, 
 use super::holes;
 use super::job::{Entry, Job, Operation};
 use super::origin::LineOrigin;
-use super::shadow::Unfollowed;
+use super::shadow::{Doubt, TranslatedText};
 use super::step::Step;
 use super::target::Target;
 use super::{spindle, ways};
@@ -25,9 +25,9 @@ pub(super) struct Expected<'a> {
     pub(super) tolerance: Option<Tolerance>,
     /// Capabilities of the machine.
     pub(super) machine: Option<&'a Machine>,
-    /// Words that cannot be followed, of a text without a target.
-    pub(super) unfollowed: &'a [Unfollowed],
-    /// Whether the operator switches the spindle.
+    /// What a text without a target says.
+    pub(super) translated: Option<&'a TranslatedText>,
+    /// The spindle is not switched by the program.
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
     pub(super) is_flat: bool,
@@ -40,7 +40,7 @@ pub(super) fn check(
     job: &Job,
     expected: &Expected<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let Expected { target, tolerance, machine, unfollowed, is_manual, is_flat } = expected;
+    let Expected { target, tolerance, machine, translated, is_manual, is_flat } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let read = interpret::interpret(text, reader, &Options::default());
     let mut problems: Vec<Diagnostic> =
@@ -67,16 +67,19 @@ pub(super) fn check(
         problems.extend(
             ways::check(&found, &wanted, clearance, tolerance).err().map(|movement| as_post_s(*movement)),
         );
-        for word in *unfollowed {
-            let found =
-                Diagnostic::new(&gcode::NOT_FOLLOWED).quoting("word", &*word.word).at_line(word.line, None);
-            if word.is_dangerous {
-                problems.push(as_post_s(found));
-            } else {
-                let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).quoting("word", &*word.word);
-                doubts.push(doubt.at_line(word.line, None));
+        for word in translated.iter().flat_map(|translated| &translated.doubtful) {
+            match word.doubt {
+                Doubt::Dangerous => {
+                    let found = Diagnostic::new(&gcode::NOT_FOLLOWED).quoting("word", &*word.word);
+                    problems.push(as_post_s(found.at_line(word.line, None)));
+                }
+                Doubt::Unknown => {
+                    let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).quoting("word", &*word.word);
+                    doubts.push(doubt.at_line(word.line, None));
+                }
             }
         }
+        doubts.extend(translated.and_then(disputed));
         if !is_manual {
             problems.extend(spindle::check(&read.steps, job, *is_flat).map(as_post_s));
         }
@@ -96,6 +99,13 @@ fn flat(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
         (*line, Move { from: level(movement.from), to: level(movement.to), ..*movement })
     });
     seen.filter(|(_, movement)| !movement.is_nothing() || movement.from.known != movement.to.known).collect()
+}
+
+/// One warning for all words on which dialects disagree.
+fn disputed(translated: &TranslatedText) -> Option<Diagnostic> {
+    let (line, names) = translated.disputed.as_ref()?;
+    let doubt = Diagnostic::new(&posts::DIALECTS_DISAGREE).quoting("words", names.join(", "));
+    Some(doubt.at_line(*line, None))
 }
 
 /// Reports words that select the origin of the program, about which the job says nothing.

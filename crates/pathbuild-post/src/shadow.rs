@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use pathbuild_gcode::interpret::{Disputes, UnionWord, code_name, union_word};
+
 use crate::job::Units;
 use crate::words::{Word, Words};
 
@@ -10,24 +12,45 @@ use crate::words::{Word, Words};
 pub(crate) struct Shadow {
     text: String,
     line: u32,
-    unfollowed: Vec<Unfollowed>,
-    /// Whether the blank of a Heidenhain program has been started (G30) and not completed (G31).
+    doubtful: Vec<DoubtfulWord>,
+    disputes: Disputes,
+    /// The blank of a Heidenhain program has begun (G30), and ends with G31.
     is_blank_open: bool,
 }
 
-/// A G or M word whose effect the shadow cannot express.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Unfollowed {
-    /// Line number, counted from 1.
-    pub(crate) line: u32,
-    /// Such as `G41`.
-    pub(crate) word: String,
-    /// Whether it changes the tool path or the program flow on some controls.
-    pub(crate) is_dangerous: bool,
+/// A program in the words of RS274/NGC, line for line as it was written in others.
+#[derive(Clone, Debug, Default)]
+pub struct TranslatedText {
+    /// For the reader of the dialect `LinuxCnc`.
+    pub text: String,
+    /// Words that were left out of it; of each the first.
+    pub doubtful: Vec<DoubtfulWord>,
+    /// Words that do something else on other controls, with the line of the first one.
+    pub disputed: Option<(u32, Vec<String>)>,
 }
 
-/// Maximum number reported.
-const MOST_UNFOLLOWED: usize = 20;
+/// A word whose effect the shadow does not have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DoubtfulWord {
+    /// From 1.
+    pub line: u32,
+    /// Such as `G41`.
+    pub word: String,
+    /// What is doubtful about it.
+    pub doubt: Doubt,
+}
+
+/// What is doubtful about a word where no dialect is named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// It is not followed, and changes where the tool goes on some controls, or what is run.
+    Dangerous,
+    /// It is not followed.
+    Unknown,
+}
+
+/// More of them are no news.
+const MOST_DOUBTFUL: usize = 20;
 
 impl Shadow {
     /// Creates an empty shadow. Unit and arc centres are those of the definition, until a line changes them.
@@ -35,7 +58,7 @@ impl Shadow {
         let units = if units == Units::Inches { "G20" } else { "G21" };
         let centres = if absolute_centres { "G90.1" } else { "G91.1" };
         let text = format!("{units} {centres} G90 G17 ");
-        Self { text, line: 1, unfollowed: Vec::new(), is_blank_open: false }
+        Self { text, line: 1, doubtful: Vec::new(), disputes: Disputes::default(), is_blank_open: false }
     }
 
     /// Adds a line with these words. `motion` is the G number of a macro in it. If one axis of the plane is reversed, the direction of arcs
@@ -56,12 +79,14 @@ impl Shadow {
             for word in &line.words {
                 match word.letter {
                     'G' => self.code(tenths(word), is_mirrored),
-                    'M' => self.switch(tenths(word)),
-                    'X' | 'Y' | 'Z' | 'I' | 'J' | 'K' | 'R' | 'F' | 'P' | 'Q' | 'L' => {
+                    'M' => self.follow('M', tenths(word)),
+                    'X' | 'Y' | 'Z' | 'I' | 'J' | 'K' | 'R' | 'F' | 'P' | 'Q' | 'L' | 'H' => {
                         self.word(word.letter, word.number);
                     }
                     'S' | 'T' if word.number >= 0.0 => self.word(word.letter, word.number),
-                    'A' | 'B' | 'C' | 'U' | 'V' | 'W' => self.report(word.letter.to_string(), false),
+                    'A' | 'B' | 'C' | 'U' | 'V' | 'W' => {
+                        self.report(word.letter.to_string(), Doubt::Unknown);
+                    }
                     _ => {}
                 }
             }
@@ -89,83 +114,37 @@ impl Shadow {
         begins || ends
     }
 
-    /// Handles an M word. The shadow follows spindle, coolant, tool, stops and ends.
-    fn switch(&mut self, tenths: i64) {
-        match tenths {
-            0 | 10 | 20 | 30 | 40 | 50 | 60 | 70 | 80 | 90 | 300 => {
-                #[expect(clippy::cast_precision_loss, reason = "codes are small")]
-                self.word('M', tenths as f64 / 10.0);
-            }
-            // Overrides, and pallets, which do not affect the moves.
-            480 | 490 | 600 => {}
-            _ => self.leave('M', tenths, matches!(tenths, 190 | 470 | 610 | 970..=990)),
-        }
-    }
-
-    fn leave(&mut self, letter: char, tenths: i64, is_dangerous: bool) {
-        let word = match tenths % 10 {
-            0 => format!("{letter}{}", tenths / 10),
-            tenth => format!("{letter}{}.{tenth}", tenths / 10),
-        };
-        self.report(word, is_dangerous);
-    }
-
-    fn report(&mut self, word: String, is_dangerous: bool) {
-        let is_known = self.unfollowed.iter().any(|known| known.word == word);
-        if !is_known && self.unfollowed.len() < MOST_UNFOLLOWED {
-            self.unfollowed.push(Unfollowed { line: self.line, word, is_dangerous });
-        }
-    }
-
-    /// Handles a G word that affects the moves. Units are those of RS274; those of DIN are translated.
+    /// A code that says where or how the tool moves. Where one axis is mirrored, arcs turn the other way.
     fn code(&mut self, tenths: i64, is_mirrored: bool) {
         let tenths = match tenths {
             20 if is_mirrored => 30,
             30 if is_mirrored => 20,
-            700 => 200,
-            710 => 210,
-            310 => 382,
             other => other,
         };
-        match tenths {
-            0
-            | 10
-            | 20
-            | 30
-            | 100
-            | 170
-            | 180
-            | 190
-            | 200
-            | 210
-            | 280
-            | 300
-            | 382..=385
-            | 520
-            | 530
-            | 540..=593
-            | 730
-            | 800
-            | 810
-            | 820
-            | 830
-            | 850
-            | 890
-            | 900
-            | 901
-            | 910
-            | 911
-            | 920..=923
-            | 940
-            | 980
-            | 990 => {
-                #[expect(clippy::cast_precision_loss, reason = "codes are small")]
-                self.word('G', tenths as f64 / 10.0);
+        self.follow('G', tenths);
+    }
+
+    fn follow(&mut self, letter: char, tenths: i64) {
+        let Ok(code) = u16::try_from(tenths) else {
+            return self.report(name(letter, tenths), Doubt::Dangerous);
+        };
+        self.disputes.add(self.line, letter, code);
+        match union_word(letter, code) {
+            UnionWord::Followed(code) => self.word(letter, f64::from(code) / 10.0),
+            UnionWord::Neutral => {}
+            UnionWord::NotFollowed { is_dangerous: true } => {
+                self.report(name(letter, tenths), Doubt::Dangerous);
             }
-            // Modes that are off anyway, or that do not affect the position of the tool tip: exact stops, rounded corners, lengths from
-            // the tool table.
-            40 | 80 | 90 | 150 | 281 | 301 | 400 | 430 | 490 | 500 | 610 | 611 | 640 | 690 | 970 => {}
-            _ => self.leave('G', tenths, true),
+            UnionWord::NotFollowed { is_dangerous: false } => {
+                self.report(name(letter, tenths), Doubt::Unknown);
+            }
+        }
+    }
+
+    fn report(&mut self, word: String, doubt: Doubt) {
+        let is_known = self.doubtful.iter().any(|known| known.word == word);
+        if !is_known && self.doubtful.len() < MOST_DOUBTFUL {
+            self.doubtful.push(DoubtfulWord { line: self.line, word, doubt });
         }
     }
 
@@ -173,13 +152,19 @@ impl Shadow {
         write!(self.text, "{letter}{number} ").expect("a String takes everything");
     }
 
-    /// Returns the program, and the words that it cannot express.
-    pub(crate) fn finish(self) -> (String, Vec<Unfollowed>) {
-        (self.text, self.unfollowed)
+    /// The program, and the words that are doubtful.
+    pub(crate) fn finish(self) -> TranslatedText {
+        let Self { text, doubtful, disputes, .. } = self;
+        TranslatedText { text, doubtful, disputed: disputes.finish() }
     }
 }
 
-/// Ten times the number of a code, or -10 if no code has such a number.
+/// What a code is called, given ten times its number.
+fn name(letter: char, tenths: i64) -> String {
+    u16::try_from(tenths).map_or_else(|_| letter.to_string(), |code| code_name(letter, code))
+}
+
+/// Ten times the number of a code; -10 for numbers that no code has.
 fn tenths(word: &Word) -> i64 {
     let tenths = (word.number * 10.0).round();
     #[expect(clippy::cast_possible_truncation, reason = "the range is checked")]

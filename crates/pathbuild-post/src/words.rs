@@ -52,6 +52,37 @@ impl CommentMarks {
     }
 }
 
+/// The first line, from 1, in which a program differs from another one, and that one's line. Lines that are only a comment count in neither;
+/// what opens a comment is what opens one in the other program, because a control may execute lines that look like comments elsewhere.
+pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMarks) -> Option<(u32, String)> {
+    let (found, expected) = (String::from_utf8_lossy(found), String::from_utf8_lossy(expected));
+    let openings: Vec<&str> = expected.lines().filter_map(|line| opening(line, marks)).collect();
+    let lines = |text: &str| -> Vec<(u32, String)> {
+        let numbered = (1_u32..).zip(text.split('\n').map(str::trim_end));
+        let is_code = |line: &str| {
+            !line.is_empty() && opening(line, marks).is_none_or(|opening| !openings.contains(&opening))
+        };
+        numbered.filter(|(_, line)| is_code(line)).map(|(number, line)| (number, line.to_owned())).collect()
+    };
+    let (found, expected) = (lines(&found), lines(&expected));
+    let same =
+        found.iter().zip(&expected).take_while(|((_, found), (_, expected))| found == expected).count();
+    if same == found.len() && same == expected.len() {
+        return None;
+    }
+    let line = found.get(same).or(found.last()).map_or(1, |(line, _)| *line);
+    Some((line, expected.get(same).map(|(_, text)| text.clone()).unwrap_or_default()))
+}
+
+/// The sign that opens the comment of a line that is nothing else. A control may end a line at a CR.
+fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
+    let line = line.trim();
+    let found = words(line, marks);
+    let is_comment = found.words.is_empty() && !found.has_more && !line.contains('\r');
+    let (length, _) = marks.at(line).filter(|_| is_comment)?;
+    Some(&line[..length])
+}
+
 fn after_comment<'a>(text: &'a str, marks: &CommentMarks) -> Option<&'a str> {
     let (open, close) = marks.at(text)?;
     let inside = &text[open..];

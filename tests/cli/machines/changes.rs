@@ -128,6 +128,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
     let mut rules = Rules::new(&Checks { stock: Some(&stock), machine: None });
     let drawn = Drawn {
         moves: program.moves(),
+        start: Position::known(0.0, 0.0, program.start_height()),
         clearance: program.start_height(),
         tool: ToolUse {
             number: Some(1),
@@ -135,6 +136,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
             speed: Some(SPEED),
             coolant: None,
         },
+        number: None,
         spin_up: 0.0,
     };
     let words = known_words();

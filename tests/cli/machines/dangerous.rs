@@ -1,10 +1,11 @@
 //! Random dangerous changes to programs of the example library: `verify --against`, run as by users, reports each. (book: program/reading)
 //!
 //! Programs are emitted natively and through every built-in post. Bytes, words, lines and comments are changed at random. Whether a change
-//! is dangerous is decided by independent readers if available: LinuxCNC's interpreter for linuxcnc, mach3, fanuc and haas, and the same
-//! with GRBL's line parsing for grbl and the native program. Other dialects are read by our own interpreter. A change is dangerous if a cut
-//! goes elsewhere or deeper, or is made under another offset, tool, length or spindle state, or if a rapid move below S0 goes elsewhere. If
-//! the reader rejects the program, nothing is cut, so the change does not count.
+//! is dangerous is decided by independent readers if available: LinuxCNC's interpreter for linuxcnc, mach3, fanuc, haas, estlcam and din, and
+//! the same with GRBL's line parsing for grbl and the native program. Marlin and XpertMILL are read by our own interpreter: gcode-toolpath
+//! follows the moves of Marlin, but neither its spindle nor its offsets. A change is dangerous if a cut goes elsewhere or deeper, or is made
+//! under another offset, tool, length or spindle state, or if a rapid move below S0 goes elsewhere. If the reader rejects the program,
+//! nothing is cut, so the change does not count.
 //!
 //! `PATHBUILD_DANGEROUS=10000` sets the number of changes, `PATHBUILD_DANGEROUS_SEED` the seed; undetected changes are listed by dialect.
 
@@ -38,8 +39,8 @@ const SAMPLED: usize = 10;
 /// Distance in mm: more than the tolerance of any dialect that is written with arcs.
 const ELSEWHERE: f64 = 0.01;
 
-/// Tolerance in mm of chords that replace a helix.
-const CHORDS: f64 = 0.1;
+/// Tolerance in mm of chords that replace a helix: three times that of the post.
+const CHORDS: f64 = 0.03;
 
 /// Short paths of the library with lines, arcs, bars, helices, holes, sweeps and subpaths.
 const PATHS: [&str; 6] = ["2050.1P", "2052.1P", "2056.1P", "2058.1P", "2062.1P", "2066.1P"];
@@ -274,34 +275,34 @@ struct Effect {
 }
 
 fn is_alike(before: &[Effect], after: &[Effect], dialect: Dialect) -> bool {
-    let has_arcs = dialect.rules().arcs.helix;
-    let slack = if has_arcs { ELSEWHERE } else { CHORDS };
-    let of = |effects: &[Effect]| if has_arcs { effects.to_vec() } else { without_chord_ends(effects) };
-    let (before, after) = (of(before), of(after));
-    before.len() == after.len()
-        && before.iter().zip(&after).all(|(a, b)| {
-            let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= slack;
-            (a.kind, &a.state) == (b.kind, &b.state) && a.numbers.iter().zip(&b.numbers).all(is_near)
-        })
+    if !dialect.rules().arcs.helix {
+        return are_alike_in_runs(before, after);
+    }
+    before.len() == after.len() && before.iter().zip(after).all(|(a, b)| is_same(a, b, ELSEWHERE))
 }
 
-/// Removes the ends of chords that lie between their neighbours, within the tolerance of chords: one chord less makes no difference there.
-fn without_chord_ends(effects: &[Effect]) -> Vec<Effect> {
-    let mut kept: Vec<Effect> = Vec::new();
-    for (index, effect) in effects.iter().enumerate() {
-        let is_chord = |other: Option<&Effect>| {
-            other.is_some_and(|other| (other.kind, &other.state) == (1, &effect.state) && effect.kind == 1)
-        };
-        let (before, after) = (kept.last(), effects.get(index + 1));
-        if is_chord(before)
-            && is_chord(after)
-            && before.zip(after).is_some_and(|(before, after)| distance(effect, before, after) < CHORDS / 2.0)
-        {
-            continue;
-        }
-        kept.push(effect.clone());
-    }
-    kept
+fn is_same(a: &Effect, b: &Effect, slack: f64) -> bool {
+    let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= slack;
+    (a.kind, &a.state) == (b.kind, &b.state) && a.numbers.iter().zip(&b.numbers).all(is_near)
+}
+
+/// The same where chords stand for helices: each run of straight cuts keeps near the other's line, wherever its chords end.
+fn are_alike_in_runs(before: &[Effect], after: &[Effect]) -> bool {
+    let is_chord = |a: &Effect, b: &Effect| (a.kind, b.kind) == (1, 1) && a.state == b.state;
+    let runs =
+        |all: &'_ [Effect]| -> Vec<Vec<Effect>> { all.chunk_by(is_chord).map(<[_]>::to_vec).collect() };
+    let (before, after) = (runs(before), runs(after));
+    let keeps_near = |run: &[Effect], other: &[Effect]| {
+        run.iter().all(|effect| {
+            let nearest = other.windows(2).map(|pair| distance(effect, &pair[0], &pair[1]));
+            nearest.fold(distance(effect, &other[0], &other[0]), f64::min) <= CHORDS
+        })
+    };
+    let is_same_run = |(one, other): (&Vec<Effect>, &Vec<Effect>)| {
+        let ends_alike = one.last().zip(other.last()).is_some_and(|(a, b)| is_same(a, b, CHORDS));
+        ends_alike && (one[0].kind != 1 || keeps_near(one, other) && keeps_near(other, one))
+    };
+    before.len() == after.len() && before.iter().zip(&after).all(is_same_run)
 }
 
 /// The distance of an effect's end from the line between two others.
@@ -318,8 +319,8 @@ fn read(reader: &Rs274, dialect: Dialect, text: &[u8]) -> Option<Vec<Effect>> {
     let text = match dialect {
         Dialect::Native | Dialect::Grbl => lines_of_grbl(text),
         Dialect::LinuxCnc => text.to_vec(),
-        Dialect::Mach3 | Dialect::Fanuc | Dialect::Haas => {
-            super::independent::common_words(str::from_utf8(text).ok()?).into_bytes()
+        Dialect::Mach3 | Dialect::Fanuc | Dialect::Haas | Dialect::Estlcam | Dialect::Din => {
+            super::independent::common_words(str::from_utf8(text).ok()?, dialect).into_bytes()
         }
         _ => return Some(our_effects(text, dialect)),
     };

@@ -38,6 +38,20 @@ messages! {
         help_en: "remove it, or check at the control what it does",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
+    /// As above, of a program that is read by its definition.
+    FOREIGN_TO_DEFINITION: ForeignWord {
+        en: "{word} is not checked: {post} does not write it, and what it does is not followed",
+        de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
+        help_en: "remove it, or check at the control what it does",
+        help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
+    }
+    /// Codes that are read as in RS274, while the dialect was chosen for want of a sign.
+    DIALECT_NOT_NAMED: UnnamedDialect {
+        en: "controls disagree on what {words} does; read as {dialect}",
+        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden; gelesen als {dialect}",
+        help_en: "name the control with --dialect",
+        help_de: "die Steuerung mit --dialect nennen",
+    }
     /// `verify --against`: no T word before the first cut.
     TOOL_NOT_CHOSEN: MovesDiffer {
         en: "the tool is not chosen before the first cut: the drawing's program says {expected}",
@@ -142,6 +156,20 @@ messages! {
         de: "das Werkzeug ist T{found}, für die Zeichnung ist es T{expected}",
         help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
+    }
+    /// `verify --against`, of a program whose definition writes words that are not followed.
+    LINE_NOT_WRITTEN: MovesDiffer {
+        en: "the definition writes \"{expected}\" here, and not all of its words are followed",
+        de: "die Definition schreibt hier \"{expected}\", und nicht alle ihre Wörter werden verfolgt",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: O.
+    NUMBERS_DIFFER: MovesDiffer {
+        en: "the program's number is O{found}, for the drawing it is O{expected}: on the control it may be another program's",
+        de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann sie einem anderen Programm gehören",
+        help_en: "write the program again with `pathbuild emit`; set `program-number` if the control has another number for it",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben; hat die Steuerung eine andere Nummer dafür, `program-number` setzen",
     }
     /// `verify --against`: another tool length offset (G43, H).
     LENGTHS_DIFFER: MovesDiffer {

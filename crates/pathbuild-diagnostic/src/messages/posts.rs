@@ -627,6 +627,13 @@ messages! {
         help_en: "name the dialect of the control in the definition, or with --dialect",
         help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
     }
+    /// Codes that are followed as in RS274 or DIN 66025.
+    DIALECTS_DISAGREE: DoubtfulPost {
+        en: "controls disagree on what {words} does, and no dialect is named",
+        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
+        help_en: "name the dialect of the control in the definition, or with --dialect",
+        help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
+    }
     /// A work offset such as G55.
     OFFSET_CHOSEN: DoubtfulPost {
         en: "the output selects a work offset of the machine ({word}), which determines the position of the drawing's zero",

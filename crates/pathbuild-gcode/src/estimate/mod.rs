@@ -43,6 +43,7 @@ pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
             | Action::Coolant(_)
             | Action::System(_)
             | Action::Word(_)
+            | Action::ProgramNumber(_)
             | Action::Change(_)
             | Action::Comment(_)
             | Action::End => {}

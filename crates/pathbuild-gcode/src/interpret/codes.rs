@@ -206,8 +206,8 @@ pub(super) fn is_cycle(code: u16) -> bool {
     matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890)
 }
 
-/// Name of a G or M code: `G1`, `G38.2`.
-pub(crate) fn name(letter: char, code: u16) -> String {
+/// What a G or M code, ten times its number, is called: `G1`, `G38.2`.
+pub fn name(letter: char, code: u16) -> String {
     match code % 10 {
         0 => format!("{letter}{}", code / 10),
         tenth => format!("{letter}{}.{tenth}", code / 10),

@@ -25,6 +25,19 @@ pub struct Evidence {
     pub reason: &'static Text,
     /// The line that contains it, counted from 1.
     pub line: Option<u32>,
+    /// What kind of evidence it is.
+    pub kind: EvidenceKind,
+}
+
+/// How certain a guess is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EvidenceKind {
+    /// The program's header names the dialect.
+    Header,
+    /// A line has a sign that only this dialect has.
+    Sign,
+    /// Other dialects know the program's words as well.
+    Words,
 }
 
 /// Guesses the dialect of a file from features that only one dialect has, otherwise from the dialect that accepts most of its words.
@@ -37,7 +50,10 @@ pub fn guess(text: &[u8]) -> Guess {
 fn by_header(head: &[u8]) -> Option<Guess> {
     let (provenance, _) = Provenance::of_head(head)?;
     let reason = &Text { en: "its header names it", de: "sein Kopf nennt es" };
-    Some(Guess { dialect: provenance.dialect?, evidence: Evidence { reason, line: None } })
+    Some(Guess {
+        dialect: provenance.dialect?,
+        evidence: Evidence { reason, line: None, kind: EvidenceKind::Header },
+    })
 }
 
 /// A feature of a dialect, with a function that detects it in a line.
@@ -110,7 +126,7 @@ fn by_sign(head: &[u8]) -> Option<Guess> {
     let lines = || (1_u32..).zip(head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
     SIGNS.iter().find_map(|&(dialect, has_sign, reason)| {
         let (line, _) = lines().find(|(_, line)| has_sign(line))?;
-        Some(Guess { dialect, evidence: Evidence { reason, line: Some(line) } })
+        Some(Guess { dialect, evidence: Evidence { reason, line: Some(line), kind: EvidenceKind::Sign } })
     })
 }
 
@@ -126,7 +142,10 @@ fn by_words(head: &[u8]) -> Guess {
     } else {
         &Text { en: "it knows most of the words", de: "es kennt die meisten Wörter" }
     };
-    Guess { dialect: dialect.unwrap_or(Dialect::Rs274), evidence: Evidence { reason, line: None } }
+    Guess {
+        dialect: dialect.unwrap_or(Dialect::Rs274),
+        evidence: Evidence { reason, line: None, kind: EvidenceKind::Words },
+    }
 }
 
 fn unknown_words(head: &[u8], dialect: Dialect) -> usize {

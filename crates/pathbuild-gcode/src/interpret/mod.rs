@@ -21,6 +21,7 @@ mod options;
 mod places;
 mod state;
 mod switches;
+mod union;
 mod words;
 
 use std::ops::ControlFlow;
@@ -29,9 +30,10 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 use pathbuild_motion::{Move, Step};
 
-pub(crate) use codes::name as code_name;
-pub use guess::{Evidence, Guess, guess};
+pub use codes::name as code_name;
+pub use guess::{Evidence, EvidenceKind, Guess, guess};
 pub use options::{Heights, MachineOffsets, Options, UnitCodes};
+pub use union::{Disputes, UnionWord, union_word};
 
 use crate::dialect::Dialect;
 use crate::read::BlockReader;

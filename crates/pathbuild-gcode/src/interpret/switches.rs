@@ -105,7 +105,7 @@ impl Interpreter<'_> {
 
     fn is_unfollowed(&self, m_code: u16) -> bool {
         let is_own = self.rules.words.own_m_codes && (1000..2000).contains(&m_code);
-        M_NOT_FOLLOWED.contains(&m_code) || is_own
+        is_jump(m_code) || is_own
     }
 
     pub(super) fn dwell(&mut self, block: &Block<'_>) {
@@ -135,12 +135,13 @@ impl Interpreter<'_> {
     /// Handles O, the program number, which may occur once at the beginning.
     pub(super) fn program_number(&mut self, block: &Block<'_>) {
         let Some(slot) = self.words.values.take_slot(b'O') else { return };
-        if whole(slot.value).is_none_or(|number| number == 0) {
+        let Some(number) = whole(slot.value).filter(|number| *number > 0) else {
             return self.out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
-        }
+        };
         if std::mem::replace(&mut self.state.stated.program_number, true) {
-            self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.quoting("word", "O"));
+            return self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.quoting("word", "O"));
         }
+        self.step(block, Action::ProgramNumber(number));
     }
 
     pub(super) fn modes(&mut self, block: &Block<'_>) {
@@ -236,6 +237,11 @@ impl Interpreter<'_> {
             self.report(block, &say::STOP_BEFORE_MOTION, span, |d| d.quoting("word", codes::name('M', code)));
         }
     }
+}
+
+/// Whether an M code changes which line is run next, or what G words mean.
+pub(super) fn is_jump(m_code: u16) -> bool {
+    M_NOT_FOLLOWED.contains(&m_code)
 }
 
 /// Whether the effect of an M code is followed: stops, tools, spindle, coolant.

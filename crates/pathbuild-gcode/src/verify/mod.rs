@@ -23,7 +23,7 @@ mod words;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::Step;
 
-pub use against::{Against, Clamps, Drawn, PastClamps, ToolUse};
+pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
 pub use coarse::coarse_arcs;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};

@@ -29,6 +29,10 @@ pub struct PostWords {
     first_places: BTreeSet<u16>,
     /// The greatest feed of its rapid moves in mm/min, if it depends on F.
     rapid_feed: Option<f64>,
+    /// Words that the reader leaves out, where the post's programs are read by its definition.
+    others: BTreeSet<String>,
+    /// The definition that writes it, where no dialect is named.
+    definition: Option<String>,
     /// Whether it lets the control round corners without limit.
     rounds_freely: bool,
     /// Whether its first move in the plane begins at a height specified by the program; `None` before that move.
@@ -103,6 +107,31 @@ impl PostWords {
             Action::Change(Change::Corners(Corners::Rounded(None))) => self.rounds_freely = true,
             _ => {}
         }
+    }
+
+    /// The words of a definition without a dialect, called by its name: it also writes words that the reader leaves out.
+    pub fn of_definition(self, name: &str, others: impl IntoIterator<Item = String>) -> Self {
+        Self { others: others.into_iter().collect(), definition: Some(name.to_owned()), ..self }
+    }
+
+    /// Whether they are the words of a definition without a dialect: the control is unknown.
+    pub(super) fn is_of_definition(&self) -> bool {
+        self.definition.is_some()
+    }
+
+    /// Whether the post writes a word that the reader leaves out.
+    fn has_other(&self, word: &str) -> bool {
+        self.others.contains(word)
+    }
+
+    /// What is said of a word that is not known.
+    fn foreign(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
+        let severity = if is_strict { Severity::Error } else { Severity::Warning };
+        let found = match &self.definition {
+            Some(name) => Diagnostic::new(&say::FOREIGN_TO_DEFINITION).quoting("post", name.as_str()),
+            None => Diagnostic::new(&say::FOREIGN_WORD).quoting("dialect", dialect.name()),
+        };
+        Diagnostic { severity, ..found.quoting("word", word) }
     }
 
     /// Whether the post writes a word, with its code multiplied by ten.
@@ -211,12 +240,19 @@ impl<'w> WordRules<'w> {
         if !is_new && !self.is_strict {
             return;
         }
-        let severity = if self.is_strict { Severity::Error } else { Severity::Warning };
-        self.problems.add_at_line(&say::FOREIGN_WORD, line, |d| {
-            let d =
-                d.quoting("word", code_name(word.letter, word.code)).quoting("dialect", self.dialect.name());
-            Diagnostic { severity, ..d }
-        });
+        self.report_name(line, code_name(word.letter, word.code));
+    }
+
+    /// A word that the reader leaves out, where the program is read by its post's definition.
+    pub fn left_out(&mut self, line: u32, word: &str) {
+        if !self.words.has_other(word) {
+            self.report_name(line, word.to_owned());
+        }
+    }
+
+    fn report_name(&mut self, line: u32, word: String) {
+        let (words, dialect, is_strict) = (self.words, self.dialect, self.is_strict);
+        self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign(word, dialect, is_strict));
     }
 
     /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height; if the post

@@ -16,7 +16,8 @@ pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
 /// The same with options.
 pub(crate) fn trace_with(dialect: Dialect, program: &str, options: &Options) -> Vec<String> {
     let steps = interpret(program.as_bytes(), dialect, options).steps;
-    let is_shown = |step: &&Step| !matches!(step.action, Action::Change(_) | Action::Word(_));
+    let is_shown =
+        |step: &&Step| !matches!(step.action, Action::Change(_) | Action::Word(_) | Action::ProgramNumber(_));
     steps.iter().filter(is_shown).map(step_text).collect()
 }
 
@@ -89,6 +90,7 @@ fn step_text(step: &Step) -> String {
         Action::Coolant(coolant) => format!("coolant mist={} flood={}", coolant.mist, coolant.flood),
         Action::System(system) => format!("system {}", system.name()),
         Action::Word(word) => format!("word {}{}", word.letter, f64::from(word.code) / 10.0),
+        Action::ProgramNumber(number) => format!("number {number}"),
         Action::Change(change) => format!("{change:?}"),
         Action::Comment(text) => format!("({text})"),
         Action::Stop { optional } => format!("stop optional={optional}"),

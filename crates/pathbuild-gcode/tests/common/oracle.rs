@@ -170,13 +170,14 @@ fn agree(theirs: &Call, ours: &Call) -> bool {
     }
 }
 
-/// The first difference between both for a program. `None` if they agree and the program moves at all.
-pub(crate) fn difference(program: &Path, text: &str, dialect: Dialect) -> Option<String> {
-    let oracle = ask(program, text);
+/// Returns the first difference between rs274's reading of a program and ours, or `None` if they agree and the program moves at all. rs274 may
+/// be given other words for the same.
+pub(crate) fn difference(program: &Path, theirs: &str, ours: &str, dialect: Dialect) -> Option<String> {
+    let oracle = ask(program, theirs);
     if let Some(refusal) = oracle.refusal {
         return Some(format!("rs274 refuses it: {refusal}"));
     }
-    let ours = our_calls(text, dialect);
+    let ours = our_calls(ours, dialect);
     for (index, (theirs, ours)) in oracle.calls.iter().zip(&ours).enumerate() {
         if !agree(theirs, ours) {
             return Some(format!("move {index}: rs274 {theirs:?}, ours {ours:?}"));

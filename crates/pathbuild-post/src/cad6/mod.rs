@@ -37,18 +37,16 @@ use super::PostOptions;
 use super::guard::Guard;
 use super::job::{Job, Units};
 use super::origin::LineOrigin;
-use super::shadow::{Shadow, Unfollowed};
+use super::shadow::{Shadow, TranslatedText};
 use super::target::Target;
 use super::words::{CommentMarks, words};
 
 /// The output of the engine.
 pub(super) struct EngineOutput {
     pub(super) text: Vec<u8>,
-    /// The meaning of the text in RS274 words.
-    pub(super) shadow: String,
-    /// Words of the text that the shadow cannot express.
-    pub(super) unfollowed: Vec<Unfollowed>,
-    /// For each line of the text.
+    /// What the text says, in the words of RS274.
+    pub(super) shadow: TranslatedText,
+    /// Of each line.
     pub(super) origins: Vec<LineOrigin>,
     /// Doubtful constructs.
     pub(super) warnings: Vec<Diagnostic>,
@@ -73,12 +71,13 @@ pub(super) fn write(
     let called = runner.called();
     let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
     let (text, origins, warnings) = runner.finish();
-    let (shadow, unfollowed) = shadow(&text, definition.units().unwrap_or(job.units));
-    Ok(EngineOutput { text, shadow, unfollowed, origins, warnings, switches })
+    let shadow = translate(definition, &text, job.units);
+    Ok(EngineOutput { text, shadow, origins, warnings, switches })
 }
 
-fn shadow(text: &[u8], units: Units) -> (String, Vec<Unfollowed>) {
-    let mut shadow = Shadow::new(units, false);
+/// What a text says, in the words of RS274. `units` are those of the job, where the definition names none.
+pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> TranslatedText {
+    let mut shadow = Shadow::new(definition.units().unwrap_or(units), false);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let code = line.find("//").map_or(&*line, |comment| &line[..comment]);

@@ -11,6 +11,10 @@ use super::section::Section;
 use super::writer::{WriteResult, Writer};
 use crate::step::{Hole, HoleKind, Step};
 
+/// What a control keeps of a cycle only until its end: the next one states it again.
+const FORGOTTEN: [Register; 6] =
+    [Register::X, Register::Y, Register::Z, Register::R, Register::P, Register::Q];
+
 impl<'a> Writer<'a> {
     /// Writes the holes at the beginning of some steps as one group and returns the remaining steps.
     pub(super) fn cycles(&mut self, steps: &'a [Step]) -> Result<&'a [Step], Box<Diagnostic>> {
@@ -20,7 +24,7 @@ impl<'a> Writer<'a> {
         self.go(Section::Rapid, [None, None, Some(first.level)], MoveValues::default())?;
         self.go(Section::Rapid, [Some(first.at[0]), Some(first.at[1]), None], MoveValues::default())?;
         self.lines_of(Section::CannedCycleStart)?;
-        self.machine.forget(&[Register::X, Register::Y, Register::Z, Register::R]);
+        self.machine.forget(&FORGOTTEN);
         for step in group {
             match as_hole(step) {
                 Some(hole) => self.cycle(hole)?,

@@ -10,12 +10,13 @@ use roxmltree::{Document, Node, ParsingOptions};
 use super::macros::{Macro, State, Value};
 use super::names::MacroArguments;
 use super::options::{Options, Refusal};
-use super::registers::{Form, Register};
+use super::registers::{Code, Form, Register};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::findings::{Findings, LineStarts};
 use crate::job::Units;
 use crate::number::FEWEST_DECIMALS;
+use crate::words::{CommentMarks, words};
 
 /// A definition as it is in its file.
 #[derive(Clone, Debug)]
@@ -153,6 +154,20 @@ impl Definition {
     pub(super) fn section(&self, section: Section) -> &Template {
         let index = section as usize;
         self.sections[index].as_ref().unwrap_or(&self.defaults[index])
+    }
+
+    /// The signs that begin and end its comments.
+    pub(crate) fn comment_marks(&self) -> CommentMarks {
+        let mark = |section| self.section(section).literal().trim().to_owned();
+        CommentMarks { open: mark(Section::Comment), close: mark(Section::EndComment) }
+    }
+
+    /// Its words for motions that are no G words, each with the number of the G word that it stands for.
+    pub(super) fn own_motions(&self) -> Vec<(u32, String)> {
+        let text = |code: Code| self.section(code.section()).literal().trim().to_owned();
+        let is_own = |word: &str| !word.is_empty() && words(word, &CommentMarks::default()).words.is_empty();
+        let all = Code::ALL.into_iter().map(|code| (code.number(), text(code)));
+        all.filter(|(_, word)| is_own(word)).collect()
     }
 
     /// All templates of the file, and the defaults of absent elements.

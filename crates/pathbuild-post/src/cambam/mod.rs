@@ -35,8 +35,10 @@ use template::Template;
 use writer::{Writer, WrittenText};
 
 use super::PostOptions;
-use super::job::Job;
+use super::job::{Job, Units};
+use super::shadow::{Shadow, TranslatedText};
 use super::target::Target;
+use super::words::words;
 
 /// Writes a job, which must contain operations.
 pub(super) fn write(
@@ -51,6 +53,21 @@ pub(super) fn write(
     let post_build = command::post_build(definition, file, job, options).map_err(one)?;
     let text = Writer::new(&plan).run().map_err(one)?;
     Ok(EngineOutput { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
+}
+
+/// What a text of this definition says, in the words of RS274. A line that has the definition's own word for a motion, which is no G word,
+/// moves so.
+pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText {
+    let marks = definition.comment_marks();
+    let own_words = definition.own_motions();
+    let mut shadow = Shadow::new(Units::default(), definition.options.absolute_centres);
+    for line in text.split(|&byte| byte == b'\n') {
+        let line = String::from_utf8_lossy(line);
+        let motion =
+            own_words.iter().find(|(_, word)| line.contains(word.as_str())).map(|(number, _)| *number);
+        shadow.line(&words(&line, &marks), motion, false);
+    }
+    shadow.finish()
 }
 
 /// The output of the engine.

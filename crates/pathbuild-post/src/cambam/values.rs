@@ -8,7 +8,7 @@ use super::plan::framed;
 use super::registers::Register;
 use super::section::Section;
 use super::writer::{WriteResult, Writer};
-use crate::job::{Job, Stock};
+use crate::job::Stock;
 use crate::step::{Hole, HoleKind};
 
 impl Writer<'_> {
@@ -19,9 +19,7 @@ impl Writer<'_> {
         match value {
             Value::FileName => Some(self.plan.job.name.to_string()),
             Value::ProgramNumber => {
-                let Job { name, operations, .. } = self.plan.job;
-                let of_name = || first_number(name).or_else(|| first_number(&operations.first()?.part));
-                let number = self.plan.options.program_number.or_else(of_name);
+                let number = self.plan.options.program_number.or_else(|| self.plan.job.number());
                 number.map(|number| format!("{number:04}"))
             }
             Value::Date => self.plan.options.date.as_deref().map(str::to_owned),
@@ -95,11 +93,6 @@ impl Writer<'_> {
             .quoting("operation", &*self.operation().name);
         Err(Box::new(self.plan.locate(diagnostic, section, line)))
     }
-}
-
-/// The first number in a name, such as 8001 in 8001.1P.
-fn first_number(name: &str) -> Option<u32> {
-    name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
 }
 
 fn dwell(hole: &Hole) -> Option<f64> {

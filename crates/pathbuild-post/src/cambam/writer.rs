@@ -18,7 +18,7 @@ use crate::guard::Guard;
 use crate::job::{Feeds, Operation, Tool};
 use crate::number::NumberFormat;
 use crate::origin::LineOrigin;
-use crate::shadow::{Shadow, Unfollowed};
+use crate::shadow::{Shadow, TranslatedText};
 use crate::words::{CommentMarks, Word, Words, words};
 
 /// Success, or the diagnostic that aborts writing.
@@ -27,11 +27,9 @@ pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 /// The output of a writer.
 pub(crate) struct WrittenText {
     pub(crate) text: String,
-    /// The meaning of the text in RS274 words.
-    pub(crate) shadow: String,
-    /// Words of the text that the shadow cannot express.
-    pub(crate) unfollowed: Vec<Unfollowed>,
-    /// For each line of the text.
+    /// What the text says, in the words of RS274.
+    pub(crate) shadow: TranslatedText,
+    /// Of each line.
     pub(crate) origins: Vec<LineOrigin>,
     /// Doubtful constructs.
     pub(crate) warnings: Vec<Diagnostic>,
@@ -110,19 +108,12 @@ impl<'a> Writer<'a> {
             open: Vec::new(),
             fuel: fuel(plan),
         };
-        writer.marks = CommentMarks {
-            open: writer.marks_of(Section::Comment),
-            close: writer.marks_of(Section::EndComment),
-        };
+        writer.marks = plan.definition.comment_marks();
         writer.guard = Guard::new(plan.target, writer.marks.clone(), plan.options.charset);
         writer
     }
 
-    fn marks_of(&self, section: Section) -> String {
-        self.plan.definition.section(section).literal().trim().to_owned()
-    }
-
-    /// Writes everything and returns the text, its shadow and the warnings.
+    /// The text of the whole file, its shadow, and what is doubtful in it.
     pub(super) fn run(mut self) -> Result<WrittenText, Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
@@ -132,9 +123,8 @@ impl<'a> Writer<'a> {
         if let Some([least, most]) = self.angles.filter(|[least, most]| most - least > FULL_TURN) {
             self.warn(Diagnostic::new(&posts::WRAPPED_TWICE).with("degrees", most - least));
         }
-        let (shadow, unfollowed) = self.shadow.finish();
-        let Self { origins, warnings, .. } = self;
-        Ok(WrittenText { text: self.lines.finish(), shadow, unfollowed, origins, warnings })
+        let Self { lines, shadow, origins, warnings, .. } = self;
+        Ok(WrittenText { text: lines.finish(), shadow: shadow.finish(), origins, warnings })
     }
 
     /// The feeds of the current operation.

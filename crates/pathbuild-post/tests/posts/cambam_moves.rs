@@ -396,6 +396,15 @@ fn a_hole_that_ends_lower_than_it_began_is_no_cycle() {
 }
 
 #[test]
+fn a_cycle_states_what_the_control_forgot_at_the_end_of_the_last_one() {
+    let peck = |x: f64| Step::Hole(hole(x, HoleKind::Peck { depth: 1.5 }));
+    let steps = vec![peck(0.0), rapid(20.0, 0.0, 5.0), peck(30.0)];
+    let lines = lines_with(&bare(""), &job(steps), &PostOptions { cycles: true, ..PostOptions::default() });
+    let cycles: Vec<&String> = lines.iter().filter(|line| line.starts_with("G83")).collect();
+    assert_eq!(cycles, ["G83 X0.0 Y0.0 Z-3.0 Q1.5 R1.0 F60.0", "G83 X30.0 Y0.0 Z-3.0 Q1.5 R1.0"]);
+}
+
+#[test]
 fn holes_are_moves_where_cycles_are_not_asked_for() {
     let steps = vec![Step::Hole(hole(8.0, HoleKind::Peck { depth: 3.0 }))];
     let expected = ["G0 X8.0", "G0 Z1.0", "G1 F60.0 Z-2.0", "G0 Z1.0", "G0 Z-1.746", "G1 Z-3.0", "G0 Z5.0"];

@@ -15,7 +15,9 @@ use pathbuild_diagnostic::messages::posts as messages;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::{Machine, PostWords};
-use pathbuild_post::{BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable, samples};
+use pathbuild_post::{
+    BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable, TranslatedText, samples,
+};
 
 use crate::config::{Origin, types};
 use crate::machine::machine;
@@ -233,7 +235,34 @@ impl PostProcessor {
             let output = self.write_with(&job, None, true, &mut Vec::new());
             output.ok().map(|output| output.text)
         });
-        PostWords::of_programs(written, dialect)
+        if !self.is_read_by_definition() {
+            return PostWords::of_programs(written, dialect);
+        }
+        let translated: Vec<TranslatedText> = written.map(|text| self.post.translate(&text)).collect();
+        let left_out = translated.iter().flat_map(|it| &it.doubtful).map(|word| word.word.clone());
+        PostWords::of_programs(translated.iter().map(|it| &it.text), dialect)
+            .of_definition(&self.name(), left_out)
+    }
+
+    /// A program of this post in the words of RS274, as the definition tells; `None` if its dialect tells.
+    pub fn translate(&self, text: &[u8]) -> Option<TranslatedText> {
+        self.is_read_by_definition().then(|| self.post.translate(text))
+    }
+
+    /// Whether no dialect tells what its words mean, or its axes are not those of the drawing.
+    fn is_read_by_definition(&self) -> bool {
+        self.reader().is_none() || self.post.has_own_axes()
+    }
+
+    /// The name of the definition's file.
+    pub fn name(&self) -> String {
+        self.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default().to_owned()
+    }
+
+    /// The first line, from 1, in which a program differs from another one of this post, and that one's line. Lines that are only a comment
+    /// in both are equal.
+    pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
+        self.post.first_other_line(found, expected)
     }
 
     fn write_with(
@@ -291,17 +320,17 @@ impl PostProcessor {
     }
 }
 
-/// The words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else of the configured one, if
-/// it writes this dialect; else of the built-in post for the dialect.
+/// The words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else of the built-in post for
+/// the dialect.
 pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: Dialect) -> PostWords {
     if let Some(post_processor) = wrote {
         return post_processor.words(dialect);
     }
-    let for_run = |name| PostProcessor::for_run(context, name, PostArguments::default()).ok().flatten();
-    let writes_it =
-        |post_processor: &PostProcessor| post_processor.reader().is_none_or(|reader| reader == dialect);
-    let post_processor = for_run(None).filter(writes_it).or_else(|| for_run(Some(dialect.name())));
-    post_processor.map_or_else(|| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
+    let built_in = PostProcessor::for_run(context, Some(dialect.name()), PostArguments::default());
+    built_in
+        .ok()
+        .flatten()
+        .map_or_else(|| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
 }
 
 /// Whether the name of a post is a file name: it has an extension or a directory.

@@ -4,15 +4,18 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::messages::{files, gcode};
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    Evidence, Heights, Interpretation, Options, Text, UnitCodes, guess, interpret_until,
+    Disputes, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, UnitCodes, guess,
+    interpret_until,
 };
 use pathbuild_gcode::read::quote;
-use pathbuild_motion::Step;
+use pathbuild_motion::{Action, StatedWord, Step};
+use pathbuild_post::{DoubtfulWord, TranslatedText};
 use pathbuild_toolpath::memory;
+use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 
 use crate::args::{ReadingArgs, UnitCodesArg};
 use crate::context::Context;
@@ -28,9 +31,24 @@ pub(super) struct Program {
     pub(super) dialect: Dialect,
     /// The evidence for the dialect, if it was guessed.
     pub(super) evidence: Option<Evidence>,
+    /// The dialect that was named or guessed. A program that is read by a definition is read in another.
+    pub(super) shown: Dialect,
     /// Steps and diagnostics.
     pub(super) read: Interpretation,
+    /// How it was read, if by the definition that wrote it instead of a dialect.
+    pub(super) by_definition: Option<ByDefinition>,
     options: Options,
+}
+
+/// Translates a text by the definition that wrote it, if one is known; it gets the guess if no dialect is named.
+pub(super) type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
+
+/// A program read by the definition that wrote it.
+pub(super) struct ByDefinition {
+    /// The definition's name.
+    pub(super) name: String,
+    /// The program in the words of RS274, line for line.
+    pub(super) translated: TranslatedText,
 }
 
 impl Program {
@@ -45,7 +63,7 @@ impl Program {
     ) -> Result<Self, Box<Diagnostic>> {
         let (mut steps, limit) = (Vec::new(), context.settings.limits.program_memory.value);
         let mut stopped = None;
-        let mut program = Self::open_until(context, file, args, &mut |step| {
+        let mut program = Self::open_until(context, file, args, &|_, _| None, &mut |step| {
             if memory(steps.len() as u64 + 1) > limit {
                 stopped = Some(step.line);
                 return ControlFlow::Break(());
@@ -62,7 +80,8 @@ impl Program {
         Ok(program)
     }
 
-    /// Reads a file and passes on its steps without keeping them; large programs are interpreted again instead.
+    /// Reads a file and passes on its steps without keeping them; large programs are interpreted again instead. `definition` translates the
+    /// text if a post's definition says what its words mean; it gets the guess if no dialect is named.
     ///
     /// # Errors
     /// If the file cannot be read at all.
@@ -70,9 +89,10 @@ impl Program {
         context: &Context,
         file: &Utf8Path,
         args: &ReadingArgs,
+        definition: &Translate<'_>,
         each: &mut dyn FnMut(Step),
     ) -> Result<Self, Box<Diagnostic>> {
-        Self::open_until(context, file, args, &mut |step| {
+        Self::open_until(context, file, args, definition, &mut |step| {
             each(step);
             ControlFlow::Continue(())
         })
@@ -82,6 +102,7 @@ impl Program {
         context: &Context,
         file: &Utf8Path,
         args: &ReadingArgs,
+        definition: &Translate<'_>,
         each: &mut dyn FnMut(Step) -> ControlFlow<()>,
     ) -> Result<Self, Box<Diagnostic>> {
         let limit = context.settings.limits.file_size.value;
@@ -90,19 +111,57 @@ impl Program {
             .read(file, limit)
             .map_err(|error| Box::new(error.diagnostic(limit, "file-size").in_file(file)))?;
         let guessed = args.dialect.is_none().then(|| guess(&text));
+        let by_definition = definition(&text, guessed.as_ref());
         let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
+        let shown = dialect;
+        let dialect = if by_definition.is_some() { Dialect::LinuxCnc } else { dialect };
         let options = options(context, args);
-        let mut problems = interpret_until(&text, dialect, &options, each);
+        let mut disputes = Disputes::default();
+        let code = by_definition.as_ref().map_or(&*text, |by| by.translated.text.as_bytes());
+        let mut problems = interpret_until(code, dialect, &options, &mut |step| {
+            if let Action::Word(StatedWord { letter, code, .. }) = step.action {
+                disputes.add(step.line, letter, code);
+            }
+            each(step)
+        });
+        if by_definition.is_some() {
+            // When M5 acts is for the dialect to say.
+            problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
+            // Columns are those of the translation.
+            for problem in &mut problems {
+                problem.text = None;
+                problem.place.column = None;
+            }
+        }
+        let is_weak = guessed.is_some_and(|guess| guess.evidence.kind == EvidenceKind::Words);
+        if is_weak && by_definition.is_none() {
+            problems.extend(dialect_not_named(&disputes, dialect));
+        }
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
         let read = Interpretation { steps: Vec::new(), problems };
-        Ok(Self { file: file.to_owned(), text, dialect, evidence, read, options })
+        Ok(Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options })
     }
 
     /// The program at its nominal heights, without the correction formulas.
     pub(super) fn drawn(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
-        Text { text: &self.text, dialect: self.dialect, options }
+        Text { text: self.code(), dialect: self.dialect, options }
+    }
+
+    /// The text that is read in its dialect.
+    pub(super) fn code(&self) -> &[u8] {
+        self.by_definition.as_ref().map_or(&self.text, |by| by.translated.text.as_bytes())
+    }
+
+    /// Words that the reader of its definition leaves out.
+    pub(super) fn words_left_out(&self) -> impl Iterator<Item = &DoubtfulWord> {
+        self.by_definition.iter().flat_map(|by| &by.translated.doubtful)
+    }
+
+    /// The name of the dialect or the definition by which it was read.
+    pub(super) fn manner(&self) -> &str {
+        self.by_definition.as_ref().map_or_else(|| self.dialect.name(), |by| &by.name)
     }
 
     /// Adds the file, and the line of text, to diagnostics.
@@ -117,8 +176,8 @@ impl Program {
 
     /// The dialect, and why it was guessed.
     pub(super) fn read_as(&self, context: &Context) -> String {
-        let mut text = self.dialect.to_string();
-        if let Some(evidence) = self.evidence {
+        let mut text = self.manner().to_owned();
+        if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
             let reason = evidence.reason.in_lang(context.lang());
             _ = write!(text, " ({}: {reason}", context.choose("guessed", "vermutet"));
             if let Some(line) = evidence.line {
@@ -129,10 +188,38 @@ impl Program {
         text
     }
 
+    /// The first line whose moves are unknown, such as a call of a subprogram: lengths and times are then unknown as well.
+    pub(super) fn first_unfollowed_line(&self) -> Option<u32> {
+        let is_unfollowed =
+            |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;
+        self.read.problems.iter().find(is_unfollowed).map(|problem| problem.place.line.unwrap_or(0))
+    }
+
+    /// The program as a path of a scene. It has no totals if some of its moves are unknown.
+    pub(super) fn scene_path(&self, context: &Context) -> ScenePath {
+        let source = GcodeSource {
+            file: self.file.as_str(),
+            steps: &self.read.steps,
+            text: &self.text,
+            tool: None,
+            rapid: context.settings.general.rapid.value,
+        };
+        let path = gcode_path(&source);
+        let totals = path.totals.filter(|_| self.first_unfollowed_line().is_none());
+        ScenePath { totals, ..path }
+    }
+
     /// Number of lines.
     pub(super) fn lines(&self) -> usize {
         self.text.split_inclusive(|byte| *byte == b'\n').count()
     }
+}
+
+/// PB779: words on which the dialects disagree that a program may be in.
+fn dialect_not_named(disputes: &Disputes, dialect: Dialect) -> Option<Diagnostic> {
+    let (line, words) = disputes.finish()?;
+    let found = Diagnostic::new(&gcode::DIALECT_NOT_NAMED).quoting("words", words.join(", "));
+    Some(found.quoting("dialect", dialect.name()).at_line(line, None))
 }
 
 /// PB005: the program has more steps than an emitted program may have moves.

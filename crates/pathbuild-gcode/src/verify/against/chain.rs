@@ -1,10 +1,8 @@
 //! Checks the rapid moves between two cuts.
 //!
-//! They must equal those of the drawing point by point, since whoever changed a program may have changed any of them. (The output of posts
-//! is
-//! compared less strictly, because a definition may retract the tool higher: see `ways` in pathbuild-post.) Only before the first of these
-//! moves and after
-//! the last cut, a program may go to machine positions, where the tool is at S0 or above and there are no obstacles.
+//! It is the way that is expected, point for point, because an editor may have changed any of them. (What posts write is held against what
+//! a way may touch, since a definition may lift the tool higher: `ways` in pathbuild-post.) Only on the way to where that begins, and once
+//! all is milled, a program may go to places of the machine, or leave out places at S0; there nothing is in the way.
 
 use pathbuild_motion::{Axes, Move, Path, Position};
 
@@ -51,12 +49,26 @@ impl Chain {
 
     /// Checks the chain against the expected moves. The error is the first move that deviates.
     pub(super) fn check(&self, way: &Way<'_>) -> Result<(), Option<Numbered>> {
-        let rest = if self.is_head { self.arrived(way)? } else { &self.moves };
-        let mut found = rest.iter().filter(|(_, movement)| !way.stands(movement));
-        for (_, expected) in way.expected.iter().filter(|(_, movement)| !way.stands(movement)) {
+        if !self.is_head {
+            return Self::check_rest(&self.moves, way.expected, way);
+        }
+        let mut outcome = Err(self.moves.first().copied());
+        for (passed, place) in way.clear_places().enumerate() {
+            let Some(rest) = self.arrived(&place, passed > 0, way)? else { continue };
+            outcome = Self::check_rest(rest, &way.expected[passed..], way);
+            if outcome.is_ok() {
+                break;
+            }
+        }
+        outcome
+    }
+
+    /// Whether moves go as expected, and no further.
+    fn check_rest(moves: &[Numbered], expected: &[Numbered], way: &Way<'_>) -> Result<(), Option<Numbered>> {
+        let mut found = moves.iter().filter(|(_, movement)| !way.stands(movement));
+        for (_, expected) in expected.iter().filter(|(_, movement)| !way.stands(movement)) {
             let next = found.next();
-            let is_same =
-                |(_, movement): &Numbered| movement.named.is_none() && way.is_same(movement, expected);
+            let is_same = |(_, movement): &Numbered| way.is_same(movement, expected);
             if !next.is_some_and(is_same) {
                 return Err(next.copied());
             }
@@ -67,14 +79,19 @@ impl Chain {
         }
     }
 
-    /// The moves after the start of the expected ones, provided that those before are harmless.
-    fn arrived(&self, way: &Way<'_>) -> Result<&[Numbered], Option<Numbered>> {
+    /// The moves behind a place where the way may begin; those before it are harmless. `None` if the program does not come there, or not
+    /// from a known height where that `is_later` than the first one.
+    fn arrived(
+        &self,
+        place: &Position,
+        is_later: bool,
+        way: &Way<'_>,
+    ) -> Result<Option<&[Numbered]>, Option<Numbered>> {
         let begins = |(_, movement): &Numbered| {
-            movement.to.known == Axes::ALL && way.is_near(&movement.to, &way.start)
+            let is_raised = !is_later || movement.from.known.has(Axes::Z);
+            movement.to.known == Axes::ALL && way.is_near(&movement.to, place) && is_raised
         };
-        let Some(arrival) = self.moves.iter().position(begins) else {
-            return Err(self.moves.first().copied());
-        };
+        let Some(arrival) = self.moves.iter().position(begins) else { return Ok(None) };
         let (head, rest) = self.moves.split_at(arrival + 1);
         let mut is_parked = false;
         for (line, movement) in head {
@@ -85,7 +102,7 @@ impl Chain {
                 return Err(Some((*line, *movement)));
             }
         }
-        Ok(rest)
+        Ok(Some(rest))
     }
 }
 
@@ -101,8 +118,17 @@ impl Way<'_> {
         }
         let is_height =
             !movement.to.known.has(Axes::Z) || self.is_same_height(movement.to.z(), self.clearance);
-        let is_place = !movement.to.known.has(Axes::XY) || stays || self.is_at(&movement.to, &self.start);
+        let is_place = !movement.to.known.has(Axes::XY)
+            || stays
+            || self.clear_places().any(|place| self.is_at(&movement.to, &place));
         matches!(movement.path, Path::Line) && (is_raised || stays) && is_height && is_place
+    }
+
+    /// Where the way begins, and the places that it comes to before it goes below S0.
+    fn clear_places(&self) -> impl Iterator<Item = Position> {
+        let ends = self.expected.iter().map(|(_, it)| it.to);
+        let is_clear = |at: &Position| at.known == Axes::ALL && self.is_clear(at.z());
+        std::iter::once(self.start).chain(ends.take_while(is_clear))
     }
 
     /// Whether a move is only due to rounding.
@@ -111,8 +137,11 @@ impl Way<'_> {
     }
 
     fn is_same(&self, found: &Move, expected: &Move) -> bool {
-        let is_known = found.from.known.and(found.to.known) == Axes::ALL;
-        is_known && self.is_near(&found.from, &expected.from) && self.is_near(&found.to, &expected.to)
+        let knows_the_same = found.from.known == expected.from.known && found.to.known == expected.to.known;
+        knows_the_same
+            && found.named == expected.named
+            && self.is_near(&found.from, &expected.from)
+            && self.is_near(&found.to, &expected.to)
     }
 
     fn is_same_height(&self, a: f64, b: f64) -> bool {

@@ -20,8 +20,9 @@ const FEED: f64 = 0.001 * (1.0 + 1e-6);
 /// A centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
 const CENTRE: f64 = 3.0 * PLACE;
 
-/// Distance in mm between chords and their arc, for controls without helices. On steep arcs, rounding in the plane affects the height.
-pub(super) const CHORD: f64 = 0.03;
+/// How far chords may leave their arc, in mm, for a control that takes no helices: a little more than the post for it allows. Where one chord
+/// is missing, the next one leaves the arc four times as far.
+pub(super) const CHORD: f64 = 0.0125;
 
 #[derive(Debug)]
 pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
@@ -43,12 +44,12 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
 }
 
 impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
-    pub(super) fn new(expected: M, clearance: f64, dialect: Dialect) -> Self {
+    pub(super) fn new(expected: M, start: Position, clearance: f64, dialect: Dialect) -> Self {
         let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
         Self {
             expected: expected.peekable(),
             done: 0.0,
-            at: Position::known(0.0, 0.0, clearance),
+            at: start,
             chain: Chain::new(),
             clearance,
             tolerance: Tolerance { place: PLACE, feed: FEED, chord, ends: Ends::All },

@@ -10,7 +10,8 @@ mod cuts;
 mod setup;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_motion::{Action, Coolant, Move, Step, Turning};
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, Coolant, Move, Position, Step, Turning};
 
 use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
@@ -23,12 +24,16 @@ use setup::Setup;
 /// What a drawing and the configuration specify about a program.
 #[derive(Debug)]
 pub struct Drawn<M> {
-    /// The expected moves, beginning above the path's origin at the height `clearance`.
+    /// The moves that are expected, from `start` on.
     pub moves: M,
-    /// S0, the height in mm above which there are no obstacles.
+    /// Where they begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
+    pub start: Position,
+    /// S0: the height in mm at and above which nothing is in the way.
     pub clearance: f64,
     /// The cutter as known to the machine.
     pub tool: ToolUse,
+    /// The number that a control knows the program by, where the post writes one.
+    pub number: Option<u32>,
     /// Time in seconds for the spindle to reach its speed before cutting.
     pub spin_up: f64,
 }
@@ -61,6 +66,7 @@ pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
     setup: Setup<'w>,
     words: WordRules<'w>,
     cuts: Cuts<M>,
+    number: Option<u32>,
     problems: Problems,
 }
 
@@ -70,7 +76,8 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
         Self {
             setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
             words: WordRules::strict(words, dialect),
-            cuts: Cuts::new(drawn.moves, drawn.clearance, dialect),
+            cuts: Cuts::new(drawn.moves, drawn.start, drawn.clearance, dialect),
+            number: drawn.number,
             problems: Problems::default(),
         }
     }
@@ -79,9 +86,21 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
     pub fn step(&mut self, step: &Step) {
         self.words.step(step);
         self.setup.step(step, &mut self.problems);
+        if let (Action::ProgramNumber(found), Some(expected)) = (&step.action, self.number)
+            && *found != expected
+        {
+            self.problems.add_at_line(&say::NUMBERS_DIFFER, step.line, |d| {
+                d.with("found", u64::from(*found)).with("expected", u64::from(expected))
+            });
+        }
         if let Action::Move(movement) = &step.action {
             self.cuts.take(step.line, movement);
         }
+    }
+
+    /// A word that the reader leaves out, where the program is read by its post's definition.
+    pub fn left_out(&mut self, line: u32, word: &str) {
+        self.words.left_out(line, word);
     }
 
     /// Returns the result.

@@ -344,7 +344,9 @@ impl<'w> Setup<'w> {
 
     /// Whether the control keeps the tool length of the previous program unless it is specified.
     fn keeps_lengths(&self) -> bool {
-        matches!(self.dialect, Dialect::Native | Dialect::Rs274 | Dialect::LinuxCnc | Dialect::Grbl)
+        let is_such =
+            matches!(self.dialect, Dialect::Native | Dialect::Rs274 | Dialect::LinuxCnc | Dialect::Grbl);
+        is_such && (!self.words.is_of_definition() || self.words.has('G', 490) || self.must_count())
     }
 
     /// Whether the program must apply the length of the tool inserted by M6, because the post does.

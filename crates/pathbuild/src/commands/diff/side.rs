@@ -117,14 +117,7 @@ impl Drawings {
 fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<ComparedProgram, Failure> {
     let program =
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
-    let source = GcodeSource {
-        file: file.as_str(),
-        steps: &program.read.steps,
-        text: &program.text,
-        tool: None,
-        rapid: context.settings.general.rapid.value,
-    };
-    Ok(ComparedProgram { path: gcode_path(&source), problems: program.read.problems })
+    Ok(ComparedProgram { path: program.scene_path(context), problems: program.read.problems })
 }
 
 /// The program of a path in the working directory.

@@ -16,6 +16,8 @@ pub(super) struct Facts<'a> {
     pub(super) rapid: Option<f64>,
     /// Machining time in seconds, if the machine's capabilities are configured.
     pub(super) machine_seconds: Option<f64>,
+    /// The first line whose moves are unknown: then lengths, times and the box are unknown as well.
+    pub(super) unfollowed: Option<u32>,
     /// Assumptions that were made while reading.
     pub(super) taken: Vec<&'a Diagnostic>,
 }
@@ -23,21 +25,25 @@ pub(super) struct Facts<'a> {
 impl<'a> Facts<'a> {
     pub(super) fn new(context: &Context, program: &'a Program) -> Self {
         let steps = &program.read.steps;
+        let unfollowed = program.first_unfollowed_line();
         Self {
             program,
             summary: Summary::of(steps, program.dialect == Dialect::Xpertmill),
             rapid: context.settings.general.rapid.value,
-            machine_seconds: kinematics(context).map(|machine| estimate::seconds(steps, &machine)),
+            machine_seconds: kinematics(context)
+                .filter(|_| unfollowed.is_none())
+                .map(|machine| estimate::seconds(steps, &machine)),
+            unfollowed,
             taken: program.read.problems.iter().filter(|problem| is_guess(problem)).collect(),
         }
     }
 
     /// Compatible time in whole minutes; only of cutting moves if the rapid feed is unknown. (book: program/gcode) `None` if a cutting move
-    /// has no feed.
+    /// has no feed, or a line is not followed.
     pub(super) fn minutes(&self) -> Option<f64> {
         let total = &self.summary.total;
         let minutes = self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes();
-        Some(minutes).filter(|minutes| minutes.is_finite())
+        Some(minutes).filter(|minutes| minutes.is_finite() && self.unfollowed.is_none())
     }
 }
 

@@ -12,14 +12,16 @@ pub(super) fn json(context: &Context, facts: &Facts<'_>) -> Value {
     let (program, summary) = (facts.program, &facts.summary);
     let taken =
         facts.taken.iter().map(|taken| json!({ "line": taken.place.line, "message": taken.text(Lang::En) }));
+    let whole = |extent: &Extent| if facts.unfollowed.is_some() { Extent::default() } else { *extent };
     json!({
         "file": context.file(&program.file),
         "lines": program.lines(),
         "dialect": program.dialect.name(),
         "guessed": program.evidence.map(|evidence| json!({ "reason": evidence.reason.en, "line": evidence.line })),
         "moves": tally(&summary.total),
-        "box": extent(&summary.extent),
-        "cutting_box": extent(&summary.cut),
+        "unfollowed_line": facts.unfollowed,
+        "box": extent(&whole(&summary.extent)),
+        "cutting_box": extent(&whole(&summary.cut)),
         "tools": summary.tools.iter().map(used).collect::<Vec<_>>(),
         "minutes": facts.minutes(),
         "rapid": facts.rapid,

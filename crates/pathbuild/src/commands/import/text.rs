@@ -39,13 +39,15 @@ impl Formatter<'_> {
             (self.choose("moves", "Bewegungen"), self.moves(facts)),
             (self.choose("lengths", "Längen"), self.lengths(facts)),
         ];
-        lines.extend(self.extent(&summary.extent).map(|box_| (self.choose("box", "Bereich"), box_)));
-        lines.extend(self.extent(&summary.cut).map(|box_| (self.choose("cutting", "Fräsen"), box_)));
+        if facts.unfollowed.is_none() {
+            lines.extend(self.extent(&summary.extent).map(|box_| (self.choose("box", "Bereich"), box_)));
+            lines.extend(self.extent(&summary.cut).map(|box_| (self.choose("cutting", "Fräsen"), box_)));
+        }
         let is_layer = facts.program.dialect == Dialect::Xpertmill;
         let tools =
             if is_layer { self.choose("layers", "Ebenen") } else { self.choose("tools", "Werkzeuge") };
         for (index, used) in summary.tools.iter().enumerate() {
-            lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer)));
+            lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer, facts)));
         }
         lines.push((self.choose("time", "Zeit"), self.time(facts)));
         lines.extend(self.waits(facts).map(|waits| (self.choose("waits", "Halte"), waits)));
@@ -74,10 +76,24 @@ impl Formatter<'_> {
         if total.arcs > 0 {
             _ = write!(moves, "; {} {}", total.arcs, self.choose("of them arcs", "davon Bögen"));
         }
+        if facts.unfollowed.is_some() {
+            moves += self.choose("; in the lines that are followed", "; in den verfolgten Zeilen");
+        }
         moves
     }
 
+    fn not_followed(&self, line: u32) -> String {
+        let [begin, end] = [
+            self.choose("not known: line", "unbekannt: Zeile"),
+            self.choose("is not followed", "ist nicht verfolgt"),
+        ];
+        format!("{begin} {line} {end}")
+    }
+
     fn lengths(&self, facts: &Facts<'_>) -> String {
+        if let Some(line) = facts.unfollowed {
+            return self.not_followed(line);
+        }
         let total = &facts.summary.total;
         let cutting = total.cutting().length;
         let rapid = total.rapid.total.length;
@@ -100,7 +116,7 @@ impl Formatter<'_> {
         (!axes.is_empty()).then(|| axes.join(", "))
     }
 
-    fn used(&self, used: &Used, is_layer: bool) -> String {
+    fn used(&self, used: &Used, is_layer: bool, facts: &Facts<'_>) -> String {
         let name = match used.tool {
             Some(number) if is_layer => number.to_string(),
             Some(number) => format!("T{number}"),
@@ -110,7 +126,9 @@ impl Formatter<'_> {
         let noun =
             if moves == 1 { self.choose("move", "Bewegung") } else { self.choose("moves", "Bewegungen") };
         let mut line = format!("{name}: {moves} {noun}");
-        _ = write!(line, ", {} mm {}", self.tenths(length), self.choose("cutting", "Fräsen"));
+        if facts.unfollowed.is_none() {
+            _ = write!(line, ", {} mm {}", self.tenths(length), self.choose("cutting", "Fräsen"));
+        }
         if !used.feeds.is_empty() {
             _ = write!(line, ", F {}", numbers(&used.feeds));
         }
@@ -121,6 +139,9 @@ impl Formatter<'_> {
     }
 
     fn time(&self, facts: &Facts<'_>) -> String {
+        if let Some(line) = facts.unfollowed {
+            return self.not_followed(line);
+        }
         let mut time = match (facts.minutes(), facts.rapid) {
             (None, _) => self
                 .choose(

@@ -8,19 +8,22 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{self, Clamps, PastClamps, PostWords, ToolUse};
-use pathbuild_motion::Move;
+use pathbuild_gcode::verify::{self, Agreement, Clamps, PastClamps, PostWords, ToolUse};
+use pathbuild_motion::{Axes, Move, Position};
 use pathbuild_path::KeepOut;
+use pathbuild_post::{Job, program_number};
 use pathbuild_toolpath::Program as Drawn;
 use serde_json::json;
 
 use crate::commands::program::Program;
 use crate::context::Context;
 use crate::numbers::count;
+use pathbuild_workspace::config::types::DwellTime;
 use pathbuild_workspace::emit::{Provenances, missing_values, native_text, writing};
-use pathbuild_workspace::posting::tool_table;
+use pathbuild_workspace::posting::{PostProcessor, tool_table};
 use pathbuild_workspace::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
 
 /// The program of a path, as its drawing defines it.
@@ -30,6 +33,23 @@ pub(super) struct ReferenceProgram {
     file: Utf8PathBuf,
     /// The clamps around it, if its drawings have any.
     clamps: Option<Clamps>,
+}
+
+/// The program that a definition writes for a path.
+pub(super) struct Rewritten {
+    /// The first line of the program that is another one, and what it should be.
+    other_line: Option<(u32, String)>,
+    /// The first position that it states in all axes.
+    start: Option<Position>,
+    /// The moves from there on.
+    moves: Vec<(u32, Move)>,
+}
+
+impl Rewritten {
+    /// Whether the program has the same lines.
+    pub(super) fn is_same(&self) -> bool {
+        self.other_line.is_none()
+    }
 }
 
 /// Why there is no such program.
@@ -79,25 +99,61 @@ impl ReferenceProgram {
         context: &Context,
         dialect: Dialect,
         words: &'w PostWords,
+        rewritten: Option<&Rewritten>,
     ) -> verify::Against<'w, impl Iterator<Item = (u32, Move)>> {
+        let clearance = self.drawn.start_height();
+        let above_zero = Position::known(0.0, 0.0, clearance);
+        let (start, written) = rewritten
+            .map_or((above_zero, None), |it| (it.start.unwrap_or(above_zero), Some(it.moves.clone())));
+        let is_native = written.is_none();
+        let drawn_moves = is_native.then(|| self.drawn.moves()).into_iter().flatten();
         let drawn = verify::Drawn {
-            moves: self.drawn.moves(),
-            clearance: self.drawn.start_height(),
+            moves: drawn_moves.chain(written.into_iter().flatten()),
+            start,
+            clearance,
             tool: self.tool(context),
+            number: self.number(context),
             spin_up: context.settings.machine.spin_up.value,
         };
         verify::Against::new(drawn, dialect, words)
     }
 
+    /// Reports what was compared, and returns the differences. None counts if the program has the lines that its definition writes.
+    pub(super) fn conclude(
+        &self,
+        context: &Context,
+        program: &Program,
+        agreement: Agreement,
+        rewritten: Option<&Rewritten>,
+    ) -> Vec<Diagnostic> {
+        let drawn = self.drawn.moves().count();
+        let Some(rewritten) = rewritten else {
+            self.say(context, program, agreement.equal, drawn);
+            return agreement.differences;
+        };
+        let Some((line, expected)) = &rewritten.other_line else {
+            self.say(context, program, drawn, drawn);
+            return Vec::new();
+        };
+        self.say(context, program, agreement.equal, rewritten.moves.len());
+        let mut differences = agreement.differences;
+        // If words are left out, only the text tells whether they are right.
+        if program.words_left_out().next().is_some() {
+            let problem = Diagnostic::new(&say::LINE_NOT_WRITTEN).quoting("expected", expected.as_str());
+            differences.push(problem.at_line(*line, None));
+        }
+        differences
+    }
+
     /// Reports what was compared, and how many moves are equal.
-    pub(super) fn say(&self, context: &Context, program: &Program, equal: usize) {
-        let (path, moves) = (&self.drawn.path, self.drawn.moves().count());
+    fn say(&self, context: &Context, program: &Program, equal: usize, moves: usize) {
+        let path = &self.drawn.path;
         context.json_row(|| {
             let row = json!({
                 "file": context.file(&program.file),
                 "path": &**path,
                 "drawing": context.file(&self.file),
-                "dialect": program.dialect.name(),
+                "dialect": program.manner(),
                 "moves": moves,
                 "equal": equal,
             });
@@ -119,6 +175,33 @@ impl ReferenceProgram {
             }
         };
         context.printer.status(format_args!("{}: {line}", program.file));
+    }
+
+    /// The program of the path as a definition writes it now.
+    ///
+    /// # Errors
+    /// If the definition cannot write it.
+    pub(super) fn rewritten(
+        &self,
+        context: &Context,
+        writer: &PostProcessor,
+        program: &Program,
+    ) -> Result<Rewritten, Vec<Diagnostic>> {
+        let programs = std::slice::from_ref(&*self.drawn);
+        let (job, _) = Job::from_programs(&self.drawn.path, programs, writer.tools(), writer.cycles());
+        let text = writer.write(&job, None, &mut Vec::new())?.text;
+        let translated = writer.translate(&text).map(|it| it.text.into_bytes());
+        let code = translated.as_deref().unwrap_or(&text);
+        let options = Options {
+            milliseconds: context.settings.machine.dwell.value == DwellTime::Milliseconds,
+            ..Options::default()
+        };
+        let all = interpret::interpret(code, program.dialect, &options).moves();
+        let begins = all.iter().position(|(_, it)| it.to.known == Axes::ALL);
+        let start = begins.map(|index| all[index].1.to);
+        let moves = all.into_iter().skip(begins.map_or(0, |index| index + 1)).collect();
+        let other_line = writer.first_other_line(&program.text, &text);
+        Ok(Rewritten { other_line, start, moves })
     }
 
     /// Whether the path has probes, and hence a probing run.
@@ -173,6 +256,12 @@ impl ReferenceProgram {
     /// Checks a program in a dialect against the clamps around it, if there are any.
     pub(super) fn past_clamps(&self, dialect: Dialect) -> Option<PastClamps<'_>> {
         self.clamps.as_ref().map(|clamps| PastClamps::new(clamps, dialect))
+    }
+
+    /// The program number that posts write.
+    fn number(&self, context: &Context) -> Option<u32> {
+        let configured = context.settings.general.post.value.program_number;
+        configured.or_else(|| program_number(&self.drawn.path))
     }
 
     /// The configured tool.

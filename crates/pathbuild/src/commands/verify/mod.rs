@@ -2,11 +2,13 @@
 
 mod against;
 mod stock;
+mod writer;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::Guess;
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
@@ -19,11 +21,12 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::config::{number, positive};
 use pathbuild_workspace::machine::machine;
-use pathbuild_workspace::posting::{PostArguments, PostProcessor, known_words};
+use pathbuild_workspace::posting::known_words;
 use pathbuild_workspace::session::Session;
 
 use super::program::Program;
-use against::ReferenceProgram;
+use against::{ReferenceProgram, Rewritten};
+use writer::Writers;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
@@ -31,12 +34,8 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(stock_options) => stock_options,
         Err(fault) => return context.refuse(vec![*fault]),
     };
-    let named = args
-        .post
-        .as_deref()
-        .map(|name| PostProcessor::for_run(context, Some(name), PostArguments::default()));
-    let wrote = match named.transpose() {
-        Ok(wrote) => wrote.flatten(),
+    let writers = match Writers::new(context, args) {
+        Ok(writers) => writers,
         Err(problems) => return context.fail(problems),
     };
     context.output.figure("programs", args.files.len());
@@ -50,7 +49,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),
     };
     for file in &args.files {
-        match check(context, file, args, &stock_options, against.as_ref(), wrote.as_ref()) {
+        match check(context, file, args, &stock_options, against.as_ref(), &writers) {
             Ok(found) => diagnostics.extend(found),
             Err(problem) => diagnostics.push(*problem),
         }
@@ -84,16 +83,17 @@ fn check(
     args: &VerifyArgs,
     stock_options: &StockOptions,
     against: Option<&ReferenceProgram>,
-    wrote: Option<&PostProcessor>,
+    writers: &Writers,
 ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
     let mut reading = args.reading.clone();
-    reading.dialect = reading.dialect.or(wrote.and_then(PostProcessor::reader));
+    reading.dialect = writers.dialect();
     let machine = machine(context);
     let mut limits = machine.as_ref().map(MachineRules::new);
     let mut tools = stock::Tools::default();
     let mut stated = StatedStatistics::default();
     let mut has_probed = false;
-    let program = Program::open_each(context, file, &reading, &mut |step| {
+    let by_definition = |text: &[u8], guess: Option<&Guess>| writers.translate(text, guess);
+    let program = Program::open_each(context, file, &reading, &by_definition, &mut |step| {
         tools.step(&step);
         stated.step(&step);
         has_probed |= step.as_move().is_some_and(|(_, motion)| matches!(motion.pace, Pace::Probe { .. }));
@@ -109,12 +109,23 @@ fn check(
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
-    let words = known_words(context, wrote, program.dialect);
+    let evidence = program.evidence.map(|evidence| evidence.kind);
+    let writer = writers.of(program.shown, evidence);
+    let words = known_words(context, writer, program.dialect);
     let mut foreign = against.is_none().then(|| WordRules::new(&words, program.dialect));
     // The probing run of a drawing is a separate program.
     let is_probing = has_probed && program.dialect == Dialect::Native;
     let milled = against.filter(|against| !is_probing || !against.has_probes());
-    let mut comparison = milled.map(|against| against.comparison(context, program.dialect, &words));
+    let definition = writer.filter(|writer| writer.file().is_some());
+    let rewritten =
+        milled.zip(definition).map(|(against, writer)| against.rewritten(context, writer, &program));
+    let rewritten = match rewritten.transpose() {
+        Ok(rewritten) => rewritten,
+        Err(problems) => return Ok(problems),
+    };
+    let is_rewritten = rewritten.as_ref().is_some_and(Rewritten::is_same);
+    let mut comparison =
+        milled.map(|against| against.comparison(context, program.dialect, &words, rewritten.as_ref()));
     let mut past = against.and_then(|against| against.past_clamps(program.dialect));
     let mut found = verify_with(&drawn, &Checks { stock: stock.as_ref(), machine: None }, &mut |step| {
         if let Some(comparison) = &mut comparison {
@@ -127,9 +138,17 @@ fn check(
             past.step(step);
         }
     });
+    for word in program.words_left_out() {
+        if let Some(foreign) = &mut foreign {
+            foreign.left_out(word.line, &word.word);
+        }
+        if let Some(comparison) = &mut comparison {
+            comparison.left_out(word.line, &word.word);
+        }
+    }
     found.extend(foreign.into_iter().flat_map(WordRules::finish));
     found.extend(past.into_iter().flat_map(PastClamps::finish));
-    found.extend(coarse_arcs(&program.text, program.dialect));
+    found.extend(coarse_arcs(program.code(), program.dialect));
     found.extend(limits.map(MachineRules::finish).unwrap_or_default());
     found.extend(stock::unknown_tools(context, &program, &tools));
     if program.dialect == Dialect::Native {
@@ -141,9 +160,7 @@ fn check(
     }
     found.extend(stock::disagreements(context, &program, &tools, stock_options, against));
     if let Some((against, comparison)) = milled.zip(comparison) {
-        let agreement = comparison.finish();
-        against.say(context, &program, agreement.equal);
-        found.extend(agreement.differences);
+        found.extend(against.conclude(context, &program, comparison.finish(), rewritten.as_ref()));
     }
     if let Some(against) = against.filter(|_| program.dialect == Dialect::Native) {
         let is_sound = !found.iter().chain(&program.read.problems).any(Diagnostic::is_error);
@@ -151,7 +168,10 @@ fn check(
     }
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
-    if against.is_some() {
+    if is_rewritten {
+        // What is doubtful about the definition's words is said when it writes them.
+        diagnostics.retain(|diagnostic| diagnostic.is_error() && program.by_definition.is_none());
+    } else if against.is_some() {
         let unsaid = diagnostics.iter_mut().filter(|diagnostic| is_unsaid(diagnostic));
         let unchecked = found.iter_mut().filter(|diagnostic| diagnostic.code() == Code::UncheckedFormula);
         unsaid.chain(unchecked).for_each(|diagnostic| diagnostic.severity = Severity::Error);

@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, shown};
-use pathbuild_view::{GcodeSource, Scene, gcode_path};
+use pathbuild_view::Scene;
 use pathbuild_workspace::files::is_there;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::{self, NamedPaths, Session, ShownText};
@@ -38,14 +38,7 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Target
     let program =
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
-    let source = GcodeSource {
-        file: file.as_str(),
-        steps: &program.read.steps,
-        text: &program.text,
-        tool: None,
-        rapid: context.settings.general.rapid.value,
-    };
-    scene.paths.push(gcode_path(&source));
+    scene.paths.push(program.scene_path(context));
     let report = session::SceneReport { scene, diagnostics: program.read.problems };
     Ok(TargetScene { report, file: file.to_string() })
 }
