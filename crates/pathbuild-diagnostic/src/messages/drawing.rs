@@ -26,7 +26,7 @@ messages! {
     /// Note: a circle with the path's text and the line type of an element.
     MEANT_AS_PHANTOM_START: MissingStart {
         en: "the circle at {point} has a text with O and T, but its line type is not PHANTOM: meant as the start? Draw it as a PHANTOM circle of 1 mm",
-        de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM: als Startmarke gemeint? Als PHANTOM-Kreis mit 1 mm zeichnen",
+        de: "der Kreis bei {point} hat einen Text mit O und T, sein Linientyp ist aber nicht PHANTOM: als Anfangsmarke gemeint? Als PHANTOM-Kreis mit 1 mm zeichnen",
     }
     /// Note: a circle of an end marker's diameter with the line type of an element.
     MEANT_AS_PHANTOM_END: MissingEnd {
