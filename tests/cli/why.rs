@@ -42,7 +42,7 @@ fn why(place: &Place, what: &str) -> String {
 #[test]
 fn before_a_check_nothing_is_kept() {
     let said = why(&Place::of(LIBRARY), "8001.1P");
-    assert!(said.starts_with("8001.dxf: would be compiled: no result is kept"), "{said}");
+    assert!(said.starts_with("8001.dxf: would be compiled: there is no cached result"), "{said}");
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn what_took_too_long_is_compiled_again() {
     let place = place.file("pathbuild.toml", configuration("0.001"));
     let run = place.run("check");
     assert!(run.status == Some(1) && run.stderr.contains("seconds-per-path"), "{run}");
-    assert!(why(&place, "1111.1P").contains("no result is kept"));
+    assert!(why(&place, "1111.1P").contains("there is no cached result"));
     let place = place.file("pathbuild.toml", configuration("60"));
     assert_eq!(place.run("check").status, Some(0));
     assert!(why(&place, "1111.1P").contains("up to date"));
@@ -140,7 +140,10 @@ fn results_hold_in_directories_with_links() {
     // The same bytes elsewhere, which may be those of another drawing.
     link("store/b.bin", &component);
     let said = why(&place, "8001.1P");
-    assert!(said.contains(". has a link in it or on the way to it that leads elsewhere now"), "{said}");
+    assert!(
+        said.contains(". contains a symbolic link, or is reached through one, that leads elsewhere now"),
+        "{said}"
+    );
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
 
@@ -157,7 +160,7 @@ fn results_hold_in_directories_with_links() {
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
     link("other", &place.path().join("parts"));
-    assert!(why(&place, "").contains("parts has a link in it or on the way to it"));
+    assert!(why(&place, "").contains("parts contains a symbolic link, or is reached through one"));
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
 }
