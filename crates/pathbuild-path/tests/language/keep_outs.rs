@@ -141,9 +141,9 @@ fn an_outline_that_does_not_close_is_an_error() {
     let gap = |to: &str| format!("layer clamps\nline 10,0 20,0 20,10 10,10 {to}\ntext 12,4 \"Z25\"\n");
     assert_eq!(right(&gap("10,0.00003")).len(), 1);
     let text = "neither inside an outline nor overlapping one";
-    assert_wrong(&gap("10,0.00004"), &["does not close", text]);
+    assert_wrong(&gap("10,0.00004"), &["is not closed", text]);
     assert_wrong(&gap("10,1"), &["ends at (10, 1) and at (10, 0), 1 mm apart", text]);
-    assert_wrong("layer clamps\narc 5,0 to 0,5 centre 0,0\n", &["does not close"]);
+    assert_wrong("layer clamps\narc 5,0 to 0,5 centre 0,0\n", &["is not closed"]);
     assert_wrong(
         &format!("{SQUARE}line 20,0 20,10\n"),
         &[
@@ -161,7 +161,7 @@ fn an_outline_that_does_not_close_is_an_error() {
 #[test]
 fn a_curve_that_is_not_understood_is_an_error() {
     let drawing = format!("{SQUARE}spline control 0,0 10,10 20,5 30,0\n");
-    assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not understood"]);
+    assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not supported"]);
     let [(code, _)] = &wrong("layer clamps\ncircle 0,0 d 20 z 5\ntext -3,-1 \"Z25\"\n")[..] else { panic!() };
     assert_eq!(*code, Code::OffPlane);
 }
