@@ -147,8 +147,8 @@ fn an_outline_that_does_not_close_is_an_error() {
     assert_wrong(
         &format!("{SQUARE}line 20,0 20,10\n"),
         &[
-            "at (20, 0) more than two",
-            "at (20, 10) more than two",
+            "meet at (20, 0)",
+            "meet at (20, 10)",
             "neither inside an outline nor overlapping one",
         ],
     );
