@@ -146,11 +146,7 @@ fn an_outline_that_does_not_close_is_an_error() {
     assert_wrong("layer clamps\narc 5,0 to 0,5 centre 0,0\n", &["is not closed"]);
     assert_wrong(
         &format!("{SQUARE}line 20,0 20,10\n"),
-        &[
-            "meet at (20, 0)",
-            "meet at (20, 10)",
-            "neither inside an outline nor overlapping one",
-        ],
+        &["meet at (20, 0)", "meet at (20, 10)", "neither inside an outline nor overlapping one"],
     );
     assert_wrong("layer clamps\nline 0,0 5,0 5,5 0,0\nline 5,5 9,9\n", &["more than two"]);
     // Closed polylines may touch.
