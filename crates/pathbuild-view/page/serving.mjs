@@ -7,7 +7,7 @@ export async function serve(pathbuild, library, at, ...drawings) {
   const server = spawn(pathbuild, ["watch", ...drawings, "--serve", at, "--no-cache", "--lang", "en"], { cwd: library, stdio: ["ignore", "ignore", "pipe"] });
   let address;
   for await (const line of createInterface({ input: server.stderr })) {
-    address ??= /served at (\S+)/.exec(line)?.[1];
+    address ??= /serving at (\S+)/.exec(line)?.[1];
     if (line.startsWith("watching ")) break;
   }
   server.stderr.resume();
