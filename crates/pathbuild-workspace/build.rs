@@ -59,11 +59,12 @@ fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
 }
 
 /// The crates that results depend on.
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 12] = [
     "pathbuild-cache",
     "pathbuild-db",
     "pathbuild-diagnostic",
     "pathbuild-dxf",
+    "pathbuild-files",
     "pathbuild-gcode",
     "pathbuild-motion",
     "pathbuild-path",

@@ -14,7 +14,7 @@ export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine INSTA_WORKSPACE_ROOT=$PWD 
 skipped=(since:: diff::revisions german::refusals_of_git licences:: agreement:: kills:: book:: machines::)
 run() {
   cargo test --quiet --no-fail-fast --target x86_64-pc-windows-gnu --package pathbuild --package pathbuild-db \
-    --package pathbuild-cache --package pathbuild-workspace --tests -- "${skipped[@]/#/--skip=}" "$@" </dev/null
+    --package pathbuild-cache --package pathbuild-files --package pathbuild-workspace --tests -- "${skipped[@]/#/--skip=}" "$@" </dev/null
 }
 said=$(mktemp)
 if run --test-threads 2 "$@" 2>&1 | tee "$said"; then exit; fi

@@ -3,7 +3,7 @@
 use camino::Utf8PathBuf;
 
 use crate::names::Names;
-use crate::stamp::Stamp;
+use pathbuild_files::Stamp;
 
 /// Results to be stored, with all their inputs. Files, directories and lookups that several results share are stored once.
 #[derive(Clone, Debug, Default, PartialEq)]

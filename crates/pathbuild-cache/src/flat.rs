@@ -18,7 +18,7 @@
 use std::collections::HashMap;
 
 use crate::facts::{Catalogue, DirectoryFact, FileFact, Record};
-use crate::stamp::Stamp;
+use pathbuild_files::Stamp;
 
 /// Size in bytes of a number, and of an offset with its length.
 pub(crate) const WORD: usize = 4;

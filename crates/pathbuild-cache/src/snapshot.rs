@@ -9,7 +9,7 @@ use crate::flat::{
     COUNTS, DIRECTORIES, DIRECTORY_LISTS, FILES, HASH, LISTED_DIRECTORIES, LOOKUPS, NAMES, RECORD_FILES,
     RECORD_LOOKUPS, RECORD_OUTPUTS, RECORDS, SIZES, TABLES, WORD,
 };
-use crate::stamp::Stamp;
+use pathbuild_files::Stamp;
 
 /// Cached results with all their inputs. The default is an empty snapshot.
 #[derive(Clone, Debug, Default, PartialEq)]

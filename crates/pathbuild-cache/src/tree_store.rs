@@ -11,10 +11,10 @@ use pathbuild_diagnostic::reasons::{self, HOLDS_OTHERS};
 use crate::facts::Catalogue;
 use crate::flat::CatalogueTooLarge;
 use crate::format::{self, CacheFault, Key};
-use crate::private;
 use crate::snapshot::Snapshot;
-use crate::stamp::Clock;
 use crate::upkeep::is_ours;
+use pathbuild_files::Clock;
+use pathbuild_files::private;
 
 /// Where the results of all trees are stored.
 #[derive(Clone, Debug, PartialEq, Eq)]

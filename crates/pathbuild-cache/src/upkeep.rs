@@ -10,9 +10,9 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{NO_CACHE, reason};
 
 use crate::format::{self, CacheFault, Key};
-use crate::private;
-use crate::stamp::CLOCK;
 use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag, is_own_tree};
+use pathbuild_files::CLOCK;
+use pathbuild_files::private;
 
 /// A results file.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::facts::DirectoryFact;
 use crate::listing::{Listing, Listings};
 use crate::snapshot::{CachedDirectory, CachedFile, Snapshot};
-use crate::stamp::Stamp;
+use pathbuild_files::Stamp;
 
 /// Whether the file of the first name may contain the path of the second name.
 pub type CoversFn<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);

@@ -12,13 +12,14 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    CacheFault, Catalogue, Clock, DirectoryFact, FileFact, FileState, Home, Key, Listing, Listings, Lookup,
-    Record, Snapshot, Stamp, TreeStore, Verdict, VerifyContext, decode, encode,
+    CacheFault, Catalogue, DirectoryFact, FileFact, FileState, Home, Key, Listing, Listings, Lookup, Record,
+    Snapshot, TreeStore, Verdict, VerifyContext, decode, encode,
 };
 use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
     Diagnostic, EntityKind, Handle, Number, Point, TextFault, TraceStep, Value, words,
 };
+use pathbuild_files::{Clock, Stamp};
 use tempfile::TempDir;
 
 fn place() -> (TempDir, Utf8PathBuf) {

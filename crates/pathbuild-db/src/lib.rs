@@ -19,7 +19,6 @@ mod listing;
 mod queries;
 mod scratch;
 mod settings;
-pub mod system;
 
 pub use bugs::{bug, catch_bugs};
 pub use database::Database;
@@ -27,6 +26,8 @@ pub use db::Db;
 pub use guard::{WorkInProgress, too_slow};
 pub use inputs::{Directory, Role, SourceFile, Target};
 pub use listing::PendingListing;
+pub use pathbuild_files as system;
+pub use pathbuild_files::System;
 pub use queries::{
     Closure, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
     NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, ReachedPath, ResolvedPath,
@@ -38,4 +39,3 @@ pub use queries::{
 };
 pub use scratch::ScratchPool;
 pub use settings::{Limits, Reading, Settings};
-pub use system::System;

@@ -3,8 +3,8 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
-use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_files::Stamp;
 use pathbuild_path::{
     Bindings, KeepOuts, Language, NearNames, PathHeader, PathName, RawFile, RawPath, judge_file_name,
     stray_findings,

@@ -2,10 +2,10 @@
 
 use std::hash::Hasher;
 
-use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_dxf::{Drawing, Options};
+use pathbuild_files::Stamp;
 use pathbuild_path::may_be_stray_text;
 use rustc_hash::FxHasher;
 

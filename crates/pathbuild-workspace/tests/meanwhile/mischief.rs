@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicI64, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::Stamp;
 use pathbuild_db::System;
+use pathbuild_db::system::Stamp;
 use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, WriteOutcome};
 use pathbuild_diagnostic::Value;
 

@@ -3,8 +3,9 @@
 use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, Clock, DirectoryFact, FileFact, FileState, Record, Stamp};
+use pathbuild_cache::{Catalogue, DirectoryFact, FileFact, FileState, Record};
 use pathbuild_db::{Db, NameLookup, SourceFile};
+use pathbuild_files::{Clock, Stamp};
 
 use super::lookups::Lookups;
 use super::run_facts::{Content, RunFacts};

@@ -14,12 +14,13 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    CacheFault, Clock, FileState, Key, Listings, Reason, Snapshot, Stamp, TreeStore, Verdict, VerifyContext,
-    reasons, verify,
+    CacheFault, FileState, Key, Listings, Reason, Snapshot, TreeStore, Verdict, VerifyContext, reasons,
+    verify,
 };
 use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, Trace};
 use pathbuild_diagnostic::reasons::IN_STRANGERS_TREE;
+use pathbuild_files::{Clock, Stamp};
 
 use super::Session;
 use super::outputs::{OutputKind, without_values};

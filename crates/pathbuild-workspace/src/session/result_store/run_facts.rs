@@ -3,8 +3,9 @@
 use std::collections::{HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{DirectoryFact, Stamp};
+use pathbuild_cache::DirectoryFact;
 use pathbuild_db::{Database, Db, SourceFile, content, drawing_names};
+use pathbuild_files::Stamp;
 
 use super::FreshResult;
 use crate::session::Session;

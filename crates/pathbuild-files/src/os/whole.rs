@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, ErrorKind};
 
 use super::open::{not_regular, regular_size};
-use crate::system::ReadError;
+use crate::ReadError;
 
 /// Initial size of the buffer in bytes. Most drawings are smaller.
 const USUAL: usize = 1 << 16;

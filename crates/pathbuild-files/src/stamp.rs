@@ -25,13 +25,14 @@ pub struct Stamp([u8; Stamp::SIZE]);
 pub struct Clock(SystemTime);
 
 /// Name of the temporary file whose modification time is read.
-pub(crate) const CLOCK: &str = "clock";
+pub const CLOCK: &str = "clock";
 
 /// Coarsest time resolution of a file system in use (FAT).
 const TICK: Duration = Duration::from_secs(2);
 
 impl Stamp {
-    pub(crate) const SIZE: usize = 48;
+    /// Size in bytes.
+    pub const SIZE: usize = 48;
 
     /// Stamp of a file that does not exist.
     pub const MISSING: Self = Self([0xFF; Self::SIZE]);
@@ -76,11 +77,13 @@ impl Stamp {
         is_before(number(1)) && is_before(number(2))
     }
 
-    pub(crate) fn from_bytes(bytes: [u8; Self::SIZE]) -> Self {
+    /// A stamp from its bytes.
+    pub fn from_bytes(bytes: [u8; Self::SIZE]) -> Self {
         Self(bytes)
     }
 
-    pub(crate) fn to_bytes(self) -> [u8; Self::SIZE] {
+    /// The bytes of the stamp.
+    pub fn to_bytes(self) -> [u8; Self::SIZE] {
         self.0
     }
 

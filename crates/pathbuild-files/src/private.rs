@@ -16,7 +16,7 @@ use pathbuild_diagnostic::{Text, Value};
 ///
 /// # Errors
 /// If it cannot be created.
-pub(crate) fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
+pub fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
     if fs::symlink_metadata(directory).is_ok() {
         return Ok(false);
     }
@@ -28,7 +28,7 @@ pub(crate) fn make_directory(directory: &Utf8Path) -> io::Result<bool> {
 }
 
 /// Why a directory must not be used; `None` if it is fine or does not exist yet.
-pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
+pub fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
     match fs::symlink_metadata(directory) {
         Ok(data) if data.is_symlink() => Some(&IS_LINK),
         Ok(data) if !data.is_dir() => Some(&NO_DIRECTORY_BUT_FILE),
@@ -44,7 +44,7 @@ pub(crate) fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
 ///
 /// # Errors
 /// If it cannot be read, is something else, or is larger than `limit` bytes.
-pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value> {
+pub fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value> {
     let mut options = OpenOptions::new();
     options.read(true);
     // Do not follow a symbolic link, and do not wait for the writer of a pipe.
@@ -75,7 +75,7 @@ pub(crate) fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value
 ///
 /// # Errors
 /// If it cannot be created.
-pub(crate) fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf8PathBuf, File)> {
+pub fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf8PathBuf, File)> {
     let mut options = OpenOptions::new();
     options.write(true).create_new(true);
     #[cfg(unix)]
@@ -95,7 +95,7 @@ pub(crate) fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf
 ///
 /// # Errors
 /// If it cannot be written; the previous file remains.
-pub(crate) fn replace(directory: &Utf8Path, name: &str, bytes: &[u8]) -> io::Result<()> {
+pub fn replace(directory: &Utf8Path, name: &str, bytes: &[u8]) -> io::Result<()> {
     let (beside, mut file) = create_beside(directory, name)?;
     let written = file.write_all(bytes).and_then(|()| fs::rename(&beside, directory.join(name)));
     if written.is_err() {
@@ -109,7 +109,7 @@ pub(crate) fn replace(directory: &Utf8Path, name: &str, bytes: &[u8]) -> io::Res
 ///
 /// # Errors
 /// If it cannot be removed.
-pub(crate) fn remove(path: &Utf8Path) -> io::Result<()> {
+pub fn remove(path: &Utf8Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use camino::Utf8Path;
 
 use super::debris;
-use crate::system::{Entry, EntryKind, Listing};
+use crate::{Entry, EntryKind, Listing};
 
 /// Lists a directory in batches, in the order in which the system delivers the names.
 ///

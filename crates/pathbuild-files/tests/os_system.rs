@@ -7,13 +7,13 @@ use std::ops::ControlFlow;
 use std::process::{Command, Stdio};
 
 use camino::{Utf8Path, Utf8PathBuf};
-#[cfg(unix)]
-use pathbuild_db::system::{Entry, EntryKind};
-use pathbuild_db::system::{OsSystem, ReadError, System};
 #[cfg(target_os = "linux")]
 use pathbuild_diagnostic::Value;
 #[cfg(target_os = "linux")]
 use pathbuild_diagnostic::reasons::NOT_REGULAR;
+#[cfg(unix)]
+use pathbuild_files::{Entry, EntryKind};
+use pathbuild_files::{OsSystem, ReadError, System};
 use tempfile::TempDir;
 
 /// A directory with a file of this size in bytes.

@@ -13,7 +13,7 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, TOO_MANY_TEMPORARY, error, reason};
 
 use super::{debris, held, open, readable};
-use crate::system::WriteOutcome;
+use crate::WriteOutcome;
 
 /// Replaces the content of a file, unless it is already the same.
 ///

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::reasons::NOT_REGULAR;
 
 #[cfg(not(unix))]
 use super::held;
-use crate::system::ReadError;
+use crate::ReadError;
 
 /// Opens a file for reading. Anything but a regular file is closed again at once and never blocks.
 ///

@@ -1,4 +1,5 @@
-//! The outside world as seen by queries: a single trait, so that tests run in memory and all files that a result depends on are known.
+//! Files, of the operating system or in memory. Queries see them through a single trait, so that tests run in memory and all files that a
+//! result depends on are known; [`private`] files belong to the program itself.
 
 mod confined;
 mod listing;
@@ -7,14 +8,15 @@ mod memory;
 #[cfg(not(target_family = "wasm"))]
 mod os;
 mod overlay;
+pub mod private;
 mod spelling;
+mod stamp;
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
 use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::limits::{file_too_large, too_many_bytes};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::reasons::{IS_DIRECTORY, NO_FILE};
@@ -27,6 +29,7 @@ pub use memory::MemorySystem;
 pub use os::OsSystem;
 pub use overlay::OverlaySystem;
 pub use spelling::{clean, join, spelt};
+pub use stamp::{CLOCK, Clock, Stamp};
 
 /// Reading, listing and writing files.
 pub trait System: Debug + Send + Sync {

@@ -7,11 +7,10 @@ use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::LEADS_OUT;
 
-use super::{Entry, FileKind, FileLink, Listing, ReadError, System, WriteOutcome, clean};
+use super::{Entry, FileKind, FileLink, Listing, ReadError, Stamp, System, WriteOutcome, clean};
 
 /// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A
 /// path that is spelt outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so such a

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use camino::Utf8Path;
-use pathbuild_db::system::{MemorySystem, OverlaySystem, ReadError, System};
+use pathbuild_files::{MemorySystem, OverlaySystem, ReadError, System};
 
 const NEW: &str = "parts/1002.dxf";
 

@@ -43,7 +43,8 @@ pub enum EntryKind {
 }
 
 impl Names {
-    pub(crate) const fn none() -> Self {
+    /// No names.
+    pub const fn none() -> Self {
         Self { text: String::new(), ends: Vec::new() }
     }
 

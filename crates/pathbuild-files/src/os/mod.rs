@@ -15,11 +15,11 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::Stamp;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::reason;
 
-use super::{Entry, FileKind, FileLink, Listing, ReadError, System, WriteOutcome};
+use crate::stamp::Stamp;
+use crate::{Entry, FileKind, FileLink, Listing, ReadError, System, WriteOutcome};
 
 /// The files of the operating system. Relative paths are relative to the working directory of the process.
 #[derive(Clone, Copy, Debug, Default)]
