@@ -5,18 +5,15 @@ use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 
 use crate::Point3;
-use crate::by_name::ByName;
+use crate::collect::too_many_entities;
 use crate::encoding::Decoder;
-use crate::entities::{EntityReader, Records, Space};
-use crate::faults::{Fatal, not_ended, stopped};
+use crate::entities::{EntityReader, Item, Shape, Space};
+use crate::faults::{EntityError, Fatal, not_ended, stopped};
 use crate::fields::{Fields, Want};
-use crate::groups::Groups;
-use crate::item::{Item, Shape};
+use crate::groups::{Groups, Records};
 use crate::layers::LayerId;
-use crate::names::Name;
+use crate::names::{ByName, Name};
 use crate::pairs::{Pair, Pairs, Stop};
-use crate::steps::Steps;
-use crate::trouble::EntityError;
 
 /// The blocks of a file.
 #[derive(Default)]
@@ -214,5 +211,30 @@ impl<'a> Blocks<'a> {
             items: None,
             layers: LayersOf::Unknown,
         });
+    }
+}
+
+/// The remaining budget.
+pub(crate) struct Steps {
+    left: usize,
+    most_entities: usize,
+}
+
+/// Number of block entities, wanted or not, that may be visited per entity of the limit.
+const STEPS_AN_ENTITY: usize = 16;
+
+impl Steps {
+    /// The budget of a drawing with this limit of entities.
+    pub(crate) fn new(most_entities: usize) -> Self {
+        Self { left: most_entities.saturating_mul(STEPS_AN_ENTITY), most_entities }
+    }
+
+    /// Spends some of the budget.
+    ///
+    /// # Errors
+    /// PB005 if it is exhausted.
+    pub(crate) fn take(&mut self, count: usize) -> Result<(), Fatal> {
+        self.left = self.left.checked_sub(count).ok_or_else(|| too_many_entities(self.most_entities))?;
+        Ok(())
     }
 }

@@ -13,11 +13,10 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Value};
 use smol_str::SmolStr;
 
 use crate::curves::{NoPieces, Tolerance};
-use crate::faults::Fatal;
-use crate::item::Shape;
+use crate::entities::Shape;
+use crate::faults::{EntityError, Fatal};
 use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
-use crate::trouble::EntityError;
 use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
 /// Builds a drawing.

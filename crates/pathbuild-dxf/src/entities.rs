@@ -5,22 +5,18 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
+use pathbuild_diagnostic::EntityKind;
 use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
 
 use crate::block_prefilter::{has_text, may_hold_wanted};
-use crate::code::Role;
 use crate::encoding::Decoder;
+use crate::faults::{EntityError, first_point};
 use crate::fields::{Fields, Value, Want};
-use crate::groups::Groups;
-use crate::item::{Item, Shape, Traits};
-use crate::kind::RecordKind;
-use crate::layers::{LayerId, Layers};
-use crate::line_types::LineTypes;
-use crate::names::is_same;
+use crate::groups::Records;
+use crate::layers::{LayerId, Layers, LineType, LineTypes};
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Spline};
-use crate::trouble::{EntityError, first_point};
-use crate::{Options, Origin};
+use crate::{Geometry, Options, Origin};
 
 /// Reads entities and caches what it learns about names.
 pub(crate) struct EntityReader<'a, 'o> {
@@ -44,41 +40,6 @@ pub(crate) struct EntityReader<'a, 'o> {
 pub(crate) enum Space {
     Model,
     Block,
-}
-
-/// The records of a section or block. `head` is the `0` pair of the next one.
-pub(crate) struct Records<'a> {
-    pub(crate) groups: Groups<'a>,
-    pub(crate) head: Pair<'a>,
-}
-
-impl<'a> Records<'a> {
-    /// Starts at the next `0` pair.
-    pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
-        let mut groups = Groups::new(pairs);
-        let head = groups.next_zero()?;
-        Ok(Self { groups, head })
-    }
-
-    /// Skips the following records of this kind on this layer. Entities of one layer mostly follow each other.
-    fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
-        while is_same(self.head.value, kind) {
-            let begin = self.groups;
-            let group = self.groups.pass_until(|role| !role.is_plain(), |_| {})?;
-            if group.role != Role::LAYER || !is_same(group.value(), layer) {
-                self.groups = begin;
-                break;
-            }
-            self.head = self.groups.next_zero()?;
-        }
-        Ok(())
-    }
-
-    /// Skips the record, which yields no item.
-    fn skip(&mut self) -> Result<Option<Item<'a>>, Stop<'a>> {
-        self.head = self.groups.next_zero()?;
-        Ok(None)
-    }
 }
 
 /// Largest number of repeated groups kept per entity.
@@ -121,14 +82,14 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
         loop {
             let head = records.head;
-            let item = match RecordKind::of(head.value) {
+            match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                None => records.skip()?,
-                Some(kind) if kind.is_part() => records.skip()?,
-                Some(kind) => self.item(records, kind, space)?,
-            };
-            if item.is_some() {
-                return Ok(item);
+                Some(kind) if !kind.is_part() => {
+                    if let Some(item) = self.item(records, kind, space)? {
+                        return Ok(Some(item));
+                    }
+                }
+                _ => records.skip()?,
             }
         }
     }
@@ -144,8 +105,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(Some(layers)),
-                None => _ = records.skip()?,
-                Some(kind) if kind.is_part() => _ = records.skip()?,
+                None => records.skip()?,
+                Some(kind) if kind.is_part() => records.skip()?,
                 Some(RecordKind::Insert | RecordKind::Text | RecordKind::MText) => return Ok(None),
                 Some(kind) => {
                     let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
@@ -331,4 +292,144 @@ fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space)
 /// Whether a record ends a section or block.
 pub(crate) fn is_end(head: &Pair<'_>) -> bool {
     ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"].iter().any(|keyword| head.is(keyword))
+}
+
+/// The type of a record in ENTITIES or in a block. VERTEX and SEQEND are records of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RecordKind {
+    Line,
+    Arc,
+    Circle,
+    Text,
+    MText,
+    LwPolyline,
+    Polyline,
+    Vertex,
+    SequenceEnd,
+    Ellipse,
+    Spline,
+    Insert,
+}
+
+/// Length of the longest type name.
+const LONGEST: usize = "LWPOLYLINE".len();
+
+impl RecordKind {
+    /// The kind with this name, or `None`. (`3DLINE` is the three-dimensional LINE of R10.)
+    #[inline]
+    pub(crate) fn of(name: &[u8]) -> Option<Self> {
+        Self::exact(name).or_else(|| Self::unusual(name))
+    }
+
+    /// The same for names in another case.
+    #[inline(never)]
+    fn unusual(name: &[u8]) -> Option<Self> {
+        if name.iter().all(u8::is_ascii_uppercase) {
+            return None;
+        }
+        let name = name.trim_ascii();
+        let mut room = [0; LONGEST];
+        let upper_case = room.get_mut(..name.len())?;
+        upper_case.copy_from_slice(name);
+        upper_case.make_ascii_uppercase();
+        Self::exact(upper_case)
+    }
+
+    #[inline]
+    fn exact(name: &[u8]) -> Option<Self> {
+        // Comparing arrays needs no function calls.
+        match name.len() {
+            3 if name == b"ARC" => Some(Self::Arc),
+            4 if name == b"LINE" => Some(Self::Line),
+            4 if name == b"TEXT" => Some(Self::Text),
+            5 if name == b"MTEXT" => Some(Self::MText),
+            6 if name == b"CIRCLE" => Some(Self::Circle),
+            6 if name == b"INSERT" => Some(Self::Insert),
+            6 if name == b"VERTEX" => Some(Self::Vertex),
+            6 if name == b"SEQEND" => Some(Self::SequenceEnd),
+            6 if name == b"SPLINE" => Some(Self::Spline),
+            6 if name == b"3DLINE" => Some(Self::Line),
+            7 if name == b"ELLIPSE" => Some(Self::Ellipse),
+            8 if name == b"POLYLINE" => Some(Self::Polyline),
+            10 if name == b"LWPOLYLINE" => Some(Self::LwPolyline),
+            _ => None,
+        }
+    }
+
+    /// Whether it belongs to a POLYLINE.
+    fn is_part(self) -> bool {
+        matches!(self, Self::Vertex | Self::SequenceEnd)
+    }
+
+    /// Bit mask of the codes below 80 that this kind repeats.
+    #[inline]
+    fn repeated_codes(self) -> u64 {
+        const fn bits(codes: &[u32]) -> u64 {
+            let mut bits = 0;
+            let mut index = 0;
+            while index < codes.len() {
+                bits |= 1 << codes[index];
+                index += 1;
+            }
+            bits
+        }
+        const CHUNKS: u64 = bits(&[1, 3]);
+        const VERTICES: u64 = bits(&[10, 20, 42]);
+        const CONTROL: u64 = bits(&[10, 20, 30, 40, 41]);
+        match self {
+            Self::MText => CHUNKS,
+            Self::LwPolyline => VERTICES,
+            Self::Spline => CONTROL,
+            _ => 0,
+        }
+    }
+
+    /// The kind for diagnostics.
+    fn entity_kind(self) -> EntityKind {
+        match self {
+            Self::Line => EntityKind::Line,
+            Self::Arc => EntityKind::Arc,
+            Self::Circle => EntityKind::Circle,
+            Self::Text => EntityKind::Text,
+            Self::MText => EntityKind::MText,
+            Self::LwPolyline => EntityKind::LwPolyline,
+            Self::Polyline | Self::Vertex | Self::SequenceEnd => EntityKind::Polyline,
+            Self::Ellipse => EntityKind::Ellipse,
+            Self::Spline => EntityKind::Spline,
+            Self::Insert => EntityKind::Insert,
+        }
+    }
+}
+
+/// An entity on a layer that may be wanted.
+#[derive(Clone, Debug)]
+pub(crate) struct Item<'a> {
+    pub(crate) traits: Traits,
+    pub(crate) shape: Result<Shape<'a>, EntityError<'a>>,
+}
+
+/// The properties that all entities have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Traits {
+    pub(crate) layer: LayerId,
+    pub(crate) line_type: LineType,
+    pub(crate) kind: EntityKind,
+    pub(crate) origin: Origin,
+    /// Whether group 60 hides it.
+    pub(crate) is_invisible: bool,
+}
+
+/// The shape of an entity in the coordinates of its space.
+#[derive(Clone, Debug)]
+pub(crate) enum Shape<'a> {
+    /// A shape of the drawing language.
+    Plain(Geometry),
+    /// The lines and arcs of a polyline.
+    Parts(Vec<Geometry>),
+    /// Approximated when it is placed.
+    Ellipse(Box<Ellipse>),
+    /// Approximated when it is placed.
+    Spline(Box<Spline>),
+    /// The contents of a block.
+    Insert(Box<Insert<'a>>),
 }

@@ -6,8 +6,7 @@
 use pathbuild_diagnostic::Handle;
 
 use crate::Point3;
-use crate::code::Role;
-use crate::groups::{Group, Groups};
+use crate::groups::{Group, Groups, Role};
 use crate::number::{NotANumber, real, whole};
 use crate::pairs::{Pair, Stop, without_cr};
 

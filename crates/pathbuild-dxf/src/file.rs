@@ -7,17 +7,15 @@ use pathbuild_diagnostic::{Diagnostic, Text};
 use crate::binary::to_ascii;
 use crate::collect::{Collector, Limits};
 use crate::encoding::Decoder;
-use crate::entities::{EntityReader, Records, most_repeated};
+use crate::entities::{EntityReader, most_repeated};
 use crate::faults::{Fatal, at_pair, not_ended, shown, stopped};
 use crate::fields::Fields;
-use crate::header::Header;
-use crate::layer_table::LayerTable;
-use crate::layers::Layers;
+use crate::groups::Records;
+use crate::header::{Header, millimetres};
+use crate::layers::{LayerTable, Layers};
 use crate::model::Model;
-use crate::pairs::{Pair, Pairs, Stop};
+use crate::pairs::{Pair, Pairs, SectionEnd, Stop, ends_with_eof};
 use crate::placement::Placement;
-use crate::sections::{SectionEnd, ends_with_eof};
-use crate::units::millimetres;
 use crate::{Drawing, Options};
 
 /// Reads a file. An error concerns the file as a whole.

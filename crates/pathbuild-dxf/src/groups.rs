@@ -1,8 +1,11 @@
 //! Fast iteration over the pairs of entities. Unusual pairs are left to [`Pairs`], which is careful rather than fast.
+//!
+//! Lines of a DXF file are only a few bytes long, and their lengths vary. A new search for each line would cost more than the line itself
+//! and would depend on the search before, so all line ends of a stretch of bytes are found at once.
 
-use crate::code::{CodeEnd, Role};
-use crate::line_ends::Stretch;
-use crate::pairs::{Pair, Pairs, Stop, without_cr};
+use wide::u8x16;
+
+use crate::pairs::{Pair, Pairs, Stop, is_same, without_cr};
 
 /// A pair with the role of its code.
 #[derive(Clone, Copy, Debug)]
@@ -130,6 +133,41 @@ impl<'a> Groups<'a> {
     }
 }
 
+/// The records of a section or block. `head` is the `0` pair of the next one.
+pub(crate) struct Records<'a> {
+    pub(crate) groups: Groups<'a>,
+    pub(crate) head: Pair<'a>,
+}
+
+impl<'a> Records<'a> {
+    /// Starts at the next `0` pair.
+    pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
+        let mut groups = Groups::new(pairs);
+        let head = groups.next_zero()?;
+        Ok(Self { groups, head })
+    }
+
+    /// Skips the following records of this kind on this layer. Entities of one layer mostly follow each other.
+    pub(crate) fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
+        while is_same(self.head.value, kind) {
+            let begin = self.groups;
+            let group = self.groups.pass_until(|role| !role.is_plain(), |_| {})?;
+            if group.role != Role::LAYER || !is_same(group.value(), layer) {
+                self.groups = begin;
+                break;
+            }
+            self.head = self.groups.next_zero()?;
+        }
+        Ok(())
+    }
+
+    /// Skips the record.
+    pub(crate) fn skip(&mut self) -> Result<(), Stop<'a>> {
+        self.head = self.groups.next_zero()?;
+        Ok(())
+    }
+}
+
 impl<'a> NextPair<'a> {
     #[inline]
     fn next(&mut self, code_end: CodeEnd) -> Option<Group<'a>> {
@@ -144,4 +182,259 @@ impl<'a> NextPair<'a> {
 #[inline]
 fn shown(line: u64) -> u32 {
     u32::try_from(line).unwrap_or(u32::MAX)
+}
+
+/// The pairs in a stretch of bytes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch<'a> {
+    /// The bytes whose line ends are known, and room for one more code.
+    bytes: &'a [u8; KNOWN + CODE],
+    /// Offset of the next pair.
+    at: usize,
+    /// Bit mask of the line ends from there on: bit n for byte n.
+    ends: u64,
+}
+
+/// Number of bytes scanned at once.
+const KNOWN: usize = 64;
+
+/// Longest line with a code, in bytes.
+const CODE: usize = 8;
+
+impl<'a> Stretch<'a> {
+    /// A stretch without pairs.
+    const EMPTY: Self = Self { bytes: &[0; KNOWN + CODE], at: 0, ends: 0 };
+
+    /// The pairs at the start of these bytes; `None` if the first pair is too long or the bytes are nearly exhausted.
+    #[inline]
+    pub(crate) fn of(bytes: &'a [u8], line_end: u8) -> Option<Self> {
+        let bytes = bytes.first_chunk()?;
+        let ends = places(bytes.first_chunk()?, line_end);
+        (without_first(ends) != 0).then_some(Self { bytes, at: 0, ends })
+    }
+
+    /// Number of bytes consumed so far.
+    #[inline]
+    pub(crate) fn consumed(&self) -> usize {
+        self.at
+    }
+
+    /// Whether it is [`Self::EMPTY`].
+    pub(crate) fn is_empty(&self) -> bool {
+        self.at == 0 && self.ends == 0
+    }
+
+    /// Consumes the next pair and returns the role of its code and its value; `None` if the pair is incomplete or its code is written
+    /// unusually.
+    #[inline]
+    pub(crate) fn next(&mut self, code_end: CodeEnd) -> Option<(Role, &'a [u8])> {
+        let value_ends = without_first(self.ends);
+        if value_ends == 0 {
+            return None;
+        }
+        // `at` is always smaller; the remainder proves it to the compiler.
+        let at = self.at % KNOWN;
+        let (length, role) = Role::of_line(*self.bytes[at..].first_chunk()?, code_end)?;
+        let end = value_ends.trailing_zeros() as usize % KNOWN;
+        (self.at, self.ends) = (end + 1, without_first(value_ends));
+        // Branches on whether there is a CR cannot be predicted.
+        let has_cr = usize::from(end > 0 && self.bytes[end - 1] == b'\r');
+        Some((role, self.bytes.get(at + length..end - has_cr).unwrap_or_default()))
+    }
+}
+
+/// Bit mask of the bytes equal to this one: bit n for byte n.
+#[inline]
+fn places(bytes: &[u8; KNOWN], byte: u8) -> u64 {
+    let byte = u8x16::splat(byte);
+    let (vectors, _) = bytes.as_chunks();
+    let equal = |vector: &[u8; 16]| u64::from(u8x16::from(*vector).simd_eq(byte).to_bitmask());
+    vectors.iter().rev().fold(0, |bits, vector| bits << 16 | equal(vector))
+}
+
+#[inline]
+fn without_first(bits: u64) -> u64 {
+    bits & bits.wrapping_sub(1)
+}
+
+/// What the reader does with a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Role(u8);
+
+/// How lines with group codes usually end in this file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CodeEnd {
+    /// The byte that ends a line: LF or CR.
+    last: u8,
+    /// Length of a line of three characters with its line end.
+    length: usize,
+    /// The line end after three characters, and the mask of such a line.
+    behind_three: u64,
+    mask: u64,
+}
+
+/// Longest line with a code that the fast path reads.
+const LONGEST: usize = 8;
+
+impl CodeEnd {
+    /// Determines from the first line how group codes are written.
+    pub(crate) fn of(pairs: &Pairs<'_>) -> Self {
+        let last = pairs.line_end();
+        let rest = &pairs.bytes()[pairs.consumed()..];
+        let end = rest.iter().take(LONGEST).position(|byte| *byte == last);
+        let has_cr = last != b'\r' && end.is_some_and(|end| rest[..end].ends_with(b"\r"));
+        let (end, length) =
+            if has_cr { (u64::from(last) << 8 | u64::from(b'\r'), 5) } else { (u64::from(last), 4) };
+        Self { last, length, behind_three: end << 24, mask: (1 << (8 * length)) - 1 }
+    }
+
+    /// The byte that ends a line.
+    pub(crate) fn last(self) -> u8 {
+        self.last
+    }
+}
+
+impl Role {
+    /// A code without any role.
+    const OTHER: Self = Self(83);
+    /// Code 0, which starts an entity.
+    pub(crate) const BEGIN: Self = Self(84);
+    /// The entity's layer: 8.
+    pub(crate) const LAYER: Self = Self(85);
+    /// Code 101, which starts an embedded object.
+    pub(crate) const EMBEDDED: Self = Self(86);
+    /// Code 102, which opens or closes a group of an application.
+    pub(crate) const APPLICATION: Self = Self(87);
+
+    /// The role of a code.
+    pub(crate) const fn of(code: i32) -> Self {
+        match code {
+            0 => Self::BEGIN,
+            8 => Self::LAYER,
+            101 => Self::EMBEDDED,
+            102 => Self::APPLICATION,
+            210 => Self(80),
+            220 => Self(81),
+            230 => Self(82),
+            #[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "below 80")]
+            1..80 => Self(code as u8),
+            _ => Self::OTHER,
+        }
+    }
+
+    /// The role of the code on the first line of these bytes, and the length of that line with its end. `None` unless the line has at most
+    /// seven bytes: blanks, digits, and possibly a CR.
+    #[inline]
+    fn of_line(line: [u8; 8], code_end: CodeEnd) -> Option<(usize, Self)> {
+        let word = u64::from_le_bytes(line);
+        #[expect(clippy::cast_possible_truncation, reason = "the first characters")]
+        let index = index(word as u32);
+        // Nearly all programs pad codes to three characters and use one kind of line end.
+        if (word ^ code_end.behind_three) & code_end.mask == u64::from(USUAL[index]) {
+            return Some((code_end.length, ROLES[index]));
+        }
+        Self::of_unusual_line(line, code_end.last)
+    }
+
+    /// Like [`Self::of_line`], for codes of any width that fits, and for other line ends.
+    #[inline(never)]
+    fn of_unusual_line(line: [u8; 8], line_end: u8) -> Option<(usize, Self)> {
+        let word = u64::from_le_bytes(line);
+        let other = word ^ (ONES * u64::from(line_end));
+        // Sets the top bit of each byte that is a line end. Bits above the lowest may be wrong.
+        let ends = other.wrapping_sub(ONES) & !other & (ONES * 0x80);
+        let length = ends.trailing_zeros() as usize / 8;
+        let before = *line.get(length.wrapping_sub(1)).filter(|_| length < line.len())?;
+        let bits = 8 * (length - usize::from(before == b'\r'));
+        if bits == 0 {
+            return None;
+        }
+        // Aligns the last digit to the last byte and fills with blanks before the first.
+        let code = number((word << (64 - bits)) | ((ONES * 0x20) >> bits))?;
+        Some((length + 1, Self::of(code)))
+    }
+
+    /// The slot in which an entity keeps the value. [`Role::OTHER`] and the roles after it have none.
+    #[inline]
+    pub(crate) fn slot(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// Whether the value is stored unparsed or ignored.
+    #[inline]
+    pub(crate) fn is_plain(self) -> bool {
+        self.0 <= Self::OTHER.0
+    }
+
+    /// The code with this role, if there is only one.
+    pub(crate) fn code(self) -> Option<i32> {
+        Some(match self {
+            Self::OTHER => return None,
+            Self::BEGIN => 0,
+            Self::LAYER => 8,
+            Self::EMBEDDED => 101,
+            Self::APPLICATION => 102,
+            Self(80) => 210,
+            Self(81) => 220,
+            Self(82) => 230,
+            Self(slot) => i32::from(slot),
+        })
+    }
+}
+
+/// Parses eight bytes of blanks followed by digits.
+fn number(padded: u64) -> Option<i32> {
+    // A blank is 0x20, a digit 0x30 to 0x39: bit 4 tells them apart.
+    let is_digit = (padded >> 4) & ONES;
+    let values = padded & (ONES * 0x0F);
+    let is_blank_or_digit = padded & (ONES * 0xE0) == ONES * 0x20;
+    let is_in_range = (is_digit * 9 + ONES * 0x80 - values) & (ONES * 0x80) == ONES * 0x80;
+    let has_blank_after_digit = (is_digit << 8) & !is_digit != 0;
+    let ends_with_digit = is_digit >> 56 == 1;
+    if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
+        return None;
+    }
+    // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to
+    // no pair overflows at the top.
+    let twos = (values.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
+    let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
+    i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()
+}
+
+/// 0x01 in each byte.
+const ONES: u64 = u64::from_le_bytes([1; 8]);
+
+/// The codes 0 to 999 as three characters, by hash. Slots without a code match no text.
+static USUAL: [u32; PLACES] = usual().0;
+
+/// The roles of the codes in [`USUAL`].
+static ROLES: [Role; PLACES] = usual().1;
+
+const PLACES: usize = 1 << 12;
+
+const fn usual() -> ([u32; PLACES], [Role; PLACES]) {
+    let mut texts = [0; PLACES];
+    let mut roles = [Role::OTHER; PLACES];
+    let mut code = 0;
+    while code < 1000 {
+        let text = three_characters(code);
+        texts[index(text)] = text;
+        roles[index(text)] = Role::of(code);
+        code += 1;
+    }
+    (texts, roles)
+}
+
+#[expect(clippy::cast_sign_loss, reason = "0 to 999")]
+const fn three_characters(code: i32) -> u32 {
+    let hundreds = if code < 100 { b' ' as u32 } else { b'0' as u32 + (code / 100) as u32 };
+    let tens = if code < 10 { b' ' as u32 } else { b'0' as u32 + (code / 10 % 10) as u32 };
+    hundreds | tens << 8 | (b'0' as u32 + (code % 10) as u32) << 16
+}
+
+/// The low nibbles of the first three characters, side by side.
+#[inline]
+const fn index(text: u32) -> usize {
+    // The product shifts each nibble to its place; the mask removes the rest.
+    ((text & 0x000F_0F0F).wrapping_mul(1 << 24 | 1 << 12 | 1) >> 16 & 0xFFF) as usize
 }

@@ -1,14 +1,15 @@
-//! The three variables of the HEADER section that matter: version, code page, units.
+//! The three variables of the HEADER section that matter: version, code page, units. (book: reference/dxf; book: reference/configuration, `units`)
 
 use std::sync::LazyLock;
 
 use memchr::memmem::Finder;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files::WRONG_UNITS;
+use pathbuild_diagnostic::{Diagnostic, Text};
 
+use crate::Units;
 use crate::faults::{self, Fatal};
 use crate::number::whole;
-use crate::pairs::{Pair, Pairs, Stop};
-use crate::sections::Keyword;
+use crate::pairs::{Keyword, Pair, Pairs, Stop};
 
 /// The HEADER section. All of it may be missing, as in R10 files and those written by scripts.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,12 +22,12 @@ pub(crate) struct Header<'a> {
 
 static VERSION: Keyword = LazyLock::new(|| Finder::new("$ACADVER"));
 static CODE_PAGE: Keyword = LazyLock::new(|| Finder::new("$DWGCODEPAGE"));
-static UNITS: Keyword = LazyLock::new(|| Finder::new("$INSUNITS"));
+static UNIT_VARIABLE: Keyword = LazyLock::new(|| Finder::new("$INSUNITS"));
 
 impl<'a> Header<'a> {
     /// Finds the variables in the section that starts here.
     pub(crate) fn find(&mut self, section: &Pairs<'a>) {
-        for variable in [&VERSION, &CODE_PAGE, &UNITS] {
+        for variable in [&VERSION, &CODE_PAGE, &UNIT_VARIABLE] {
             if let Some(mut pairs) = section.behind("9", variable) {
                 let place = pairs;
                 if let Ok(value) = pairs.next() {
@@ -75,7 +76,7 @@ impl<'a> Header<'a> {
     }
 
     /// Attaches the place of `$INSUNITS` to a diagnostic.
-    pub(crate) fn at_units(&self, diagnostic: Diagnostic) -> Diagnostic {
+    fn at_units(&self, diagnostic: Diagnostic) -> Diagnostic {
         match self.units {
             Some((_, pairs)) => diagnostic.at_line(pairs.counted_line().saturating_add(1), None),
             None => diagnostic,
@@ -90,4 +91,65 @@ impl<'a> Header<'a> {
             _ => {}
         }
     }
+}
+
+/// Millimetres per unit of the drawing, or PB113.
+pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fatal> {
+    if units == Units::Millimetres {
+        return Ok(1.0);
+    }
+    let Some(number) = header.units()? else { return Ok(1.0) };
+    match (number, unit(number)) {
+        (0 | 4, _) => Ok(1.0),
+        (_, Some((_, factor))) if units == Units::Drawing => Ok(factor),
+        (_, unit) => {
+            let name = unit.map_or(&UNKNOWN, |(name, _)| name);
+            Err(Box::new(header.at_units(wrong_units(number, name))))
+        }
+    }
+}
+
+fn wrong_units(number: i64, name: &'static Text) -> Diagnostic {
+    Diagnostic::new(&WRONG_UNITS).with("unit", name).quoting("number", number.to_string())
+}
+
+/// The name of a unit and its length in millimetres.
+fn unit(number: i64) -> Option<(&'static Text, f64)> {
+    let index = usize::try_from(number).ok()?;
+    UNITS.get(index).map(|(name, factor)| (name, *factor))
+}
+
+static UNKNOWN: Text = Text { en: "unknown", de: "unbekannt" };
+
+/// By number. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts, rounded to f64.
+static UNITS: [(Text, f64); 25] = [
+    (word("none", "keine"), 1.0),
+    (word("inches", "Zoll"), 25.4),
+    (word("feet", "Fuß"), 304.8),
+    (word("miles", "Meilen"), 1_609_344.0),
+    (word("millimetres", "Millimeter"), 1.0),
+    (word("centimetres", "Zentimeter"), 10.0),
+    (word("metres", "Meter"), 1e3),
+    (word("kilometres", "Kilometer"), 1e6),
+    (word("microinches", "Mikrozoll"), 25.4e-6),
+    (word("mils", "Tausendstel Zoll"), 0.0254),
+    (word("yards", "Yard"), 914.4),
+    (word("ångströms", "Ångström"), 1e-7),
+    (word("nanometres", "Nanometer"), 1e-6),
+    (word("micrometres", "Mikrometer"), 1e-3),
+    (word("decimetres", "Dezimeter"), 100.0),
+    (word("decametres", "Dekameter"), 1e4),
+    (word("hectometres", "Hektometer"), 1e5),
+    (word("gigametres", "Gigameter"), 1e12),
+    (word("astronomical units", "Astronomische Einheiten"), 149_597_870_700_000.0),
+    (word("light years", "Lichtjahre"), 9_460_730_472_580_800_000.0),
+    (word("parsecs", "Parsec"), 30_856_775_814_913_670_000.0),
+    (word("US survey feet", "US-Vermessungsfuß"), 1_200_000.0 / 3937.0),
+    (word("US survey inches", "US-Vermessungszoll"), 100_000.0 / 3937.0),
+    (word("US survey yards", "US-Vermessungsyard"), 3_600_000.0 / 3937.0),
+    (word("US survey miles", "US-Vermessungsmeilen"), 6_336_000_000.0 / 3937.0),
+];
+
+const fn word(en: &'static str, de: &'static str) -> Text {
+    Text { en, de }
 }

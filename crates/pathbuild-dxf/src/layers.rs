@@ -1,18 +1,20 @@
-//! The layers of entities. (book: reference/dxf; book: language/layers-and-names)
+//! The layers and line types of entities. (book: reference/dxf; book: language/layers-and-names; book: language/line-types)
 //!
 //! Each spelling of a name is evaluated once per file; entities hold its index.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
+use memchr::memchr;
+use memchr::memmem::Finder;
 use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
-use crate::layer_records::Reading;
-use crate::layer_table::{LayerRecord, LayerTable};
-use crate::line_types::CONTINUOUS;
-use crate::names::{folded, is_same, without_xref};
-use crate::pairs::Stop;
-use crate::spellings::Spellings;
+use crate::fields::{Fields, Value, Want};
+use crate::groups::Records;
+use crate::names::{ByName, Name, Spellings, folded, without_xref};
+use crate::number::{real, whole};
+use crate::pairs::{LAYER, Pair, Pairs, Stop, is_same};
 
 /// Index of a spelling of a layer's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -149,4 +151,264 @@ impl UsedLayer {
             hidden: record.as_ref().is_some_and(LayerRecord::is_hidden),
         })
     }
+}
+
+/// The LAYER table, of which only records of wanted layers are read.
+#[derive(Debug, Default)]
+pub(crate) struct LayerTable<'a> {
+    /// The TABLES section.
+    tables: Option<Pairs<'a>>,
+    /// Number of lookups so far.
+    lookups: usize,
+    /// All layers, read after many lookups.
+    all: Option<KnownLayers<'a>>,
+}
+
+/// Layers by name. Few are ever looked up, so their values are decoded on demand.
+#[derive(Debug, Default)]
+pub(crate) struct KnownLayers<'a> {
+    records: ByName<'a, LayerRecord<'a>>,
+    /// Layers with an external-reference prefix, by the rest of their names.
+    referenced: OnceCell<ByName<'a, LayerRecord<'a>>>,
+}
+
+/// A layer of the table.
+#[derive(Clone, Debug)]
+pub(crate) struct LayerRecord<'a> {
+    line_type: Option<Cow<'a, [u8]>>,
+    colour: Option<&'a [u8]>,
+    flags: Option<&'a [u8]>,
+}
+
+/// Number of layers that are looked up one by one in the tables; most drawings of paths have no more.
+const FEW: usize = 4;
+
+/// Shorter texts occur nearly everywhere, so searching for them does not pay.
+const SHORTEST: usize = 4;
+
+impl<'a> LayerTable<'a> {
+    /// The table of this TABLES section.
+    pub(crate) fn new(tables: Option<Pairs<'a>>) -> Self {
+        Self { tables, ..Self::default() }
+    }
+
+    /// Finds the record of a layer by its full name, else by the name without external-reference prefix.
+    pub(crate) fn find(
+        &mut self,
+        full_name: &str,
+        reading: &mut Reading<'_, 'a, '_>,
+    ) -> Result<Option<LayerRecord<'a>>, Stop<'a>> {
+        let Some(tables) = self.tables else { return Ok(None) };
+        self.lookups += 1;
+        let certain = part_certain(without_xref(full_name).as_bytes());
+        let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
+        if self.all.is_none() && self.lookups <= FEW && certain.len() >= SHORTEST && !has_escapes() {
+            let some = reading.some(tables, certain, &Name::new(full_name.into()))?;
+            return Ok(some.get(full_name).cloned());
+        }
+        let all = match &mut self.all {
+            Some(all) => all,
+            all => all.insert(reading.all(tables)?),
+        };
+        Ok(all.get(full_name).cloned())
+    }
+}
+
+/// The longest part of a name that is the same in any case and code page: ASCII without escapes and letters.
+fn part_certain(name: &[u8]) -> &[u8] {
+    let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
+    name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
+}
+
+impl<'a> KnownLayers<'a> {
+    /// Adds a record from its groups, unless it has no name.
+    pub(crate) fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
+        let Some(name) = groups.get(2) else { return };
+        let name = Name::decoded(name.bytes, name.line, decoder);
+        let bytes = |code: i32| groups.get(code).map(|value| value.bytes);
+        let line_type = groups.get(6).map(|name| decoder.decode_bytes(name.bytes, name.line));
+        self.records.push(name, LayerRecord { line_type, colour: bytes(62), flags: bytes(70) });
+    }
+
+    /// The name added last.
+    fn last_name(&self) -> Option<&Name<'a>> {
+        self.records.iter().next_back().map(|(name, _)| name)
+    }
+
+    /// Finds a record by its full name, else by the name without external-reference prefix.
+    pub(crate) fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
+        let find = |name: &str| {
+            let name = Name::new(name.into());
+            self.records.find(&name).or_else(|| self.referenced().find(&name))
+        };
+        find(full_name).or_else(|| find(without_xref(full_name)))
+    }
+
+    fn referenced(&self) -> &ByName<'a, LayerRecord<'a>> {
+        self.referenced.get_or_init(|| {
+            let mut referenced = ByName::default();
+            for (name, record) in self.records.iter() {
+                if let Some(name) = name.behind_xref() {
+                    referenced.push(name, record.clone());
+                }
+            }
+            referenced
+        })
+    }
+}
+
+impl LayerRecord<'_> {
+    /// The line type in upper case, if set.
+    pub(crate) fn line_type(&self) -> Option<SmolStr> {
+        let name = String::from_utf8_lossy(self.line_type.as_deref()?);
+        Some(line_type_name(&name)).filter(|name| !name.is_empty())
+    }
+
+    /// Whether the layer is frozen or off.
+    fn is_hidden(&self) -> bool {
+        let is_off = self.colour.is_some_and(|colour| real(colour).is_ok_and(|number| number < 0.0));
+        is_off || self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0))
+    }
+}
+
+/// What reading the records needs.
+pub(crate) struct Reading<'r, 'a, 'd> {
+    pub(crate) fields: &'r mut Fields<'a>,
+    pub(crate) decoder: &'r mut Decoder<'d>,
+}
+
+impl<'a> Reading<'_, 'a, '_> {
+    /// Reads all layers of these tables.
+    pub(crate) fn all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
+        let mut layers = KnownLayers::default();
+        while let Some(head) = tables.place("0", &LAYER) {
+            tables.jump_to(head);
+            let mut records = Records::new(tables)?;
+            while !is_end_of_table(&records.head) {
+                self.record(&mut records, &mut layers)?;
+            }
+            tables = records.groups.pairs();
+        }
+        Ok(layers)
+    }
+
+    /// Reads the records that contain a text, and possibly others, up to the record with this name. From a match on, the table is read pair
+    /// by pair from the start of the record, so that no broken record is overlooked.
+    pub(crate) fn some(
+        &mut self,
+        mut tables: Pairs<'a>,
+        written: &[u8],
+        wanted: &Name<'_>,
+    ) -> Result<KnownLayers<'a>, Stop<'a>> {
+        let mut layers = KnownLayers::default();
+        let mut records = None;
+        let begin = tables.consumed();
+        for at in Finder::new(written).find_iter(&tables.bytes()[begin..]).map(|at| begin + at) {
+            let last = tables.last_place("0", "LAYER", at);
+            // Everything before the first record is skipped at once.
+            let head = if records.is_none() { last.or_else(|| tables.place("0", &LAYER)) } else { last };
+            if let Some(head) = head {
+                tables.jump_to(head);
+                records = Some(Records::new(tables)?);
+            }
+            let Some(row) = &mut records else { break };
+            while row.groups.pairs().consumed() <= at && !is_end_of_table(&row.head) {
+                self.record(row, &mut layers)?;
+            }
+            if layers.last_name() == Some(wanted) {
+                break;
+            }
+            tables = row.groups.pairs();
+            records = records.filter(|row| !is_end_of_table(&row.head));
+        }
+        Ok(layers)
+    }
+
+    /// Reads the head record if it is a LAYER.
+    fn record(&mut self, records: &mut Records<'a>, layers: &mut KnownLayers<'a>) -> Result<(), Stop<'a>> {
+        let is_layer = records.head.is("LAYER");
+        (records.head, _) = self.fields.fill(&mut records.groups, records.head.line, 0, |_| Want::Keep)?;
+        if is_layer {
+            layers.add(self.fields, self.decoder);
+        }
+        Ok(())
+    }
+}
+
+/// Whether the table ends here. A record whose start is damaged does not end the table, so that the damage is reported.
+fn is_end_of_table(head: &Pair<'_>) -> bool {
+    ["ENDTAB", "TABLE", "ENDSEC"].iter().any(|keyword| head.is(keyword))
+}
+
+/// The line type where none is given.
+pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
+
+/// The line type of an entity as written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LineType {
+    /// That of its layer, also where none is written.
+    ByLayer,
+    /// That of the INSERT.
+    ByBlock,
+    /// Index of a name in [`LineTypes`].
+    Named(u32),
+}
+
+/// Number of line types to reserve room for.
+const USUAL_LINE_TYPES: usize = 8;
+
+/// The names of line types that entities use.
+#[derive(Debug)]
+pub(crate) struct LineTypes<'a> {
+    by_spelling: Spellings<'a, LineType>,
+    names: Vec<SmolStr>,
+    continuous: SmolStr,
+}
+
+impl Default for LineTypes<'_> {
+    fn default() -> Self {
+        Self {
+            by_spelling: Spellings::default(),
+            names: Vec::with_capacity(USUAL_LINE_TYPES),
+            continuous: CONTINUOUS,
+        }
+    }
+}
+
+impl<'a> LineTypes<'a> {
+    /// The line type for this value of group 6.
+    #[inline]
+    pub(crate) fn get(&mut self, value: Option<Value<'a>>, decoder: &mut Decoder<'_>) -> LineType {
+        let Some(value) = value else { return LineType::ByLayer };
+        self.by_spelling.get(value.bytes).unwrap_or_else(|| self.first_use(value, decoder))
+    }
+
+    /// The name with this index: upper case, without xref prefix.
+    pub(crate) fn name(&self, number: u32) -> &SmolStr {
+        &self.names[number as usize]
+    }
+
+    /// The line type where none is given.
+    pub(crate) fn continuous(&self) -> &SmolStr {
+        &self.continuous
+    }
+
+    fn first_use(&mut self, value: Value<'a>, decoder: &mut Decoder<'_>) -> LineType {
+        let name = line_type_name(&decoder.decode(value.bytes, value.line));
+        let line_type = match &*name {
+            "" | "BYLAYER" => LineType::ByLayer,
+            "BYBLOCK" => LineType::ByBlock,
+            _ => {
+                self.names.push(name);
+                LineType::Named(u32::try_from(self.names.len() - 1).unwrap_or(u32::MAX))
+            }
+        };
+        self.by_spelling.insert(value.bytes, line_type);
+        line_type
+    }
+}
+
+/// A line type's name folded for comparison: trimmed, without xref prefix, upper case.
+fn line_type_name(name: &str) -> SmolStr {
+    folded(without_xref(name))
 }

@@ -4,15 +4,11 @@
 //! coordinates, with resolved line types and decoded texts, together with everything that was wrong. It does no IO. Line numbers and
 //! handles are kept beside the entities, so that edits which only shift them do not disturb later stages. (book: reference/dxf)
 
-mod angle;
 mod binary;
 mod block_prefilter;
 mod blocks;
-mod by_name;
-mod code;
 mod collect;
 mod curves;
-mod decimal;
 mod drawing;
 mod encoding;
 mod entities;
@@ -21,25 +17,13 @@ mod fields;
 mod file;
 mod groups;
 mod header;
-mod item;
-mod kind;
-mod layer_records;
-mod layer_table;
 mod layers;
-mod line_ends;
-mod line_types;
 mod model;
-mod mtext;
 mod names;
 mod number;
 mod pairs;
 mod placement;
-mod sections;
 mod shapes;
-mod spellings;
-mod steps;
-mod trouble;
-mod units;
 
 pub use drawing::{
     Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, Line, MText, OmittedCurve,

@@ -9,19 +9,15 @@ use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
 use smol_str::SmolStr;
 
 use crate::Origin;
-use crate::blocks::{BlockId, Blocks};
+use crate::blocks::{BlockId, Blocks, Steps};
 use crate::collect::{Collector, Placed};
-use crate::entities::{EntityReader, Records, Space};
-use crate::faults::{Fatal, stopped};
-use crate::item::{Item, Shape, Traits};
-use crate::layer_records::Reading;
-use crate::layers::LayerId;
-use crate::line_types::LineType;
+use crate::entities::{EntityReader, Item, Shape, Space, Traits};
+use crate::faults::{EntityError, Fatal, stopped};
+use crate::groups::Records;
+use crate::layers::{LayerId, LineType, Reading};
 use crate::pairs::Pairs;
 use crate::placement::Placement;
 use crate::shapes::Insert;
-use crate::steps::Steps;
-use crate::trouble::EntityError;
 
 /// Reads a drawing's model space.
 pub(crate) struct Model<'r, 'a, 'o> {

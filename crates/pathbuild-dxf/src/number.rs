@@ -1,6 +1,8 @@
 //! Parses numbers as CAD programs write them. (book: reference/dxf: "numbers")
-
-use crate::decimal::{LARGEST_EXACT, plain_decimal};
+//!
+//! Nearly all numbers of a drawing are plain decimals. Their parser works on eight characters at a time, because branches on the number of
+//! digits or the place of the point cannot be predicted. The value is exactly that of a general parser: digits up to 2^53 and powers of ten
+//! up to 10^22 are exact, so a single division rounds correctly.
 
 /// Why a value is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,4 +62,136 @@ fn general(value: &[u8]) -> Result<f64, NotANumber> {
 
 fn is_with_comma(text: &str) -> bool {
     text.matches(',').count() == 1 && text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite)
+}
+
+/// Parses `[-]digits[.digits]` with at most 16 characters after the sign. `None` for any other form, including a point next to a single
+/// digit.
+/// digit.
+#[inline]
+fn plain_decimal(value: &[u8]) -> Option<f64> {
+    // By far the most frequent number, as heights and normals.
+    if value == b"0.0" {
+        return Some(0.0);
+    }
+    match value.len() {
+        3..=WIDTH => short_decimal(value),
+        _ => other_decimal(value),
+    }
+}
+
+/// Parses three to eight characters, at least one of which is a digit. The sign is handled without a branch.
+#[inline]
+fn short_decimal(value: &[u8]) -> Option<f64> {
+    let is_negative = value.first() == Some(&b'-');
+    let sign = u64::from(is_negative) * u64::from(b'-' ^ b'0');
+    let digits = Digits::read(value).0 ^ sign << (64 - 8 * value.len());
+    let (digits, decimals) = Digits(digits).without_point();
+    Some(quotient(digits.number()?, decimals.unwrap_or(0), is_negative))
+}
+
+/// Parses any other length.
+fn other_decimal(value: &[u8]) -> Option<f64> {
+    let (is_negative, text) = match value {
+        [b'-', text @ ..] => (true, text),
+        text => (false, text),
+    };
+    let (number, decimals) = match text {
+        [a @ b'0'..=b'9'] => (u64::from(a - b'0'), 0),
+        [a @ b'0'..=b'9', b @ b'0'..=b'9'] => (u64::from(a - b'0') * 10 + u64::from(b - b'0'), 0),
+        _ => long_number(text)?,
+    };
+    Some(quotient(number, decimals, is_negative))
+}
+
+/// Parses eight to sixteen characters without the point, and returns how many digits follow it.
+fn long_number(text: &[u8]) -> Option<(u64, usize)> {
+    let split = text.len().checked_sub(WIDTH).filter(|split| *split <= WIDTH)?;
+    let (first, decimals) = Digits::first(*text.first_chunk()?, split).without_point();
+    let last = Digits::of(*text.last_chunk()?);
+    let (last, scale, decimals) = match (decimals, last.without_point()) {
+        (Some(decimals), _) => (last, 100_000_000, decimals + WIDTH),
+        (None, (last, Some(decimals))) => (last, 10_000_000, decimals),
+        (None, (last, None)) => (last, 100_000_000, 0),
+    };
+    let number = first.number()? * scale + last.number()?;
+    (number <= LARGEST_EXACT).then_some((number, decimals))
+}
+
+#[inline]
+fn quotient(number: u64, decimals: usize, is_negative: bool) -> f64 {
+    let number = number as f64 / POWERS[decimals];
+    f64::from_bits(number.to_bits() | u64::from(is_negative) << 63)
+}
+
+/// 2^53, up to which every whole number is an exact f64.
+const LARGEST_EXACT: u64 = 1 << 53;
+
+/// Number of characters processed at once.
+const WIDTH: usize = 8;
+
+/// The powers of ten that a division may need.
+const POWERS: [f64; 2 * WIDTH] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
+/// 0x01 in each byte.
+const ONES: u64 = u64::from_le_bytes([1; WIDTH]);
+
+/// `0` in each byte.
+const ZEROS: u64 = ONES * 0x30;
+
+/// Up to eight digits, the last in the highest byte, padded with zeros. A byte above 9 is some other character.
+#[derive(Clone, Copy)]
+struct Digits(u64);
+
+impl Digits {
+    /// Loads three to eight characters.
+    #[inline]
+    fn read(text: &[u8]) -> Self {
+        let half = |characters: [u8; 4]| u64::from(u32::from_le_bytes(characters)) ^ ZEROS >> 32;
+        Self(match (text.first_chunk(), text.last_chunk(), text) {
+            // The halves overlap; bytes in both are equal.
+            (Some(first), Some(last), _) => half(*first) << (64 - 8 * text.len()) | half(*last) << 32,
+            (_, _, [a, b, c]) => half([b'0', *a, *b, *c]) << 32,
+            // A number has at least one character.
+            _ => u64::MAX,
+        })
+    }
+
+    /// Loads eight characters.
+    #[inline]
+    fn of(characters: [u8; WIDTH]) -> Self {
+        Self(u64::from_le_bytes(characters) ^ ZEROS)
+    }
+
+    /// Loads the first few of eight characters.
+    #[inline]
+    fn first(characters: [u8; WIDTH], count: usize) -> Self {
+        if count == 0 { Self(0) } else { Self(Self::of(characters).0 << (64 - 8 * count)) }
+    }
+
+    /// Removes the first point and returns how many digits follow it.
+    #[inline]
+    fn without_point(self) -> (Self, Option<usize>) {
+        let zero_where_point = self.0 ^ (ONES * u64::from(b'.' ^ b'0'));
+        // The lowest bit is right; those above it may be wrong.
+        let points = zero_where_point.wrapping_sub(ONES) & !zero_where_point & (ONES * 0x80);
+        if points == 0 {
+            return (self, None);
+        }
+        let up_to_point = points ^ (points - 1);
+        let (before, behind) = (self.0 & up_to_point >> 8, self.0 & !up_to_point);
+        (Self(behind | before << 8), Some(WIDTH - 1 - points.trailing_zeros() as usize / 8))
+    }
+
+    /// The value of the digits.
+    #[inline]
+    fn number(self) -> Option<u64> {
+        let Self(digits) = self;
+        let beyond_nine = (digits | digits.wrapping_add(ONES * 0x76)) & (ONES * 0x80);
+        // Combines neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs
+        // to no pair overflows at the top.
+        let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
+        let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
+        (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)
+    }
 }

@@ -1,7 +1,5 @@
 //! Similarity transforms of the plane: object coordinates, insertions, units. (book: reference/dxf)
 
-use crate::angle::cos_sin;
-use crate::curves::Vector;
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
 /// Moves, turns, scales and possibly mirrors. A mirroring one maps (x, y) to (x, -y) before it turns.
@@ -140,12 +138,7 @@ impl Placement {
 }
 
 /// Largest coordinate or length of a path in mm: a machine of one kilometre, with enough digits left for all computations.
-const LARGEST: f64 = 1e6;
-
-/// Whether no coordinate is beyond [`LARGEST`].
-pub(crate) fn is_near(point: Vector) -> bool {
-    point.x.abs() <= LARGEST && point.y.abs() <= LARGEST
-}
+pub(crate) const LARGEST: f64 = 1e6;
 
 impl Geometry {
     /// Whether all coordinates and lengths are within [`LARGEST`] and all lengths positive.
@@ -170,4 +163,25 @@ pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
         HorizontalAlign::Centre => HorizontalAlign::Centre,
         HorizontalAlign::Right => HorizontalAlign::Left,
     }
+}
+
+/// Cosine and sine of an angle in degrees. Right angles, which most drawings consist of, are exact.
+fn cos_sin(degrees: f64) -> (f64, f64) {
+    let turned = libm::fmod(degrees, 360.0);
+    let turned = if turned < 0.0 { turned + 360.0 } else { turned };
+    match turned {
+        0.0 | 360.0 => (1.0, 0.0),
+        90.0 => (0.0, 1.0),
+        180.0 => (-1.0, 0.0),
+        270.0 => (0.0, -1.0),
+        _ => {
+            let (sin, cos) = libm::sincos(turned.to_radians());
+            (cos, sin)
+        }
+    }
+}
+
+/// The angle in degrees of a vector of non-zero length.
+pub(crate) fn angle_of(x: f64, y: f64) -> f64 {
+    libm::atan2(y, x).to_degrees()
 }

@@ -2,11 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::is_mirrored;
 use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
+use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
-use crate::placement::{Placement, is_near};
-use crate::trouble::EntityError;
+use crate::placement::Placement;
+use crate::shapes::is_mirrored;
 use crate::{Geometry, Point3};
 
 /// An ellipse or elliptical arc.
@@ -72,7 +72,7 @@ impl Ellipse {
     /// Whether all of it is within the largest coordinate of a drawing.
     fn is_near(&self) -> bool {
         let Point3 { x, y, .. } = self.centre;
-        [Vector { x, y }, self.major, self.minor].into_iter().all(is_near)
+        [Vector { x, y }, self.major, self.minor].into_iter().all(Vector::is_near)
     }
 
     fn placed(&self, placement: &Placement) -> Self {

@@ -4,12 +4,12 @@ use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::reading::INSERT_SCALED;
 use smol_str::SmolStr;
 
-use super::is_mirrored;
 use crate::Point3;
 use crate::encoding::Decoder;
+use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
 use crate::placement::Placement;
-use crate::trouble::EntityError;
+use crate::shapes::is_mirrored;
 
 /// An insertion.
 #[derive(Clone, Debug)]

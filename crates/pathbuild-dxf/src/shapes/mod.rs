@@ -2,21 +2,19 @@
 
 mod ellipse;
 mod insert;
-mod plain;
 mod polyline;
 mod spline;
 mod text;
 
-use crate::Geometry;
+use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields, Value};
 use crate::number::real;
 use crate::pairs::Pair;
 use crate::placement::Placement;
-use crate::trouble::EntityError;
+use crate::{Arc, Circle, Geometry, Line};
 
 pub(crate) use ellipse::Ellipse;
 pub(crate) use insert::Insert;
-pub(crate) use plain::{arc, circle, line};
 pub(crate) use polyline::{OpenPolyline, lightweight};
 pub(crate) use spline::Spline;
 pub(crate) use text::{mtext, text};
@@ -51,4 +49,28 @@ fn from_object_coordinates<'a>(
 fn repeated_number<'a>(pair: &Pair<'a>) -> Result<f64, BadGroup<'a>> {
     let value = Value::new(pair.value, pair.line);
     real(pair.value).map_err(|reason| BadGroup::Number { code: pair.code, value, reason })
+}
+
+/// A LINE; its points are in world coordinates whatever its extrusion.
+pub(crate) fn line<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
+    is_mirrored(fields)?;
+    Ok(Geometry::Line(Line { start: fields.point(10)?, end: fields.point(11)? }))
+}
+
+/// An ARC.
+pub(crate) fn arc<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
+    let arc = Arc {
+        centre: fields.point(10)?,
+        radius: fields.length(40)?,
+        start_angle: fields.required(50)?,
+        end_angle: fields.required(51)?,
+        clockwise: false,
+    };
+    from_object_coordinates(Geometry::Arc(arc), fields)
+}
+
+/// A CIRCLE.
+pub(crate) fn circle<'a>(fields: &Fields<'a>) -> Result<Geometry, EntityError<'a>> {
+    let circle = Circle { centre: fields.point(10)?, radius: fields.length(40)? };
+    from_object_coordinates(Geometry::Circle(circle), fields)
 }

@@ -2,13 +2,11 @@
 
 use pathbuild_diagnostic::messages::reading::POLYLINE_NOT_FLAT;
 
-use crate::angle;
+use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
-use crate::placement::Placement;
-use crate::trouble::EntityError;
+use crate::placement::{Placement, angle_of};
+use crate::shapes::{is_mirrored, repeated_number};
 use crate::{Arc, Geometry, Line, Point3};
-
-use super::{is_mirrored, repeated_number};
 
 /// Converts an LWPOLYLINE to lines and arcs.
 pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Vec<Geometry>, EntityError<'a>> {
@@ -144,7 +142,7 @@ fn bulged(start: Point3, end: Point3, bulge: f64) -> Arc {
         y: f64::midpoint(start.y, end.y) + x * to_centre,
         z: start.z,
     };
-    let angle = |point: Point3| angle::of(point.x - centre.x, point.y - centre.y);
+    let angle = |point: Point3| angle_of(point.x - centre.x, point.y - centre.y);
     Arc {
         centre,
         radius: libm::hypot(x, y) * (1.0 + bulge * bulge) / (4.0 * bulge.abs()),

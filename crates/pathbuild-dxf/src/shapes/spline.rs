@@ -2,11 +2,11 @@
 
 use pathbuild_diagnostic::messages::reading::SPLINE_NOT_UNDERSTOOD;
 
-use super::{is_mirrored, repeated_number};
 use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
+use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
-use crate::placement::{Placement, is_near};
-use crate::trouble::EntityError;
+use crate::placement::Placement;
+use crate::shapes::{is_mirrored, repeated_number};
 use crate::{Geometry, Point3};
 
 /// A B-spline in a plane parallel to the drawing's.
@@ -79,7 +79,7 @@ impl Spline {
 
     /// Whether all of it is within the largest coordinate of a drawing; it lies within the hull of its control points.
     fn is_near(&self) -> bool {
-        self.points.iter().all(|control| is_near(control.point))
+        self.points.iter().all(|control| control.point.is_near())
     }
 
     fn placed(&self, placement: &Placement) -> Self {

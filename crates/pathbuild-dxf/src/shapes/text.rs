@@ -2,15 +2,14 @@
 
 use std::borrow::Cow;
 
-use crate::angle;
-use crate::encoding::{Decoder, without_carets};
-use crate::fields::{BadGroup, Fields};
-use crate::mtext::plain_text;
-use crate::placement::opposite;
-use crate::trouble::EntityError;
-use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAlign};
+use smol_str::{SmolStr, SmolStrBuilder};
 
-use super::{from_object_coordinates, is_mirrored};
+use crate::encoding::{Decoder, control, without_carets};
+use crate::faults::EntityError;
+use crate::fields::{BadGroup, Fields};
+use crate::placement::{angle_of, opposite};
+use crate::shapes::{from_object_coordinates, is_mirrored};
+use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAlign};
 
 /// Reads a TEXT.
 pub(crate) fn text<'a>(
@@ -88,7 +87,7 @@ fn between(a: Point3, b: Point3) -> Point3 {
 
 /// Angle of a vector in degrees; `None` for a vector of zero length.
 fn direction(x: f64, y: f64) -> Option<f64> {
-    (x != 0.0 || y != 0.0).then(|| angle::of(x, y))
+    (x != 0.0 || y != 0.0).then(|| angle_of(x, y))
 }
 
 fn horizontal_align(code: i64) -> HorizontalAlign {
@@ -156,4 +155,89 @@ fn joined_chunks<'a>(
     }
     let joined = chunks().collect::<Vec<_>>().concat();
     Ok(Cow::Owned(decoder.decode(&joined, first.line).into_owned()))
+}
+
+/// Removes the formatting from joined, decoded chunks. Line breaks become `\n`.
+///
+/// A command without its end is kept as text: dropping the rest of a parameter text would be worse.
+fn plain_text(raw: &str) -> SmolStr {
+    if !raw.bytes().any(is_special) {
+        return raw.into();
+    }
+    let mut plain = SmolStrBuilder::new();
+    // Found once, since thousands of unterminated commands would each search the whole rest.
+    let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
+    let mut rest = raw;
+    while let Some(special) = rest.bytes().position(is_special) {
+        plain.push_str(&rest[..special]);
+        rest = &rest[special..];
+        let length = match rest.as_bytes()[0] {
+            b'\\' => command(rest, rest.len() > behind_last, &mut plain),
+            b'^' => caret(rest, &mut plain),
+            _ => 1,
+        };
+        rest = &rest[length..];
+    }
+    plain.push_str(rest);
+    plain.finish()
+}
+
+/// Whether a byte may start something that is not plain text.
+fn is_special(byte: u8) -> bool {
+    matches!(byte, b'\\' | b'{' | b'}' | b'^')
+}
+
+/// Appends the meaning of the command at the start of `text` and returns its length. `may_end` tells whether a `;` follows.
+fn command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
+    let Some(letter) = text[1..].chars().next() else {
+        plain.push('\\');
+        return 1;
+    };
+    let short = 1 + letter.len_utf8();
+    match letter {
+        // \N starts a new column.
+        'P' | 'X' | 'N' => plain.push('\n'),
+        '~' => plain.push('\u{a0}'),
+        '\\' | '{' | '}' => plain.push(letter),
+        'L' | 'l' | 'O' | 'o' | 'K' | 'k' => {}
+        'S' => return short + stacked(&text[short..], plain),
+        _ => {
+            let Some(end) = may_end.then(|| text.find(';')).flatten() else {
+                plain.push('\\');
+                return 1;
+            };
+            return end + 1;
+        }
+    }
+    short
+}
+
+/// Appends a stacked text up to its `;` and returns its length.
+fn stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
+    let mut characters = text.char_indices().peekable();
+    while let Some((index, character)) = characters.next() {
+        match character {
+            ';' => return index + 1,
+            '#' => plain.push('/'),
+            '^' if characters.next_if(|(_, next)| *next == ' ').is_some() => {}
+            '\\' => {
+                if let Some((_, literal)) = characters.next() {
+                    plain.push(literal);
+                }
+            }
+            other => plain.push(other),
+        }
+    }
+    text.len()
+}
+
+/// Appends the meaning of the caret code at the start of `text` and returns its length.
+fn caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
+    if text.starts_with("^M^J") {
+        plain.push('\n');
+        return 4;
+    }
+    let (character, length) = control(text).unwrap_or(('^', 1));
+    plain.push(character);
+    length
 }
