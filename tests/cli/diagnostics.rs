@@ -2,7 +2,7 @@
 
 use crate::support::Place;
 use insta::assert_snapshot;
-use pathbuild_diagnostic::{Code, example};
+use pathbuild_diagnostic::Code;
 use pathbuild_testkit::Fixture;
 
 /// A bug in the program, which no drawing is meant to show.
@@ -10,7 +10,7 @@ const WITHOUT_EXAMPLE: &[&str] = &["PB006"];
 
 /// The codes with their examples.
 fn examples() -> impl Iterator<Item = (String, Option<&'static str>)> {
-    Code::ALL.iter().map(|code| (code.to_string(), example(*code)))
+    Code::ALL.iter().map(|code| (code.to_string(), code.example()))
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The examples on the pages of `explain` give exactly the noted diagnostics.
 
 use crate::support::fixture;
-use pathbuild_diagnostic::{Code, example};
+use pathbuild_diagnostic::Code;
 
 #[test]
 fn every_example_gives_what_it_says() {
     let wrong: Vec<String> =
-        Code::ALL.iter().filter_map(|code| example(*code).and_then(|text| verdict(*code, text))).collect();
+        Code::ALL.iter().filter_map(|code| code.example().and_then(|text| verdict(*code, text))).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use pathbuild_diagnostic::{Code, example, messages, words};
+use pathbuild_diagnostic::{Code, messages, texts};
 use pathbuild_testkit::Fixture;
 use regex::Regex;
 
@@ -62,12 +62,12 @@ fn english_is_recognised() {
 #[test]
 fn the_catalogue_is_german() {
     let sentences = messages::all().flat_map(|message| [message.text.de, message.help.de]);
-    assert!(assert_german(sentences.chain(words::all().map(|text| text.de))) > 1000);
+    assert!(assert_german(sentences.chain(texts().map(|text| text.de))) > 1000);
 }
 
 #[test]
 fn the_examples_of_all_codes_are_told_in_german() {
-    let told: Vec<String> = Code::ALL.iter().filter_map(|code| example(*code)).flat_map(told).collect();
+    let told: Vec<String> = Code::ALL.iter().filter_map(|code| code.example()).flat_map(told).collect();
     assert!(assert_german(told) > 300);
 }
 

@@ -3,7 +3,7 @@
 use crate::support::{Place, runs};
 use clap::CommandFactory;
 use insta::assert_snapshot;
-use pathbuild_diagnostic::{Code, example};
+use pathbuild_diagnostic::Code;
 use pathbuild_testkit::Fixture;
 
 #[test]
@@ -59,7 +59,7 @@ fn without_a_code_all_are_listed() {
 #[test]
 fn every_example_is_a_fixture_that_can_be_drawn() {
     for code in Code::ALL {
-        let Some(text) = example(*code) else { continue };
+        let Some(text) = code.example() else { continue };
         let fixture = Fixture::parse(text).unwrap_or_else(|errors| panic!("{code}: {errors:?}"));
         assert!(!fixture.commands.is_empty(), "{code}");
         assert!(fixture.expects.iter().any(|expect| expect.code == *code), "{code}");

@@ -1,22 +1,25 @@
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use camino::{Utf8Path, Utf8PathBuf};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
-use serde::{Deserialize, Serialize};
-
-use crate::message::{Arguments, fill};
+use crate::message::{Arguments, fill, kept_arguments};
 use crate::{
-    Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value, kept,
+    Code, ElementId, EntityKind, Handle, Lang, Message, Place, Point, Severity, TextFault, Value, messages,
 };
 
 /// A finding: its message, the values in it, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Diagnostic {
     /// The message.
-    #[serde(deserialize_with = "kept::message")]
+    #[serde(deserialize_with = "kept_message")]
     pub message: &'static Message,
     /// The default severity of the code. The configuration may change it when the diagnostic is reported.
     pub severity: Severity,
     /// The values in the message and its help, by name.
-    #[serde(deserialize_with = "kept::arguments")]
+    #[serde(deserialize_with = "kept_arguments")]
     pub arguments: Arguments,
     /// Further details, for example the nearest open end.
     pub notes: Vec<Note>,
@@ -36,10 +39,10 @@ pub struct Diagnostic {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Note {
     /// The message.
-    #[serde(deserialize_with = "kept::message")]
+    #[serde(deserialize_with = "kept_message")]
     pub message: &'static Message,
     /// The values in it.
-    #[serde(deserialize_with = "kept::arguments")]
+    #[serde(deserialize_with = "kept_arguments")]
     pub arguments: Arguments,
 }
 
@@ -182,4 +185,12 @@ impl Note {
     pub fn text(&self, lang: Lang) -> String {
         fill(self.message.text.in_lang(lang), &self.arguments, lang)
     }
+}
+
+/// Deserializes a message by its key; an error if this version has no such message.
+fn kept_message<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Message, D::Error> {
+    static BY_KEY: LazyLock<HashMap<&str, &Message>> =
+        LazyLock::new(|| messages::all().map(|message| (message.key, message)).collect());
+    let key = <&str>::deserialize(deserializer)?;
+    BY_KEY.get(key).copied().ok_or_else(|| D::Error::custom("no message of this program"))
 }

@@ -7,13 +7,10 @@
 
 mod code;
 mod diagnostic;
-mod kept;
 pub mod limits;
 mod message;
 pub mod messages;
 mod nearest;
-mod number;
-mod page;
 mod place;
 pub mod reasons;
 pub mod shown;
@@ -21,8 +18,13 @@ pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
-pub use message::{Lang, Message, Sentence, Text, Value};
+pub use message::{Message, Sentence, Value};
 pub use nearest::{is_slip, nearest};
-pub use number::{Number, in_prose};
-pub use page::{example, page};
-pub use place::{ElementId, EntityKind, Handle, Place, Point, TextFault};
+pub use place::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, in_prose};
+pub use words::{Lang, Text};
+
+/// Every text that messages put in, those of other crates aside.
+pub fn texts() -> impl Iterator<Item = &'static Text> {
+    let texts = [words::TEXTS, reasons::TEXTS, limits::TEXTS, messages::configuration::TEXTS];
+    texts.into_iter().flatten().copied()
+}

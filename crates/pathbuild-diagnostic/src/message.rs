@@ -1,54 +1,18 @@
 use std::fmt::{self, Write};
 use std::hash::{Hash, Hasher};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::{Code, Number, Point, in_prose, kept, shown};
-
-/// The supported languages.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Lang {
-    /// English.
-    #[default]
-    En,
-    /// German.
-    De,
-}
-
-/// Prose in every language: a word, a phrase or a sentence, with `{name}` where an argument goes.
-///
-/// This is the only type of prose. A message takes it as an argument beside drawn text ([`Diagnostic::quoting`](crate::Diagnostic::quoting)), never a string.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub struct Text {
-    /// English.
-    pub en: &'static str,
-    /// German.
-    pub de: &'static str,
-}
-
-impl Text {
-    /// The sentence in one language, its arguments not yet put in.
-    pub fn in_lang(&self, lang: Lang) -> &'static str {
-        lang.choose(self.en, self.de)
-    }
-}
-
-impl Lang {
-    /// One of two values, such as the halves of a sentence that only one command says.
-    pub fn choose<T>(self, en: T, de: T) -> T {
-        match self {
-            Self::En => en,
-            Self::De => de,
-        }
-    }
-}
+use crate::place::{Number, Point, in_prose};
+use crate::words::{Lang, NONE, Text, kept_name, kept_text};
+use crate::{Code, shown};
 
 /// A [`Text`] with the values of its arguments, to stand in another message: "it has 17219 bytes, the limit is 1000".
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Sentence {
-    #[serde(deserialize_with = "kept::text")]
+    #[serde(deserialize_with = "kept_text")]
     text: &'static Text,
-    #[serde(deserialize_with = "kept::arguments")]
+    #[serde(deserialize_with = "kept_arguments")]
     arguments: Arguments,
 }
 
@@ -102,6 +66,12 @@ impl Hash for Message {
     }
 }
 
+impl Serialize for Message {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key)
+    }
+}
+
 /// A value in a message. Strings do not turn into values by themselves: a name or a piece of source text is [`quoted`](Value::quoted), prose
 /// is a [`Text`] or a [`Sentence`], and what a library says is [`foreign`](Value::foreign).
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -117,7 +87,7 @@ pub enum Value {
     /// Names, displayed as a comma-separated list.
     List(Box<[Box<str>]>),
     /// Prose.
-    Prose(#[serde(deserialize_with = "kept::text")] &'static Text),
+    Prose(#[serde(deserialize_with = "kept_text")] &'static Text),
     /// Prose with arguments of its own.
     Sentence(Box<Sentence>),
     /// The words of a library or of the operating system, which are English: quoted in other languages.
@@ -156,7 +126,7 @@ impl Value {
             Self::Number(number) => number.prose(lang),
             Self::Count(count) => count.to_string(),
             Self::Point(point) => format!("({}, {})", point.x, point.y),
-            Self::List(items) if items.is_empty() => crate::words::NONE.in_lang(lang).to_owned(),
+            Self::List(items) if items.is_empty() => NONE.in_lang(lang).to_owned(),
             Self::List(items) => shown::line(&items.join(", ")).into_owned(),
             Self::Prose(text) => text.in_lang(lang).to_owned(),
             Self::Sentence(sentence) => fill(sentence.text.in_lang(lang), &sentence.arguments, lang),
@@ -242,4 +212,10 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
     }
     filled.push_str(rest);
     filled
+}
+
+/// Deserializes the values in a message.
+pub(crate) fn kept_arguments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arguments, D::Error> {
+    let arguments = Vec::<(&str, Value)>::deserialize(deserializer)?;
+    Ok(arguments.into_iter().map(|(name, value)| (kept_name(name), value)).collect())
 }

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::io::{Error, ErrorKind};
 
-use crate::message::{Text, Value};
-use crate::words::words;
+use crate::message::Value;
+use crate::words::{Text, words};
 
 words! {
     /// The file does not exist.

@@ -1,4 +1,47 @@
-//! Names of things in messages, in every language. (Glossary in book: reference/glossary)
+//! Languages, texts in all of them, and the names of things in messages. (Glossary in book: reference/glossary)
+
+use std::collections::{HashMap, HashSet};
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// The supported languages.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Lang {
+    /// English.
+    #[default]
+    En,
+    /// German.
+    De,
+}
+
+/// Prose in every language: a word, a phrase or a sentence, with `{name}` where an argument goes.
+///
+/// This is the only type of prose. A message takes it as an argument beside drawn text ([`Diagnostic::quoting`](crate::Diagnostic::quoting)), never a string.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct Text {
+    /// English.
+    pub en: &'static str,
+    /// German.
+    pub de: &'static str,
+}
+
+impl Text {
+    /// The sentence in one language, its arguments not yet put in.
+    pub fn in_lang(&self, lang: Lang) -> &'static str {
+        lang.choose(self.en, self.de)
+    }
+}
+
+impl Lang {
+    /// One of two values, such as the halves of a sentence that only one command says.
+    pub fn choose<T>(self, en: T, de: T) -> T {
+        match self {
+            Self::En => en,
+            Self::De => de,
+        }
+    }
+}
 
 /// Declares texts, each with its documentation, and the list of them.
 macro_rules! words {
@@ -10,12 +53,6 @@ macro_rules! words {
     };
 }
 pub(crate) use words;
-
-/// Every text that messages put in, those of other crates aside.
-pub fn all() -> impl Iterator<Item = &'static crate::Text> {
-    let texts = [TEXTS, crate::reasons::TEXTS, crate::limits::TEXTS, crate::messages::configuration::TEXTS];
-    texts.into_iter().flatten().copied()
-}
 
 words! {
     /// An empty list.
@@ -72,4 +109,26 @@ words! {
     OPTION: "option", "Option";
     /// The value is the default.
     DEFAULT: "default", "Vorgabe";
+}
+
+/// Deserializes a text of the program as its one leaked copy. There are only a few dozen.
+pub(crate) fn kept_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Text, D::Error> {
+    static KEPT: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
+        LazyLock::new(Mutex::default);
+    let (en, de) = <(&str, &str)>::deserialize(deserializer)?;
+    let (en, de) = (kept_name(en), kept_name(de));
+    let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Text { en, de }))))
+}
+
+/// A single copy of a text that lives until the process ends.
+pub(crate) fn kept_name(text: &str) -> &'static str {
+    static KEPT: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Mutex::default);
+    let mut all = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = all.get(text) {
+        return known;
+    }
+    let leaked: &'static str = Box::leak(text.to_owned().into_boxed_str());
+    all.insert(leaked);
+    leaked
 }

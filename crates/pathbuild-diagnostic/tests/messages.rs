@@ -17,14 +17,14 @@ fn each_message_has_a_key_of_its_own() {
 #[test]
 fn messages_of_one_name_in_two_subjects_are_not_the_same() {
     assert_ne!(messages::files::MISSING, messages::parameters::MISSING);
-    assert_ne!(messages::reading::NOT_POSITIVE, messages::parameters::NOT_POSITIVE);
+    assert_ne!(messages::drawing::NOT_POSITIVE, messages::parameters::NOT_POSITIVE);
 }
 
 /// Different numbers are displayed differently.
 #[test]
 fn numbers_of_one_message_are_told_apart() {
     let said = |diameter: f64, limit: f64| {
-        let problem = Diagnostic::new(&messages::walk::HELIX_TOO_LARGE);
+        let problem = Diagnostic::new(&messages::paths::HELIX_TOO_LARGE);
         problem.with("diameter", diameter).with("limit", limit).text(Lang::En)
     };
     assert!(said(8.0001, 8.0).contains("diameter 8.0001 mm is greater than A, which is 8"));

@@ -1,6 +1,6 @@
 //! The pages of `explain`: there is one for every code in both languages, with a uniform structure.
 
-use pathbuild_diagnostic::{Code, Lang, example, page};
+use pathbuild_diagnostic::{Code, Lang};
 
 /// Codes whose example would require a bug, earlier output, or measured values.
 const WITHOUT_EXAMPLE: [Code; 1] = [Code::InternalError];
@@ -20,7 +20,7 @@ fn every_code_has_a_page_in_both_languages() {
             (Lang::En, ["## Usual causes", "## What to do", "## Example"]),
             (Lang::De, ["## Häufige Ursachen", "## Was hilft", "## Beispiel"]),
         ] {
-            let page = page(code, lang).unwrap_or_else(|| panic!("{code} has no page"));
+            let page = code.page(lang);
             assert_eq!(page.lines().next(), Some(&*format!("# {code} {}", code.name())));
             let parts = if WITHOUT_EXAMPLE.contains(&code) { 2 } else { 3 };
             assert_eq!(headings(page), expected[..parts], "{code}");
@@ -31,11 +31,11 @@ fn every_code_has_a_page_in_both_languages() {
 #[test]
 fn an_example_says_which_diagnostic_it_gives() {
     for code in codes().filter(|code| !WITHOUT_EXAMPLE.contains(code)) {
-        let example = example(code).unwrap_or_else(|| panic!("{code} has no example"));
+        let example = code.example().unwrap_or_else(|| panic!("{code} has no example"));
         assert!(example.starts_with("$ "), "{code} has no command");
         assert!(example.contains(&format!("#! {code}")), "{code} is not noted");
         for lang in [Lang::En, Lang::De] {
-            let said = page(code, lang).is_some_and(|page| page.contains(&format!("\n- {code}")));
+            let said = code.page(lang).contains(&format!("\n- {code}"));
             assert!(
                 said,
                 "{code} is not said in {lang:?}: PATHBUILD_UPDATE=1 cargo test --test cli book::examples"
@@ -46,7 +46,7 @@ fn an_example_says_which_diagnostic_it_gives() {
 
 #[test]
 fn lines_fit_on_a_terminal() {
-    for page in codes().flat_map(|code| [page(code, Lang::En), page(code, Lang::De)]).flatten() {
+    for page in codes().flat_map(|code| [code.page(Lang::En), code.page(Lang::De)]) {
         for line in page.lines() {
             assert!(line.chars().count() <= 110, "{line}");
         }

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
-use pathbuild_diagnostic::messages::reading::{BLOCK_NESTED, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE};
+use pathbuild_diagnostic::messages::drawing::{BLOCK_NESTED, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Value};
 use smol_str::SmolStr;
 

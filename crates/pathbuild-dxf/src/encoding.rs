@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use memchr::memchr_iter;
 use oem_cp::code_table::DECODING_TABLE_CP_MAP;
 use oem_cp::code_table_type::TableType;
-use pathbuild_diagnostic::messages::reading::{UNDECODABLE, UNKNOWN_CODE_PAGE};
+use pathbuild_diagnostic::messages::drawing::{UNDECODABLE, UNKNOWN_CODE_PAGE};
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 use pathbuild_encoding::{
     BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, ISO_8859_3, ISO_8859_4, ISO_8859_5, ISO_8859_6,

@@ -6,7 +6,7 @@
 )]
 
 use pathbuild_diagnostic::EntityKind;
-use pathbuild_diagnostic::messages::reading::NOT_APPROXIMATED;
+use pathbuild_diagnostic::messages::drawing::NOT_APPROXIMATED;
 
 use crate::block_prefilter::{has_text, may_hold_wanted};
 use crate::encoding::Decoder;

@@ -1,6 +1,6 @@
 //! Diagnostics of the reader. Layer, line and handle are filled in where the place is known.
 
-use pathbuild_diagnostic::messages::reading::{
+use pathbuild_diagnostic::messages::drawing::{
     BAD_GROUP_CODE, DECIMAL_COMMA, GROUP_MISSING, NOT_POSITIVE, NUMBER_NOT_FINITE, SECTION_NOT_ENDED,
     TRUNCATED, VALUE_NOT_A_NUMBER,
 };

@@ -1,7 +1,7 @@
 //! Reads a file from its first byte to the end of ENTITIES, and checks its tail.
 
+use pathbuild_diagnostic::messages::drawing::{NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED};
 use pathbuild_diagnostic::messages::files::{EMPTY_FILE, NOT_DXF};
-use pathbuild_diagnostic::messages::reading::{NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED};
 use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::binary::to_ascii;

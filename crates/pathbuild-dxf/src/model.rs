@@ -5,7 +5,7 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
-use pathbuild_diagnostic::messages::reading::BLOCK_MISSING;
+use pathbuild_diagnostic::messages::drawing::BLOCK_MISSING;
 use smol_str::SmolStr;
 
 use crate::Origin;

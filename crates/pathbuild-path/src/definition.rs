@@ -3,7 +3,7 @@
 use std::fmt;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::variables as messages;
+use pathbuild_diagnostic::messages::parameters as messages;
 use smol_str::{SmolStr, ToSmolStr};
 
 use crate::approx::at_least;

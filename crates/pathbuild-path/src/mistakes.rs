@@ -1,7 +1,7 @@
 //! Recognises typical mistakes that affect a whole text, and reports each as a single error with the corrected text.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::{parameters as messages, variables};
+use pathbuild_diagnostic::messages::parameters as messages;
 
 use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
@@ -106,11 +106,11 @@ const UNITS: [&str; 8] = ["", ";", ":", "mm", "mm;", "mm,", "mm/min", "/min"];
 /// Recognises an equals sign between letter and number: `B=2`. `problem`: the error about the reference.
 pub(crate) fn equals_sign(letter: Letter, value: &str, problem: &Diagnostic) -> Option<Diagnostic> {
     let number = value.strip_prefix('=').filter(|number| parse_number(number).is_some())?;
-    if letter.is_text() || problem.message != &variables::UNKNOWN_REFERENCE {
+    if letter.is_text() || problem.message != &messages::UNKNOWN_REFERENCE {
         return None;
     }
     let mut problem = problem.clone();
-    problem.message = &variables::EQUALS_SIGN;
+    problem.message = &messages::EQUALS_SIGN;
     Some(problem.quoting("meant", format!("{}{number}", letter.as_char())))
 }
 

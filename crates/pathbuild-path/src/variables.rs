@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use pathbuild_diagnostic::limits::{TEXT_WITH_VALUES, bytes, exceeded};
-use pathbuild_diagnostic::messages::variables as messages;
+use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use smol_str::SmolStr;
 

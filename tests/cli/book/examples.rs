@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use pathbuild_diagnostic::{Code, Handle, Lang, example};
+use pathbuild_diagnostic::{Code, Handle, Lang};
 use pathbuild_testkit::model::{LayerState, MText, Part, Text};
 use pathbuild_testkit::{Command, Content, Entity, Fixture, Layer, Point, Shape, Sheet};
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ fn fault(of: Code, lang: Lang) -> Option<String> {
     let heading = format!("\n## {}\n", say(lang, "Example", "Beispiel"));
     let text = fs::read_to_string(&file).unwrap();
     let written = text.split(&heading).next().unwrap();
-    let Some(example) = example(of) else { return kept(&file, written.as_bytes()) };
+    let Some(example) = of.example() else { return kept(&file, written.as_bytes()) };
     kept(&file, format!("{written}{heading}{}", shown(of, example, lang)).as_bytes())
 }
 

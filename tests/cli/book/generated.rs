@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use clap::{Arg, Command};
 use pathbuild::german;
-use pathbuild_diagnostic::{Code, Lang, Severity, page};
+use pathbuild_diagnostic::{Code, Lang, Severity};
 use pathbuild_path::{ElementClass, Letter, LineType, Use};
 
 use super::{Page, code, pages};
@@ -181,7 +181,7 @@ fn diagnostics(lang: Lang) -> String {
             (Severity::Warning, Lang::De) => "Warnung",
         };
         let link = format!("../../../../crates/pathbuild-diagnostic/src/pages/{found}.{}.md", code(lang));
-        let first = first_sentence(page(*found, lang).unwrap_or_default()).replace('|', "\\|");
+        let first = first_sentence(found.page(lang)).replace('|', "\\|");
         _ = writeln!(table, "| [{found}]({link}) | {} | {severity} | {first} |", found.name());
     }
     table

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::slice;
 
-use pathbuild_diagnostic::messages::{files, subpaths as messages};
+use pathbuild_diagnostic::messages::{files, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{Bindings, PathName, PathOptions, PathRole, PathSignature, SubpathCall};
 use pathbuild_toolpath::memory;

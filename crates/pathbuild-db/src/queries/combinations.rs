@@ -1,6 +1,6 @@
 //! The combinations of variable values that a path is checked with. (book: language/variables)
 
-use pathbuild_diagnostic::messages::variables as messages;
+use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_path::{Bindings, Combinations, PathName};
 

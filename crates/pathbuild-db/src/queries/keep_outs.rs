@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use pathbuild_diagnostic::messages::walk as messages;
+use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, TraceStep};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap, KeepOuts};
 use pathbuild_toolpath::{StepOrigin, kind_of_move, way};

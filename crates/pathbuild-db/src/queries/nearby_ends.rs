@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use pathbuild_diagnostic::messages::{drawing, walk};
+use pathbuild_diagnostic::messages::{drawing, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Note, Number, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{Arc, Curve, Language, Line, LineType, PathName, TextCircle, Xy, on_circle};
@@ -41,7 +41,7 @@ impl<'a> LayerEnds<'a> {
         mut problem: Diagnostic,
     ) -> Diagnostic {
         let hint = match problem.code() {
-            Code::NothingContinues if problem.message != &walk::DRAWN_TWICE => {
+            Code::NothingContinues if problem.message != &paths::DRAWN_TWICE => {
                 self.end(path, language, &problem)
             }
             Code::MissingStart => self.marker(language, &problem, START, &drawing::START_ON_OTHER_LAYER),
@@ -81,7 +81,7 @@ impl<'a> LayerEnds<'a> {
             ("point", Point::new(end.x, end.y).into()),
             ("distance", distance.into()),
         ];
-        let note = Note { message: &walk::END_ON_OTHER_LAYER, arguments };
+        let note = Note { message: &paths::END_ON_OTHER_LAYER, arguments };
         (distance <= WORTH_NAMING).then_some((note, distance))
     }
 

@@ -24,27 +24,23 @@ pub mod files;
 pub mod gcode;
 pub mod outputs;
 pub mod parameters;
+pub mod paths;
 pub mod posts;
 pub mod probes;
-pub mod reading;
-pub mod subpaths;
-pub mod variables;
-pub mod walk;
+mod verify;
 
 /// All messages, for tests and for deserializing cached results.
 pub fn all() -> impl Iterator<Item = &'static crate::Message> {
     [
         files::ALL,
-        reading::ALL,
         configuration::ALL,
         drawing::ALL,
         parameters::ALL,
-        variables::ALL,
-        walk::ALL,
-        subpaths::ALL,
+        paths::ALL,
         outputs::ALL,
         probes::ALL,
         gcode::ALL,
+        verify::ALL,
         posts::ALL,
     ]
     .into_iter()

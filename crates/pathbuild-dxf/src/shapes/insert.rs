@@ -1,7 +1,7 @@
 //! INSERT: places a block, or rows and columns of it. (book: reference/dxf)
 
 use pathbuild_diagnostic::Point;
-use pathbuild_diagnostic::messages::reading::INSERT_SCALED;
+use pathbuild_diagnostic::messages::drawing::INSERT_SCALED;
 use smol_str::SmolStr;
 
 use crate::Point3;

@@ -1,6 +1,6 @@
 //! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs. Widths are ignored, since the cutter has its own.
 
-use pathbuild_diagnostic::messages::reading::POLYLINE_NOT_FLAT;
+use pathbuild_diagnostic::messages::drawing::POLYLINE_NOT_FLAT;
 
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};

@@ -1,6 +1,6 @@
 //! SPLINE: B-splines, rational or not, open or closed. (DXF reference: degree 71, knots 40, control points 10, weights 41)
 
-use pathbuild_diagnostic::messages::reading::SPLINE_NOT_UNDERSTOOD;
+use pathbuild_diagnostic::messages::drawing::SPLINE_NOT_UNDERSTOOD;
 
 use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
 use crate::faults::EntityError;

@@ -1,7 +1,7 @@
 //! Binds circles: drilled holes and helical circles.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::{drawing, walk};
+use pathbuild_diagnostic::messages::{drawing, paths};
 
 use super::cuts::no_gap;
 use super::segments::{Scope, pushed};
@@ -101,8 +101,9 @@ impl Binder<'_> {
     fn check_size(&mut self, scope: &Scope<'_>, radius: f64) {
         let Some(largest) = scope.texts(&self.values).number_or_default(Letter::A) else { return };
         if above(2.0 * radius, largest) {
-            let problem =
-                Diagnostic::new(&walk::HELIX_TOO_LARGE).with("diameter", 2.0 * radius).with("limit", largest);
+            let problem = Diagnostic::new(&paths::HELIX_TOO_LARGE)
+                .with("diameter", 2.0 * radius)
+                .with("limit", largest);
             self.report(scope.at, problem);
         }
     }

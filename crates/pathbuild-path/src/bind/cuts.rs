@@ -1,7 +1,7 @@
 //! Binds milling, marking and support segments.
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::walk;
+use pathbuild_diagnostic::messages::paths;
 
 use super::segments::{Scope, pushed};
 use super::{Binder, FaultSite};
@@ -64,7 +64,7 @@ impl Binder<'_> {
         let (tool, count) = (tool?, bars.count(length));
         let gap = length / count - bars.length;
         if count > 0.0 && !at_least(gap, tool) {
-            let problem = Diagnostic::new(&walk::NO_ROOM_BETWEEN_BARS)
+            let problem = Diagnostic::new(&paths::NO_ROOM_BETWEEN_BARS)
                 .with("count", count)
                 .with("gap", gap)
                 .with("tool", tool);
@@ -88,7 +88,7 @@ impl Binder<'_> {
 /// The finding about bars that leave no gap on this length.
 pub(super) fn no_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
     (bars.count(length) == 0.0).then(|| {
-        Diagnostic::new(&walk::NO_GAP_BETWEEN_BARS)
+        Diagnostic::new(&paths::NO_GAP_BETWEEN_BARS)
             .with("length", length)
             .with("pitch", bars.length + bars.distance)
             .with("top", bars.top)

@@ -1,6 +1,6 @@
 //! Checks embeddings. The order of errors: book: reference/diagnostics.
 
-use pathbuild_diagnostic::messages::{parameters, subpaths as messages, variables};
+use pathbuild_diagnostic::messages::{parameters, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
 use regex::Regex;
 
@@ -150,7 +150,7 @@ impl<'a> Judge<'a> {
         let is_given = |known: &Definition| values.iter().any(|given| given.variable == Some(known.name));
         let missing = inner.definitions.iter().filter(|known| !is_given(known));
         let missing = missing.map(|definition| {
-            let problem = Diagnostic::new(&variables::MISSING_VALUE_HERE)
+            let problem = Diagnostic::new(&parameters::MISSING_VALUE_HERE)
                 .with("variable", definition.name)
                 .quoting("example", definition.check_value(0).as_str())
                 .quoting("name", inner.name.as_str());
@@ -169,10 +169,10 @@ impl<'a> Judge<'a> {
         let problem = match definition {
             None => {
                 let known = inner.definitions.iter().map(|known| known.name.to_string()).collect::<Value>();
-                Diagnostic::new(&variables::VALUE_WITHOUT_DEFINITION).with("known", known)
+                Diagnostic::new(&parameters::VALUE_WITHOUT_DEFINITION).with("known", known)
             }
             Some(definition) if !definition.allows(&given.value) => {
-                Diagnostic::new(&variables::VALUE_NOT_ALLOWED)
+                Diagnostic::new(&parameters::VALUE_NOT_ALLOWED)
                     .quoting("value", &*given.value)
                     .quoting("definition", definition.to_string())
             }

@@ -1,6 +1,6 @@
 //! What to say of a path that is not found: names that may have been meant, else what the drawings have.
 
-use pathbuild_diagnostic::messages::subpaths as messages;
+use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Value, is_slip};
 
 use crate::name::PathName;

@@ -1,6 +1,6 @@
 //! Explains why a walk cannot continue, with hints for finding the cause.
 
-use pathbuild_diagnostic::messages::walk as messages;
+use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
 use super::Walker;

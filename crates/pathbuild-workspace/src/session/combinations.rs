@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use pathbuild_db::{Role, SourceFile, Target, combinations, locate};
-use pathbuild_diagnostic::messages::variables as messages;
+use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::spelt;
-use pathbuild_diagnostic::messages::subpaths as messages;
+use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::PathName;
 

@@ -2,7 +2,7 @@
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Db, SourceFile, check_file, holders, path_names};
-use pathbuild_diagnostic::messages::{outputs as messages, subpaths};
+use pathbuild_diagnostic::messages::{outputs as messages, paths};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{PathName, with_near_names};
 use rustc_hash::FxHashSet;
@@ -157,7 +157,7 @@ impl Session<'_> {
 
     fn defined_twice(&self, name: &PathName, first: SourceFile, second: SourceFile) -> Diagnostic {
         let path = |file: SourceFile| file.path(&self.db).as_str();
-        Diagnostic::new(&subpaths::DEFINED_TWICE)
+        Diagnostic::new(&paths::DEFINED_TWICE)
             .quoting("name", name.as_str())
             .quoting("first", path(first))
             .quoting("second", path(second))

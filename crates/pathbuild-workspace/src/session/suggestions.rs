@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
 use pathbuild_db::{Db, SourceFile, catch_bugs};
-use pathbuild_diagnostic::messages::{files, outputs, subpaths};
+use pathbuild_diagnostic::messages::{files, outputs, paths};
 use pathbuild_diagnostic::{Diagnostic, Message, Value, nearest};
 use pathbuild_path::PathName;
 
@@ -27,7 +27,7 @@ impl Session<'_> {
                 }
                 _ => None,
             };
-            let is_told = diagnostic.notes.iter().any(|note| *note.message == subpaths::NEAR_NAMES);
+            let is_told = diagnostic.notes.iter().any(|note| *note.message == paths::NEAR_NAMES);
             match near.filter(|(message, _)| **message != outputs::NEAR_PATH || !is_told) {
                 Some((message, near)) => diagnostic.note(message, vec![("near", Value::quoted(near))]),
                 None => diagnostic,

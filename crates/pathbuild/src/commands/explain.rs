@@ -1,6 +1,6 @@
 //! `pathbuild explain`: shows the page about a code, or the list of all codes.
 
-use pathbuild_diagnostic::{Code, Lang, Severity, page};
+use pathbuild_diagnostic::{Code, Lang, Severity};
 
 use super::refuse;
 use crate::args::ExplainArgs;
@@ -16,7 +16,7 @@ pub fn run(context: &Context, args: &ExplainArgs) -> ExitStatus {
     }
     match args.codes.iter().map(|name| code(name).ok_or(name)).collect::<Result<Vec<Code>, _>>() {
         Ok(codes) => {
-            let pages: Vec<String> = codes.into_iter().map(|code| text(context, code)).collect();
+            let pages: Vec<&str> = codes.into_iter().map(|code| code.page(context.lang())).collect();
             context.printer.result(pages.join("\n"));
             ExitStatus::Success
         }
@@ -47,9 +47,4 @@ fn list(context: &Context) -> String {
     let width = Code::ALL.iter().map(|code| code.name().len()).max().unwrap_or_default();
     let line = |code: &Code| format!("{code}  {:width$}  {}", code.name(), severity(*code));
     Code::ALL.iter().map(line).chain([String::new()]).collect::<Vec<_>>().join("\n")
-}
-
-/// The page about a code, or just the name of a code without a page.
-fn text(context: &Context, code: Code) -> String {
-    page(code, context.lang()).map_or_else(|| format!("# {code} {}\n", code.name()), str::to_owned)
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::{Code, Diagnostic, Severity, page};
+use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
 use super::{View, place};
@@ -48,10 +48,9 @@ fn rule(code: Code, view: &View) -> Json {
         "shortDescription": { "text": code.name().replace('-', " ") },
         "defaultConfiguration": { "level": level(code.severity()) },
     });
-    if let Some(page) = page(code, view.lang) {
-        rule["fullDescription"] = json!({ "text": description(page) });
-        rule["help"] = json!({ "text": page, "markdown": page });
-    }
+    let page = code.page(view.lang);
+    rule["fullDescription"] = json!({ "text": description(page) });
+    rule["help"] = json!({ "text": page, "markdown": page });
     rule
 }
 

@@ -1,6 +1,6 @@
 //! Checks whether a program hits the clamps of its drawing. (book: language/keep-outs)
 
-use pathbuild_diagnostic::messages::walk as say;
+use pathbuild_diagnostic::messages::paths as say;
 use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_motion::{Action, Step};
 use pathbuild_path::{KeepOut, KeepOutMap};

@@ -1,0 +1,405 @@
+//! Messages about verifying G-code. (PB739 to PB777; book: program/verify)
+
+messages! {
+    /// `verify --against`: no T word before the first cut.
+    TOOL_NOT_CHOSEN: MovesDiffer {
+        en: "the tool is not chosen before the first cut: the drawing's program says {expected}",
+        de: "das Werkzeug ist vor der ersten Fräsbewegung nicht gewählt: das Programm der Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: a missing mode such as `G54` in the header.
+    MODE_MISSING: MovesDiffer {
+        en: "{word} is missing before the first move: the control may keep what the program before has set",
+        de: "{word} fehlt vor der ersten Bewegung: die Steuerung behält womöglich, was das vorige Programm gesetzt hat",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: another coolant word, M7 to M9.
+    COOLANT_DIFFERS: MovesDiffer {
+        en: "the coolant is `{found}`, for the drawing's cutter it is `{expected}`",
+        de: "die Kühlung ist `{found}`, für den Fräser der Zeichnung ist sie `{expected}`",
+        help_en: "write the program again with `pathbuild emit`, or correct `coolant` in [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder `coolant` in [tool.NAME] berichtigen",
+    }
+    /// `verify --against`: a word that the drawing's program does not contain.
+    NOT_IN_DRAWING: MovesDiffer {
+        en: "{word} is not in the drawing's program: it may change where, how deep or how fast the tool cuts",
+        de: "{word} steht nicht im Programm der Zeichnung: es kann ändern, wo, wie tief oder wie schnell gefräst wird",
+        help_en: "remove it, or write the program again with `pathbuild emit`",
+        help_de: "das Wort entfernen oder das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: a move to another point.
+    DRAWN_ELSEWHERE: MovesDiffer {
+        en: "the tool goes to {found}; the drawing says {expected}",
+        de: "das Werkzeug fährt nach {found}; die Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: a move to the right point along another curve.
+    DRAWN_OTHERWISE: MovesDiffer {
+        en: "the tool goes there by another way than the drawing says",
+        de: "das Werkzeug fährt auf anderem Weg dorthin, als die Zeichnung sagt",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: a rapid move instead of a cut, or the reverse.
+    DRAWN_AT_ANOTHER_PACE: MovesDiffer {
+        en: "this is {found}; the drawing says {expected}",
+        de: "das ist {found}; die Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: another feed.
+    DRAWN_WITH_ANOTHER_FEED: MovesDiffer {
+        en: "the feed is {found}; the drawing says {expected}",
+        de: "der Vorschub ist {found}; die Zeichnung sagt {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: missing moves at the end.
+    DRAWN_FURTHER: MovesDiffer {
+        en: "moves are missing at the end: the drawing goes on to {expected}",
+        de: "am Ende fehlen Bewegungen: die Zeichnung geht weiter nach {expected}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: additional moves at the end.
+    NOT_DRAWN: MovesDiffer {
+        en: "the drawing has no such move: the tool goes to {found}",
+        de: "die Zeichnung hat keine solche Bewegung: das Werkzeug fährt nach {found}",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: another move of a probing program.
+    PROBING_NOT_DRAWN: MovesDiffer {
+        en: "the drawing's probing run has `{expected}` here",
+        de: "das Antastprogramm der Zeichnung hat hier `{expected}`",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: another tool.
+    TOOLS_DIFFER: MovesDiffer {
+        en: "the tool is T{found}, for the drawing it is T{expected}",
+        de: "das Werkzeug ist T{found}, für die Zeichnung ist es T{expected}",
+        help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
+    }
+    /// `verify --against`, of a program whose definition writes words that are not followed.
+    LINE_NOT_WRITTEN: MovesDiffer {
+        en: "the definition writes \"{expected}\" here, and not all of its words are followed",
+        de: "die Definition schreibt hier \"{expected}\", und nicht alle ihre Wörter werden verfolgt",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
+    /// `verify --against`: O.
+    NUMBERS_DIFFER: MovesDiffer {
+        en: "the program's number is O{found}, for the drawing it is O{expected}: on the control it may be another program's",
+        de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann sie einem anderen Programm gehören",
+        help_en: "write the program again with `pathbuild emit`; set `program-number` if the control has another number for it",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben; hat die Steuerung eine andere Nummer dafür, `program-number` setzen",
+    }
+    /// `verify --against`: another tool length offset (G43, H).
+    LENGTHS_DIFFER: MovesDiffer {
+        en: "the tool's length is not that of the tool in the spindle",
+        de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
+        help_en: "use G43 H with the number of the tool that M6 changed to; native programs use none",
+        help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht keines",
+    }
+    /// `verify --against`: another spindle direction or speed.
+    SPINDLES_DIFFER: MovesDiffer {
+        en: "the spindle runs with `{found}`, for the drawing's cutter it is `{expected}`",
+        de: "die Spindel läuft mit `{found}`, für den Fräser der Zeichnung ist es `{expected}`",
+        help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
+    }
+    /// `verify --against`: a dwell after M3 that is missing or too short.
+    SPUN_UP_TOO_SHORT: MovesDiffer {
+        en: "the tool cuts less than {seconds} s after the spindle was switched on",
+        de: "das Werkzeug fräst weniger als {seconds} s, nachdem die Spindel eingeschaltet wurde",
+        help_en: "rewrite the program with `pathbuild emit`, which waits for the time in `[machine] spin-up`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben; es wartet dann so lange, wie `[machine] spin-up` angibt",
+    }
+    /// A rapid move down and up again, as in `G0 Z-3`, `G0 Z2`.
+    RAPID_DIP: RapidPlunge {
+        en: "a rapid move down to Z {z} below the material's surface, and up again: nothing was cut there before",
+        de: "eine Eilgangbewegung hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
+        help_en: "drill with G01 and a feed",
+        help_de: "mit G01 und einem Vorschub bohren",
+    }
+    /// `G28` while the tool is below the surface.
+    HOME_FROM_DEPTH: RapidInMaterial {
+        en: "a rapid move to a place of the machine from Z {z}: the material stands up to Z {surface}",
+        de: "eine Eilgangbewegung zu einem Ort der Maschine ab Z {z}: das Material reicht bis Z {surface}",
+        help_en: "raise the tool above the material first",
+        help_de: "das Werkzeug zuerst über das Material heben",
+    }
+    /// `M3 S0`.
+    SPINDLE_WITHOUT_SPEED: SpindleOff {
+        en: "this is a cutting move with the spindle at speed 0",
+        de: "das ist eine Fräsbewegung bei Spindeldrehzahl 0",
+        help_en: "write the speed with S: `M3 S12000`",
+        help_de: "die Drehzahl mit S angeben: `M3 S12000`",
+    }
+    /// An offset by G92 or G52 that is active at the end.
+    OFFSET_LEFT_ON: OffsetLeftOn {
+        en: "{word} is still active at the end, so the next program starts elsewhere",
+        de: "{word} ist am Ende noch aktiv, das nächste Programm beginnt daher anderswo",
+        help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
+        help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
+    }
+    /// A number that differs from its formula. The machine uses the number.
+    FORMULA_DIFFERS: FormulaDiffers {
+        en: "the machine goes to {number}, but the formula comes to {value}",
+        de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// A formula that differs from that of the drawing.
+    FORMULA_NOT_DRAWN: FormulaDiffers {
+        en: "the formula is {found}, the drawing gives {expected}",
+        de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
+        help_en: "the program was edited, or written with another --z-model: emit and adjust it again",
+        help_de: "das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben: noch einmal ausgeben und anpassen",
+    }
+    /// A probe that differs from that of the drawing.
+    PROBE_NOT_DRAWN: FormulaDiffers {
+        en: "the program states the probe {found}, the drawing gives {expected}",
+        de: "das Programm nennt die Probe {found}, die Zeichnung ergibt {expected}",
+        help_en: "emit again and measure with the new program",
+        help_de: "noch einmal ausgeben und mit dem neuen Programm messen",
+    }
+    /// A formula with a probe that the header does not list.
+    PROBE_NOT_STATED: UncheckedFormula {
+        en: "the formula uses #{probe}, which the program's header does not state",
+        de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// A formula that was applied without a measured height in the header.
+    HEIGHT_NOT_MEASURED: UncheckedFormula {
+        en: "the formula has been worked out, but the program's header does not state the measured height of #{probe}",
+        de: "die Formel ist ausgerechnet, der Kopf des Programms nennt aber keine gemessene Höhe von #{probe}",
+        help_en: "an older version adjusted the program, or it was edited: run adjust again",
+        help_de: "eine ältere Version hat das Programm angepasst, oder es wurde bearbeitet: noch einmal adjust aufrufen",
+    }
+    /// A formula that was not applied in an adjusted program.
+    FORMULA_NOT_APPLIED: UncheckedFormula {
+        en: "this formula has not been worked out, although the program's header states measured heights",
+        de: "diese Formel ist nicht ausgerechnet, obwohl der Kopf des Programms gemessene Höhen nennt",
+        help_en: "run adjust again",
+        help_de: "noch einmal adjust aufrufen",
+    }
+    /// A formula in a program without probes.
+    FORMULA_WITHOUT_PROBES: UncheckedFormula {
+        en: "the program has a correction formula, but no probes",
+        de: "das Programm hat eine Korrekturformel, aber keine Proben",
+        help_en: "the program was edited: emit it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+    }
+    /// A formula without a value, for example because of a division by zero.
+    FORMULA_WITHOUT_VALUE: UncheckedFormula {
+        en: "the formula has no value",
+        de: "die Formel hat keinen Wert",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// A height without a formula in a program where all others have one.
+    HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
+        en: "this height has no correction formula",
+        de: "diese Höhe hat keine Korrekturformel",
+        help_en: "an editor or sender may have removed it: emit again, and adjust it again",
+        help_de: "ein Editor oder Sender hat sie vielleicht entfernt: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// A probe that is listed twice in the header.
+    PROBE_STATED_TWICE: UncheckedFormula {
+        en: "the header states #{probe} twice, with different values",
+        de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
+        help_en: "the program was edited: emit again, and adjust it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben und noch einmal anpassen",
+    }
+    /// An adjusted program that does not list its measured heights.
+    HEIGHTS_NOT_STATED: UncheckedFormula {
+        en: "the program does not state its measured heights, so that the numbers before its formulas are not checked",
+        de: "das Programm nennt seine gemessenen Höhen nicht; die Zahlen vor den Formeln sind darum nicht geprüft",
+        help_en: "adjust it with pathbuild, which writes them into the header",
+        help_de: "mit pathbuild anpassen: adjust schreibt sie in den Kopf",
+    }
+    /// A cutter in the header that differs from the tool table.
+    OTHER_CUTTER_IN_TABLE: Disagreement {
+        en: "the header says O{header}; T{index} of `[tool]` is {table} mm wide",
+        de: "der Kopf sagt O{header}; T{index} in `[tool]` ist {table} mm breit",
+        help_en: "use the cutter named in the header, or correct `[tool]`",
+        help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen",
+    }
+    /// A cutter in the header that differs from that of an option.
+    OTHER_CUTTER_GIVEN: Disagreement {
+        en: "the header says O{header}, --cutter says {given}",
+        de: "der Kopf sagt O{header}, --cutter sagt {given}",
+        help_en: "the rapid moves were checked with --cutter",
+        help_de: "die Eilgänge wurden mit --cutter geprüft",
+    }
+    /// A cutter in the header or an option that differs from that of the drawing.
+    OTHER_CUTTER_DRAWN: Disagreement {
+        en: "{place} says O{found}, the drawing O{drawn}",
+        de: "{place} sagt O{found}, die Zeichnung O{drawn}",
+        help_en: "emit the program again, or leave the option out",
+        help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+    }
+    /// A surface in the header or an option that differs from that of the drawing.
+    OTHER_SURFACE_DRAWN: Disagreement {
+        en: "{place} says the surface is at {found}, the drawing at {drawn}",
+        de: "{place} sagt, die Oberfläche liegt bei {found}, die Zeichnung sagt {drawn}",
+        help_en: "emit the program again, or leave the option out",
+        help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+    }
+    /// Statistics at the end of a program that do not match its moves.
+    LENGTH_DIFFERS: Disagreement {
+        en: "`{label}` says {stated} mm, the program's moves come to {length} mm",
+        de: "`{label}` sagt {stated} mm, die Bewegungen des Programms ergeben {length} mm",
+        help_en: "the program was edited: emit it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+    }
+    /// A comment that differs from what `emit` writes.
+    TEXT_DIFFERS: Disagreement {
+        en: "emit writes `{expected}` here",
+        de: "emit schreibt hier `{expected}`",
+        help_en: "the program was edited: emit it again",
+        help_de: "das Programm wurde bearbeitet: noch einmal ausgeben",
+    }
+    /// A rapid move in the plane through material.
+    RAPID_IN_MATERIAL: RapidInMaterial {
+        en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
+        de: "eine Eilgangbewegung auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
+        help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
+        help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+    }
+    /// A rapid move down into material.
+    RAPID_PLUNGE: RapidPlunge {
+        en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",
+        de: "eine Eilgangbewegung hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
+        help_en: "go down with G1 and a feed (stock known at {resolution} mm)",
+        help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
+    }
+    /// A first move in the plane before retracting.
+    START_NOT_RAISED: StartNotRaised {
+        en: "the program moves in the plane before it raises the cutter",
+        de: "das Programm fährt in der Ebene, bevor es den Fräser anhebt",
+        help_en: "begin with G0 Z above the material",
+        help_de: "mit G0 Z über dem Material beginnen",
+    }
+    /// A program that ends below the surface.
+    END_NOT_RAISED: EndNotRaised {
+        en: "the program ends at Z {z}, below the material's surface at {surface}",
+        de: "das Programm endet auf Z {z}, unter der Oberfläche des Materials bei {surface}",
+        help_en: "end with G0 Z above the material",
+        help_de: "mit G0 Z über dem Material enden",
+    }
+    /// A rapid move in the plane and down at the same time.
+    DIAGONAL_RAPID: DiagonalRapid {
+        en: "a rapid move in the plane and down to Z {z} at once: many machines do not go straight",
+        de: "eine Eilgangbewegung in der Ebene und zugleich hinunter auf Z {z}: viele Maschinen fahren nicht gerade",
+        help_en: "move in the plane first, then down",
+        help_de: "zuerst in der Ebene fahren, dann hinunter",
+    }
+    /// A cut with the spindle off.
+    SPINDLE_OFF: SpindleOff {
+        en: "this is a cutting move with the spindle off",
+        de: "das ist eine Fräsbewegung bei stehender Spindel",
+        help_en: "switch it on with M3 before; a program without M3 to M5 is not asked for it",
+        help_de: "sie vorher mit M3 einschalten; von einem Programm ohne M3 bis M5 wird das nicht verlangt",
+    }
+    /// A program that ends with the spindle on.
+    SPINDLE_LEFT_ON: SpindleLeftOn {
+        en: "the spindle still turns when the program ends",
+        de: "die Spindel dreht sich noch, wenn das Programm endet",
+        help_en: "switch it off with M5, or end the program with M30",
+        help_de: "sie mit M5 ausschalten oder das Programm mit M30 beenden",
+    }
+    /// Arcs with only one or two decimals.
+    COARSE_ARCS: CoarseArcs {
+        en: "arcs are written with {decimals} decimals of a millimetre",
+        de: "Bögen sind mit {decimals} Nachkommastellen eines Millimeters geschrieben",
+        help_en: "set the post-processor to three or more: ends and centres of rounded arcs do not fit each other",
+        help_de: "den Postprozessor auf drei oder mehr einstellen: Enden und Mittelpunkte gerundeter Bögen passen nicht zueinander",
+    }
+    /// A sideways move after probing without retracting.
+    PROBE_NOT_RAISED: ProbeNotRaised {
+        en: "the tool moves sideways while it still touches what it probed",
+        de: "das Werkzeug fährt zur Seite, während es noch berührt, was es angetastet hat",
+        help_en: "raise it first: G0 Z",
+        help_de: "es vorher anheben: G0 Z",
+    }
+    /// A spindle speed outside of the machine's range.
+    SPINDLE_SPEED: SpindleSpeed {
+        en: "S {speed} is outside the machine's {least} to {most}",
+        de: "S {speed} liegt außerhalb der {least} bis {most} der Maschine",
+        help_en: "change S, or the spindle's range under [machine]",
+        help_de: "S ändern oder den Bereich der Spindel unter [machine]",
+    }
+    /// A feed that exceeds the limit of an axis.
+    FEED_TOO_HIGH: FeedTooHigh {
+        en: "feed {feed} mm/min exceeds the machine's maximum of {most} in {axis}",
+        de: "der Vorschub {feed} mm/min überschreitet in {axis} das Maximum der Maschine von {most}",
+        help_en: "the control slows down, and times are longer; change F, or the rate under [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder die Geschwindigkeit unter [machine]",
+    }
+    /// A feed that exceeds the limit of the machine.
+    FEED_ABOVE_MOST: FeedTooHigh {
+        en: "feed {feed} mm/min exceeds the machine's maximum of {most}",
+        de: "der Vorschub {feed} mm/min überschreitet das Maximum der Maschine von {most}",
+        help_en: "the control slows down, and times are longer; change F, or `maximum-feed` under [machine]",
+        help_de: "die Steuerung fährt langsamer, und die Zeiten werden länger; F ändern oder `maximum-feed` unter [machine]",
+    }
+    /// A program that leaves the working area of the machine.
+    OUTSIDE_MACHINE: OutsideMachine {
+        en: "{axis} {value} is outside the machine's {least} to {most}",
+        de: "{axis} {value} liegt außerhalb der {least} bis {most} der Maschine",
+        help_en: "move the part, or change the travel under [machine]",
+        help_de: "das Werkstück versetzen oder den Verfahrweg unter [machine] ändern",
+    }
+    /// A program that is larger than the working area of the machine.
+    LARGER_THAN_MACHINE: OutsideMachine {
+        en: "the program needs {size} mm in {axis}, the machine has {most}",
+        de: "das Programm braucht {size} mm in {axis}, die Maschine hat {most}",
+        help_en: "wherever the part is clamped, it does not fit",
+        help_de: "wo immer das Werkstück gespannt ist, es passt nicht",
+    }
+    /// A tool change below the surface.
+    TOOL_CHANGE_AT_DEPTH: ToolChangeAtDepth {
+        en: "the tool is changed at Z {z}, below the material's surface at {surface}",
+        de: "das Werkzeug wird auf Z {z} gewechselt, unter der Oberfläche des Materials bei {surface}",
+        help_en: "raise the cutter before M6",
+        help_de: "den Fräser vor M6 anheben",
+    }
+    /// `diff`: moves to different points.
+    PATHS_DIFFER: MovesDiffer {
+        en: "the moves differ: here the tool goes to {found}, in line {line} of the other to {expected}",
+        de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen nach {expected}",
+    }
+    /// `diff`: moves along different curves.
+    SHAPES_DIFFER: MovesDiffer {
+        en: "the moves differ: this one and that in line {line} of the other part between their ends",
+        de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen trennen sich zwischen ihren Enden",
+    }
+    /// `diff`: a rapid move and a cut.
+    KINDS_DIFFER: MovesDiffer {
+        en: "the moves differ: this is {found}, in line {line} of the other it is {expected}",
+        de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen {expected}",
+    }
+    /// `diff`: different feeds.
+    FEEDS_DIFFER: MovesDiffer {
+        en: "the feeds differ: {found} here, {expected} in line {line} of the other",
+        de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen {expected}",
+    }
+    /// `diff`: missing moves at the end.
+    MOVES_MISSING: MovesDiffer {
+        en: "the moves end here; the other goes on in line {line}",
+        de: "die Bewegungen enden hier; das andere fährt in Zeile {line} weiter",
+    }
+    /// `diff`: additional moves at the end.
+    MOVES_TOO_MANY: MovesDiffer {
+        en: "the other's moves end in line {line}; these go on",
+        de: "die Bewegungen des anderen enden in Zeile {line}; diese gehen weiter",
+    }
+}
