@@ -7,25 +7,14 @@
 //! ignored and replaced. A run never fails because of the cache. Everything in it can be deleted at any time. (book:
 //! reference/configuration: no configuration, no cache)
 
-mod facts;
-mod flat;
-mod format;
+mod catalogue;
 mod listing;
-mod names;
-mod payload;
-mod reasons;
-mod snapshot;
-mod tree_store;
-mod upkeep;
+mod results_file;
+mod store;
 mod verify;
 
-pub use facts::{Catalogue, DirectoryFact, FileFact, Lookup, Record};
-pub use format::{CacheFault, Key};
+pub use catalogue::{Catalogue, CorruptPayload, DirectoryFact, FileFact, Lookup, Record, decode, encode};
 pub use listing::{Listing, Listings};
-pub use names::Names;
-pub use payload::{CorruptPayload, decode, encode};
-pub use reasons::{Reason, reasons};
-pub use snapshot::{CachedDirectory, CachedFile, CachedRecord, Snapshot};
-pub use tree_store::{Home, TreeStore};
-pub use upkeep::{Entry, RemoveError};
-pub use verify::{CoversFn, FileState, StampedBytes, Verdict, VerifyContext, verify};
+pub use results_file::{CacheFault, Key};
+pub use store::{Entry, Home, RemoveError, TreeStore};
+pub use verify::{CoversFn, FileState, Reason, StampedBytes, Verdict, VerifyContext, reasons, verify};

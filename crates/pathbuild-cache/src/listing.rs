@@ -10,16 +10,15 @@ use std::io;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use crate::facts::{DirectoryFact, is_drawing};
-use crate::names::Names;
+use crate::catalogue::DirectoryFact;
 
 /// The names of drawings in a directory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listing {
     /// The names; sorted once the listing is complete.
-    pub names: Names,
+    pub names: Vec<Box<str>>,
     /// Names that are symbolic links, in any order.
-    pub links: Names,
+    pub links: Vec<Box<str>>,
     /// Whether some may be missing.
     pub is_doubtful: bool,
 }
@@ -30,10 +29,10 @@ pub type Listings = HashMap<Utf8PathBuf, Listing>;
 impl Listing {
     /// Adds a directory entry that is not itself a directory, if it is a drawing.
     pub fn add(&mut self, name: &str, is_link: bool) {
-        if is_drawing(name) {
-            self.names.push(name);
+        if Utf8Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")) {
+            self.names.push(name.into());
             if is_link {
-                self.links.push(name);
+                self.links.push(name.into());
             }
         }
     }
@@ -58,7 +57,7 @@ impl Listing {
                 listing.add(&entry.file_name().to_string_lossy(), file_type.is_symlink());
             }
         }
-        listing.names.sort_by(Ord::cmp);
+        listing.names.sort_unstable();
         listing
     }
 }
@@ -74,11 +73,11 @@ impl DirectoryFact {
         let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
         let Listing { names, mut links, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));
         let mut canonical = canonical(place, base);
-        links.sort_by(Ord::cmp);
-        for link in links.iter() {
+        links.sort_unstable();
+        for link in links {
             // No name holds this character.
             canonical.push('\0');
-            canonical.push_str(&self::canonical(&place.join(link), base));
+            canonical.push_str(&self::canonical(&place.join(&*link), base));
         }
         Self { path: path.to_owned(), names, canonical: canonical.into(), is_doubtful }
     }

@@ -1,13 +1,13 @@
 //! Decides which cached results still hold: their files must be unchanged, and their lookups must still give the same answers.
+
 use std::collections::BTreeSet;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_files::Stamp;
 use rayon::prelude::*;
 
-use crate::facts::DirectoryFact;
+use crate::catalogue::{Catalogue, DirectoryFact, FileFact};
 use crate::listing::{Listing, Listings};
-use crate::snapshot::{CachedDirectory, CachedFile, Snapshot};
-use pathbuild_files::Stamp;
 
 /// Whether the file of the first name may contain the path of the second name.
 pub type CoversFn<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
@@ -15,7 +15,7 @@ pub type CoversFn<'a> = &'a (dyn Fn(&str, &str) -> bool + Sync);
 /// A file's bytes, and the stamp under which they were read.
 pub type StampedBytes = (Vec<u8>, Stamp);
 
-/// The outcome of verifying a snapshot.
+/// The outcome of verifying a catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// For each record, whether it was requested and still holds; its outputs do not matter.
@@ -26,11 +26,11 @@ pub struct Verdict {
     pub files: Vec<FileState>,
     /// The current state of each directory.
     pub directories: Vec<DirectoryFact>,
-    /// Whether every stamp and every directory is unchanged, so that the snapshot need not be rewritten.
+    /// Whether every stamp and every directory is unchanged, so that the catalogue need not be rewritten.
     pub is_current: bool,
 }
 
-/// How a snapshot is compared with the file system.
+/// How a catalogue is compared with the file system.
 #[derive(Clone, Copy)]
 pub struct VerifyContext<'a> {
     /// Directory that paths are relative to.
@@ -47,31 +47,26 @@ pub struct VerifyContext<'a> {
     pub hash_output: &'a (dyn Fn(&Utf8Path, &[u8]) -> [u8; 32] + Sync),
 }
 
-/// Compares a snapshot with the file system. Directories in `listings` are not listed again.
-pub fn verify(snapshot: &Snapshot, context: VerifyContext<'_>, mut listings: Listings) -> Verdict {
-    let is_requested: Vec<bool> = (0..snapshot.records())
-        .map(|number| (context.is_requested)(snapshot.record(number).subject()))
-        .collect();
-    let files = files(snapshot, &is_requested, context);
-    let listed: Vec<Option<Listing>> = (0..snapshot.directories())
-        .map(|number| listings.remove(snapshot.directory(number).path()))
-        .collect();
-    let now = |(number, listed)| {
-        DirectoryFact::from_listing(snapshot.directory(number).path(), context.base, listed)
+/// Compares a catalogue with the file system. Directories in `listings` are not listed again.
+pub fn verify(catalogue: &Catalogue, context: VerifyContext<'_>, mut listings: Listings) -> Verdict {
+    let is_requested: Vec<bool> =
+        catalogue.records.iter().map(|record| (context.is_requested)(&record.subject)).collect();
+    let files = files(catalogue, &is_requested, context);
+    let listed: Vec<Option<Listing>> =
+        catalogue.directories.iter().map(|directory| listings.remove(&directory.path)).collect();
+    let now = |(before, listed): (&DirectoryFact, Option<Listing>)| {
+        DirectoryFact::from_listing(&before.path, context.base, listed)
     };
-    let directories: Vec<DirectoryFact> = listed.into_par_iter().enumerate().map(now).collect();
-    let changes: Vec<DirectoryChange> = directories
-        .iter()
-        .enumerate()
-        .map(|(number, now)| DirectoryChange::of(snapshot.directory(number), now))
-        .collect();
+    let directories: Vec<DirectoryFact> = catalogue.directories.par_iter().zip(listed).map(now).collect();
+    let pairs = catalogue.directories.iter().zip(&directories);
+    let changes: Vec<DirectoryChange> = pairs.map(|(before, now)| DirectoryChange::of(before, now)).collect();
     let are_same = !changes.iter().any(DirectoryChange::is_some);
     let is_current =
         are_same && files.iter().all(|state| matches!(state, FileState::Unchanged | FileState::Unchecked));
     let is_sound = if is_current {
-        vec![true; snapshot.records()]
+        vec![true; catalogue.records.len()]
     } else {
-        sound_records(snapshot, &files, &changes, context.covers)
+        sound_records(catalogue, &files, &changes, context.covers)
     };
     let holds = is_requested
         .iter()
@@ -82,21 +77,19 @@ pub fn verify(snapshot: &Snapshot, context: VerifyContext<'_>, mut listings: Lis
 }
 
 /// States of the files of the requested records. Querying the metadata of ten thousand files dominates a run without changes.
-fn files(snapshot: &Snapshot, is_requested: &[bool], context: VerifyContext<'_>) -> Vec<FileState> {
-    let mut roles = vec![Role::None; snapshot.files()];
-    for (number, _) in is_requested.iter().enumerate().filter(|(_, is_requested)| **is_requested) {
-        let record = snapshot.record(number);
-        record.outputs().for_each(|file| roles[file] = Role::Output);
-        record.files().for_each(|file| roles[file] = Role::Source);
+fn files(catalogue: &Catalogue, is_requested: &[bool], context: VerifyContext<'_>) -> Vec<FileState> {
+    let mut roles = vec![Role::None; catalogue.files.len()];
+    let requested = catalogue.records.iter().zip(is_requested).filter(|(_, is_requested)| **is_requested);
+    for (record, _) in requested {
+        record.outputs.iter().for_each(|file| roles[*file] = Role::Output);
+        record.files.iter().for_each(|file| roles[*file] = Role::Source);
     }
-    let state = |(number, role): (usize, &Role)| match role {
+    let state = |(role, file): (&Role, &FileFact)| match role {
         Role::None => FileState::Unchecked,
-        Role::Source => {
-            state(snapshot.file(number), context, false, &|_, bytes| *blake3::hash(bytes).as_bytes())
-        }
-        Role::Output => state(snapshot.file(number), context, true, context.hash_output),
+        Role::Source => state(file, context, false, &|_, bytes| *blake3::hash(bytes).as_bytes()),
+        Role::Output => state(file, context, true, context.hash_output),
     };
-    roles.par_iter().enumerate().with_min_len(256).map(state).collect()
+    roles.par_iter().zip(&catalogue.files).with_min_len(256).map(state).collect()
 }
 
 /// How the requested records use a file.
@@ -109,29 +102,29 @@ enum Role {
 
 /// For each record, whether none of its checked files has changed and all its lookups give the same answers.
 fn sound_records(
-    snapshot: &Snapshot,
+    catalogue: &Catalogue,
     files: &[FileState],
     changes: &[DirectoryChange],
     covers: CoversFn<'_>,
 ) -> Vec<bool> {
-    let changed =
-        |list| snapshot.directory_list(list).map(|number| &changes[number]).filter(|change| change.is_some());
-    let changed: Vec<Vec<&DirectoryChange>> =
-        (0..snapshot.directory_lists()).map(|list| changed(list).collect()).collect();
-    let is_stale = |number| {
-        let (list, name) = snapshot.lookup(number);
-        changed[list].iter().any(|change| change.concerns(name, covers))
+    let changed = |list: &Vec<usize>| {
+        list.iter().map(|number| &changes[*number]).filter(|change| change.is_some()).collect()
     };
-    let stale: Vec<bool> = (0..snapshot.lookups()).map(is_stale).collect();
-    let is_sound = |number| {
-        let record = snapshot.record(number);
-        record.files().all(|file| files[file] != FileState::Changed)
-            && !record.lookups().any(|lookup| stale[lookup])
-    };
-    (0..snapshot.records()).map(is_sound).collect()
+    let changed: Vec<Vec<&DirectoryChange>> = catalogue.directory_lists.iter().map(changed).collect();
+    let lookups = catalogue.lookups.iter();
+    let stale: Vec<bool> = lookups
+        .map(|lookup| changed[lookup.directories].iter().any(|change| change.concerns(&lookup.name, covers)))
+        .collect();
+    let records = catalogue.records.iter();
+    records
+        .map(|record| {
+            record.files.iter().all(|file| files[*file] != FileState::Changed)
+                && !record.lookups.iter().any(|lookup| stale[*lookup])
+        })
+        .collect()
 }
 
-/// State of a file compared with the snapshot.
+/// State of a file compared with the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileState {
     /// The stamp is unchanged.
@@ -145,29 +138,29 @@ pub enum FileState {
 }
 
 fn state(
-    file: CachedFile<'_>,
+    file: &FileFact,
     context: VerifyContext<'_>,
     is_output: bool,
     hash_of: &dyn Fn(&Utf8Path, &[u8]) -> [u8; 32],
 ) -> FileState {
-    let path = file.path();
+    let path = &*file.path;
     // Check first: a stamp is that of the target of symbolic links, which may be anywhere.
     if !(context.is_allowed)(path) {
         return FileState::Changed;
     }
     let stamp = Stamp::of(path);
-    if stamp == file.stamp() && stamp != Stamp::UNKNOWN {
+    if stamp == file.stamp && stamp != Stamp::UNKNOWN {
         return FileState::Unchanged;
     }
-    let Some(hash) = file.hash().filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
+    let Some(hash) = file.hash.filter(|_| stamp != Stamp::MISSING) else { return FileState::Changed };
     match (context.read)(path, is_output) {
         Some((bytes, stamp)) if hash_of(path, &bytes) == hash => FileState::Touched(stamp),
         _ => FileState::Changed,
     }
 }
 
-/// Difference between a directory and its snapshot.
-pub(crate) enum DirectoryChange {
+/// Difference between a directory and what is cached of it.
+enum DirectoryChange {
     /// Same names, no links.
     None,
     /// Names that were added or removed.
@@ -177,16 +170,16 @@ pub(crate) enum DirectoryChange {
 }
 
 impl DirectoryChange {
-    pub(crate) fn of(before: CachedDirectory<'_>, now: &DirectoryFact) -> Self {
-        if before.is_doubtful() || now.is_doubtful || before.canonical() != &*now.canonical {
+    fn of(before: &DirectoryFact, now: &DirectoryFact) -> Self {
+        if before.is_doubtful || now.is_doubtful || before.canonical != now.canonical {
             return Self::Links;
         }
-        if before.names().eq(now.names.iter()) {
+        if before.names == now.names {
             return Self::None;
         }
-        let (old, new): (BTreeSet<&str>, BTreeSet<&str>) =
-            (before.names().collect(), now.names.iter().collect());
-        Self::Names(old.symmetric_difference(&new).map(|name| (*name).into()).collect())
+        let (old, new): (BTreeSet<_>, BTreeSet<_>) =
+            (before.names.iter().collect(), now.names.iter().collect());
+        Self::Names(old.symmetric_difference(&new).copied().cloned().collect())
     }
 
     fn is_some(&self) -> bool {
@@ -199,6 +192,82 @@ impl DirectoryChange {
             Self::None => false,
             Self::Links => true,
             Self::Names(names) => names.iter().any(|name| covers(name, path)),
+        }
+    }
+}
+
+/// An input of a result that has changed.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// A file has different bytes, or is gone.
+    File {
+        /// Its path, spelled as in the run that read it.
+        path: Utf8PathBuf,
+        /// Whether it is gone.
+        is_gone: bool,
+    },
+    /// A file that may contain a path which was looked up has appeared or disappeared.
+    Name {
+        /// The file.
+        file: Utf8PathBuf,
+        /// Name of the path that was looked up.
+        path: Box<str>,
+        /// Whether the file disappeared.
+        is_gone: bool,
+    },
+    /// A symbolic link in a directory, or on the way to it, has another target, or the directory could not be listed completely.
+    Links {
+        /// The directory.
+        directory: Utf8PathBuf,
+    },
+}
+
+/// Lists why a record no longer holds, without duplicates; empty if it holds.
+pub fn reasons(catalogue: &Catalogue, verdict: &Verdict, record: usize, covers: CoversFn<'_>) -> Vec<Reason> {
+    let record = &catalogue.records[record];
+    let changed = record.files.iter().filter(|file| verdict.files[**file] == FileState::Changed);
+    let mut reasons: Vec<Reason> = changed
+        .map(|file| {
+            let path = catalogue.files[*file].path.clone();
+            Reason::File { is_gone: !path.exists(), path }
+        })
+        .collect();
+    for lookup in record.lookups.iter().map(|lookup| &catalogue.lookups[*lookup]) {
+        for directory in &catalogue.directory_lists[lookup.directories] {
+            let (before, now) = (&catalogue.directories[*directory], &verdict.directories[*directory]);
+            reasons.extend(of_lookup(before, now, &lookup.name, covers));
+        }
+    }
+    reasons.sort();
+    reasons.dedup();
+    // For a file that was read and is gone, one reason is enough.
+    let gone: Vec<Utf8PathBuf> = reasons.iter().filter_map(Reason::gone_file).cloned().collect();
+    reasons.retain(|reason| !matches!(reason, Reason::Name { file, .. } if gone.contains(file)));
+    reasons
+}
+
+impl Reason {
+    fn gone_file(&self) -> Option<&Utf8PathBuf> {
+        match self {
+            Self::File { path, is_gone: true } => Some(path),
+            _ => None,
+        }
+    }
+}
+
+fn of_lookup(before: &DirectoryFact, now: &DirectoryFact, path: &str, covers: CoversFn<'_>) -> Vec<Reason> {
+    let directory = &now.path;
+    match DirectoryChange::of(before, now) {
+        DirectoryChange::None => Vec::new(),
+        DirectoryChange::Links => vec![Reason::Links { directory: directory.clone() }],
+        DirectoryChange::Names(names) => {
+            let covering = names.into_iter().filter(|name| covers(name, path));
+            let reason = |name: Box<str>| Reason::Name {
+                file: directory.join(&*name),
+                path: path.into(),
+                is_gone: !now.names.contains(&name),
+            };
+            covering.map(reason).collect()
         }
     }
 }

@@ -24,7 +24,7 @@ fn world() -> (TempDir, Utf8PathBuf) {
 }
 
 fn store(place: &TreeStore) {
-    place.store(&Key::new("build", "question"), &Catalogue::default()).unwrap();
+    place.store(&Key::new("build", "question"), Catalogue::default()).unwrap();
 }
 
 fn mode(path: &Utf8Path) -> u32 {

@@ -13,12 +13,13 @@ use std::io;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use camino::Utf8Path;
+use serde::{Deserialize, Serialize};
 
 use crate::private;
 
-/// A file's metadata as opaque bytes that are compared as a whole: size, times of its last changes in whole seconds, the rest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stamp([u8; Stamp::SIZE]);
+/// A file's metadata as numbers that are compared as a whole: size, times of its last changes in whole seconds, the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Stamp([u64; 6]);
 
 /// The time by the clock of a directory's file system, which may differ from this machine's clock.
 #[derive(Clone, Copy, Debug)]
@@ -31,14 +32,11 @@ pub const CLOCK: &str = "clock";
 const TICK: Duration = Duration::from_secs(2);
 
 impl Stamp {
-    /// Size in bytes.
-    pub const SIZE: usize = 48;
-
     /// Stamp of a file that does not exist.
-    pub const MISSING: Self = Self([0xFF; Self::SIZE]);
+    pub const MISSING: Self = Self([u64::MAX; 6]);
 
     /// A stamp that no file has.
-    pub const UNKNOWN: Self = Self([0; Self::SIZE]);
+    pub const UNKNOWN: Self = Self([0; 6]);
 
     /// Stamp of a file, following symbolic links; [`UNKNOWN`](Self::UNKNOWN) if its metadata cannot be read.
     pub fn of(file: &Utf8Path) -> Self {
@@ -63,8 +61,6 @@ impl Stamp {
 
     /// Whether the file's last change is old enough that a later one would alter the stamp.
     fn has_rested(self, Clock(begun): Clock) -> bool {
-        let number =
-            |index: usize| self.0[8 * index..].first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
         // Times before 1970 are not trusted.
         let is_before = |seconds: u64| {
             let time = i64::try_from(seconds)
@@ -74,26 +70,12 @@ impl Stamp {
             time.and_then(|time| time.checked_add(TICK + Duration::from_secs(1)))
                 .is_some_and(|time| time < begun)
         };
-        is_before(number(1)) && is_before(number(2))
+        is_before(self.0[1]) && is_before(self.0[2])
     }
 
-    /// A stamp from its bytes.
-    pub fn from_bytes(bytes: [u8; Self::SIZE]) -> Self {
-        Self(bytes)
-    }
-
-    /// The bytes of the stamp.
-    pub fn to_bytes(self) -> [u8; Self::SIZE] {
-        self.0
-    }
-
+    /// Neither `MISSING` nor `UNKNOWN`: the last number is never zero and never all ones.
     fn of_data(data: &Metadata) -> Self {
-        let mut stamp = [0; Self::SIZE];
-        for (slot, number) in stamp.chunks_exact_mut(8).zip(numbers(data)) {
-            slot.copy_from_slice(&number.to_le_bytes());
-        }
-        // This is neither `MISSING` nor `UNKNOWN`: the last number is never zero and never all ones.
-        Self(stamp)
+        Self(numbers(data))
     }
 }
 

@@ -303,7 +303,7 @@ impl Session<'_> {
         for (directory, listing) in
             listings.iter().filter(|(_, listing)| !listing.is_doubtful && listing.links.is_empty())
         {
-            self.db.provide_names(directory, listing.names.iter().collect());
+            self.db.provide_names(directory, listing.names.iter().map(|name| &**name).collect());
         }
     }
 

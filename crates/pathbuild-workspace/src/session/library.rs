@@ -186,13 +186,13 @@ impl Directory {
         }
         // Lookups must not rely on an incomplete listing.
         found.listing.is_doubtful |= listed.is_err();
-        found.listing.names.sort_by(by_name);
+        found.listing.names.sort_unstable();
         let drawings = found.listing.names.iter().filter(|name| found.counts(directory, name, false));
-        found.drawings = drawings.map(|name| join(directory, name)).collect();
+        found.drawings = drawings.map(|name| join(directory, &**name)).collect();
         if !found.inexact.names.is_empty() {
-            found.listing.links.extend(found.inexact.links.iter());
-            found.listing.names.extend(found.inexact.names.iter());
-            found.listing.names.sort_by(Ord::cmp);
+            found.listing.links.append(&mut found.inexact.links);
+            found.listing.names.append(&mut found.inexact.names);
+            found.listing.names.sort_unstable();
         }
         Ok(Some(found))
     }

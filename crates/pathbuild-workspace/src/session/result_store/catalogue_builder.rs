@@ -1,14 +1,14 @@
 //! Builds the catalogue to be stored: results that still hold keep their facts, new results get current ones.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::hash::Hash;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{Catalogue, DirectoryFact, FileFact, FileState, Record};
-use pathbuild_db::{Db, NameLookup, SourceFile};
+use pathbuild_cache::{Catalogue, DirectoryFact, FileFact, FileState, Lookup, Record};
+use pathbuild_db::{Database, Db, NameLookup, SourceFile, content, drawing_names};
 use pathbuild_files::{Clock, Stamp};
 
-use super::lookups::Lookups;
-use super::run_facts::{Content, RunFacts};
 use super::{ExtraInput, FreshResult, GeneratedFile, ResultStore};
 use crate::session::Session;
 
@@ -18,15 +18,16 @@ pub(super) struct CatalogueBuilder<'a> {
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
-    /// Indices of files that were not in the snapshot.
-    new_files: HashMap<Utf8PathBuf, usize>,
+    /// Index of each file, directory, directory list and lookup of the new catalogue.
+    files: HashMap<Utf8PathBuf, usize>,
     directories: HashMap<Utf8PathBuf, usize>,
-    lookups: Lookups,
-    /// New index of each file, directory and lookup of the snapshot.
-    kept_files: Vec<Option<usize>>,
-    kept_directories: Vec<Option<usize>>,
+    lists: HashMap<Vec<usize>, usize>,
+    lookups: HashMap<Lookup, usize>,
+    /// New index of each lookup of the old catalogue.
     kept_lookups: Vec<Option<usize>>,
-    seen: RunFacts<'a>,
+    /// Index of each file of the old catalogue.
+    kept_files: HashMap<&'a Utf8Path, usize>,
+    run: RunFacts<'a>,
 }
 
 impl<'a> CatalogueBuilder<'a> {
@@ -42,33 +43,32 @@ impl<'a> CatalogueBuilder<'a> {
             session,
             begun,
             catalogue: Catalogue::default(),
-            new_files: HashMap::new(),
+            files: HashMap::new(),
             directories: HashMap::new(),
-            lookups: Lookups::default(),
-            kept_files: vec![None; kept.files()],
-            kept_directories: vec![None; kept.directories()],
-            kept_lookups: vec![None; kept.lookups()],
-            seen: RunFacts::new(session, fresh),
+            lists: HashMap::new(),
+            lookups: HashMap::new(),
+            kept_lookups: vec![None; kept.lookups.len()],
+            kept_files: kept.files.iter().map(|file| &*file.path).zip(0..).collect(),
+            run: RunFacts::new(session, fresh),
         }
     }
 
     pub(super) fn finish(self) -> Catalogue {
-        let Lookups { lists, all, .. } = self.lookups;
-        Catalogue { directory_lists: lists, lookups: all, ..self.catalogue }
+        self.catalogue
     }
 
     /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings or generated one of its
     /// files from other inputs.
-    pub(super) fn add_kept(&mut self, number: usize) {
-        let record = self.result_store.kept.record(number);
-        let has_written = |file: usize| self.seen.has_written(self.result_store.kept.file(file).path());
-        if record.files().any(|file| self.is_other(file)) || record.outputs().any(has_written) {
+    pub(super) fn add_kept(&mut self, record: &Record) {
+        let kept = &self.result_store.kept;
+        let has_written = |file: &usize| self.run.written.contains(&*kept.files[*file].path);
+        if record.files.iter().any(|file| self.is_other(*file)) || record.outputs.iter().any(has_written) {
             return;
         }
-        let files = record.files().map(|file| self.kept_file(file)).collect();
-        let lookups = record.lookups().map(|lookup| self.kept_lookup(lookup)).collect();
-        let outputs = record.outputs().map(|file| self.kept_file(file)).collect();
-        let (subject, payload) = (record.subject().into(), record.payload().to_vec());
+        let files = record.files.iter().map(|file| self.kept_file(*file)).collect();
+        let lookups = record.lookups.iter().map(|lookup| self.kept_lookup(*lookup)).collect();
+        let outputs = record.outputs.iter().map(|file| self.kept_file(*file)).collect();
+        let (subject, payload) = (record.subject.clone(), record.payload.clone());
         self.catalogue.records.push(Record { subject, files, lookups, outputs, payload });
     }
 
@@ -77,7 +77,7 @@ impl<'a> CatalogueBuilder<'a> {
         let Some(payload) = &result.payload else { return };
         let db = self.session.db();
         let mut drawings = result.traces.iter().flat_map(|trace| &trace.files);
-        if drawings.any(|file| self.seen.content(file.path(db)).is_none()) {
+        if drawings.any(|file| self.run.content(file.path(db)).is_none()) {
             return;
         }
         let mut files = BTreeSet::new();
@@ -97,19 +97,19 @@ impl<'a> CatalogueBuilder<'a> {
         });
     }
 
-    /// Whether this run read other bytes than the snapshot has for a file that was not verified.
+    /// Whether this run read other bytes than the old catalogue has for a file that was not verified.
     fn is_other(&self, number: usize) -> bool {
-        let file = self.result_store.kept.file(number);
+        let file = &self.result_store.kept.files[number];
         self.result_store.verdict.files[number] == FileState::Unchecked
-            && self.seen.is_other(file.path(), file.hash())
+            && self.run.is_other(&file.path, file.hash)
     }
 
     fn kept_file(&mut self, number: usize) -> usize {
-        if let Some(new) = self.kept_files[number] {
-            return new;
+        let file = &self.result_store.kept.files[number];
+        if let Some(new) = self.files.get(&file.path) {
+            return *new;
         }
-        let file = self.result_store.kept.file(number);
-        let mut fact = FileFact { path: file.path().to_owned(), stamp: file.stamp(), hash: file.hash() };
+        let mut fact = file.clone();
         match self.result_store.verdict.files[number] {
             FileState::Unchanged | FileState::Unchecked => {}
             FileState::Touched(stamp) => fact.stamp = stamp.settled(self.begun),
@@ -117,22 +117,21 @@ impl<'a> CatalogueBuilder<'a> {
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // If the file has changed since it was compared, it is unclear which content a result belongs to.
-        if self.seen.is_other(&fact.path, fact.hash) {
+        if self.run.is_other(&fact.path, fact.hash) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
-        self.add_kept_file(number, fact)
+        self.add_file(fact)
     }
 
     /// Adds a drawing that was read in this run.
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
-        let number = self.result_store.kept.find_file(path);
         let is_known = |number: &usize| {
             self.result_store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
         };
-        match number.filter(is_known) {
+        match self.kept_files.get(&**path).copied().filter(is_known) {
             Some(number) => self.kept_file(number),
-            None => self.new_file(path, self.seen.content(path)),
+            None => self.new_file(path, self.run.content(path)),
         }
     }
 
@@ -156,37 +155,21 @@ impl<'a> CatalogueBuilder<'a> {
         let stamp = if *is_there { Stamp::of(path).settled(self.begun) } else { Stamp::UNKNOWN };
         // If the file has vanished meanwhile, the stamp does not belong to the hash.
         let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };
-        self.push_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
+        self.add_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }
 
     /// Adds a file. One that could not be read gets neither stamp nor hash, so that its results are recomputed.
     fn new_file(&mut self, path: &Utf8Path, content: Option<Content>) -> usize {
         let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.settled(self.begun));
-        self.push_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
+        self.add_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
     }
 
-    fn push_file(&mut self, fact: FileFact) -> usize {
-        if let Some(kept) = self.result_store.kept.find_file(&fact.path) {
-            return self.add_kept_file(kept, fact);
-        }
-        if let Some(known) = self.new_files.get(&fact.path) {
+    /// Adds a fact about a file; the first fact wins.
+    fn add_file(&mut self, fact: FileFact) -> usize {
+        if let Some(known) = self.files.get(&fact.path) {
             return *known;
         }
-        self.new_files.insert(fact.path.clone(), self.catalogue.files.len());
-        self.add_file(fact)
-    }
-
-    /// Adds a fact about a file that is already in the snapshot; the first fact wins.
-    fn add_kept_file(&mut self, number: usize, fact: FileFact) -> usize {
-        if let Some(known) = self.kept_files[number] {
-            return known;
-        }
-        let new = self.add_file(fact);
-        self.kept_files[number] = Some(new);
-        new
-    }
-
-    fn add_file(&mut self, fact: FileFact) -> usize {
+        self.files.insert(fact.path.clone(), self.catalogue.files.len());
         self.catalogue.files.push(fact);
         self.catalogue.files.len() - 1
     }
@@ -196,9 +179,10 @@ impl<'a> CatalogueBuilder<'a> {
             return new;
         }
         let kept = &self.result_store.kept;
-        let (directories, name) = kept.lookup(number);
-        let list = kept.directory_list(directories).map(|directory| self.kept_directory(directory)).collect();
-        let new = self.lookups.number(list, name);
+        let Lookup { directories, name } = &kept.lookups[number];
+        let list = &kept.directory_lists[*directories];
+        let list = list.iter().map(|directory| self.kept_directory(*directory)).collect();
+        let new = self.add_lookup(list, name);
         self.kept_lookups[number] = Some(new);
         new
     }
@@ -206,36 +190,100 @@ impl<'a> CatalogueBuilder<'a> {
     /// Adds a lookup made in this run.
     fn lookup(&mut self, lookup: &NameLookup) -> usize {
         let list = lookup.directories.iter().map(|directory| self.directory(directory)).collect();
-        self.lookups.number(list, lookup.name.as_str())
+        self.add_lookup(list, lookup.name.as_str())
+    }
+
+    fn add_lookup(&mut self, list: Vec<usize>, name: &str) -> usize {
+        let Catalogue { directory_lists, lookups, .. } = &mut self.catalogue;
+        let directories = number(&mut self.lists, directory_lists, list);
+        number(&mut self.lookups, lookups, Lookup { directories, name: name.into() })
     }
 
     fn kept_directory(&mut self, number: usize) -> usize {
-        if let Some(new) = self.kept_directories[number] {
-            return new;
+        let fact = &self.result_store.verdict.directories[number];
+        match self.directories.get(&fact.path) {
+            Some(known) => *known,
+            None => self.add_directory(fact.clone()),
         }
-        let fact = self.result_store.verdict.directories[number].clone();
-        let new = self.push_directory(fact);
-        self.kept_directories[number] = Some(new);
-        new
     }
 
     /// Adds a directory with its current names.
     fn directory(&mut self, path: &Utf8Path) -> usize {
-        if let Some(known) = self.directories.get(path) {
-            return *known;
+        match self.directories.get(path) {
+            Some(known) => *known,
+            None => self.add_directory(DirectoryFact::now(path, &self.result_store.base)),
         }
-        let fact = DirectoryFact::now(path, &self.result_store.base);
-        self.push_directory(fact)
     }
 
-    fn push_directory(&mut self, mut fact: DirectoryFact) -> usize {
-        if let Some(known) = self.directories.get(&fact.path) {
-            return *known;
-        }
-        fact.is_doubtful |= !self.seen.agrees(&fact);
-        let number = self.catalogue.directories.len();
-        self.directories.insert(fact.path.clone(), number);
+    fn add_directory(&mut self, mut fact: DirectoryFact) -> usize {
+        fact.is_doubtful |= !self.run.agrees(&fact);
+        self.directories.insert(fact.path.clone(), self.catalogue.directories.len());
         self.catalogue.directories.push(fact);
-        number
+        self.catalogue.directories.len() - 1
     }
+}
+
+/// Index of a value in a list without duplicates.
+fn number<T: Clone + Eq + Hash>(numbers: &mut HashMap<T, usize>, all: &mut Vec<T>, value: T) -> usize {
+    match numbers.entry(value) {
+        Entry::Occupied(known) => *known.get(),
+        Entry::Vacant(new) => {
+            all.push(new.key().clone());
+            *new.insert(all.len() - 1)
+        }
+    }
+}
+
+/// Files and directories that the run accessed.
+struct RunFacts<'a> {
+    db: &'a Database,
+    /// The drawings that were read; `None` for one that could not be read or that changed during the run.
+    read: HashMap<Utf8PathBuf, Option<Content>>,
+    /// The directories in which lookups were made.
+    searched: HashSet<&'a Utf8Path>,
+    /// The files that were written or compared.
+    written: HashSet<&'a Utf8Path>,
+}
+
+/// Hash of a file's bytes, and the stamp under which they were read.
+type Content = ([u8; 32], Stamp);
+
+impl<'a> RunFacts<'a> {
+    fn new(session: &'a Session<'a>, fresh: &'a [FreshResult]) -> Self {
+        let db = session.db();
+        let traces = || fresh.iter().flat_map(|fresh| &fresh.traces);
+        let read = traces().flat_map(|trace| &trace.files);
+        let searched = traces().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories);
+        Self {
+            db,
+            read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
+            searched: searched.map(|directory| &**directory).collect(),
+            written: fresh.iter().flat_map(|fresh| &fresh.outputs).map(|output| &*output.path).collect(),
+        }
+    }
+
+    /// Content that was read from a drawing.
+    fn content(&self, path: &Utf8Path) -> Option<Content> {
+        self.read.get(path).copied().flatten()
+    }
+
+    /// Whether the bytes read from a drawing have a different hash.
+    fn is_other(&self, path: &Utf8Path, hash: Option<[u8; 32]>) -> bool {
+        self.read.get(path).is_some_and(|content| content.map(|(read, _)| read) != hash)
+    }
+
+    /// Whether the database saw the same names in a directory, if it made lookups there.
+    fn agrees(&self, fact: &DirectoryFact) -> bool {
+        if !self.searched.contains(&*fact.path) {
+            return true;
+        }
+        let mut names: Vec<&str> = drawing_names(self.db, self.db.directory(&fact.path)).iter().collect();
+        names.sort_unstable();
+        names.into_iter().eq(fact.names.iter().map(|name| &**name))
+    }
+}
+
+/// Content of a drawing, if it did not change during the run.
+fn steady_content(db: &Database, file: SourceFile) -> Option<Content> {
+    content(db, file).filter(|_| !db.has_drifted(file))
 }

@@ -3,10 +3,8 @@
 //! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
 
 mod catalogue_builder;
-mod lookups;
 mod payload;
 mod query;
-mod run_facts;
 mod scope;
 
 use std::cell::Cell;
@@ -14,8 +12,8 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
-    CacheFault, FileState, Key, Listings, Reason, Snapshot, TreeStore, Verdict, VerifyContext, reasons,
-    verify,
+    CacheFault, Catalogue, FileState, Key, Listings, Lookup, Reason, TreeStore, Verdict, VerifyContext,
+    reasons, verify,
 };
 use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, Trace};
@@ -43,7 +41,7 @@ pub struct ResultStore {
     scope: Scope,
     /// The time before anything was read; `None` if the cache is not writable.
     begun: Option<Clock>,
-    kept: Snapshot,
+    kept: Catalogue,
     verdict: Verdict,
     /// Index of the record that is likely requested next, since requests come in order.
     next: Cell<usize>,
@@ -143,7 +141,7 @@ impl ResultStore {
             Ok(kept) => kept.unwrap_or_default(),
             Err(reason) => {
                 report_fault(context, reason);
-                Snapshot::default()
+                Catalogue::default()
             }
         };
         let coverage = Coverage::new(context);
@@ -154,34 +152,37 @@ impl ResultStore {
     /// The encoded result of a subject, if it still holds.
     pub fn payload(&self, subject: &str) -> Option<&[u8]> {
         let number = self.record(subject)?;
-        self.verdict.holds[number].then(|| self.kept.record(number).payload())
+        self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
     }
 
     /// States of the files that were generated from a result, in the order in which they were stored.
     pub fn outputs(&self, subject: &str) -> Vec<OutputState> {
         let Some(number) = self.record(subject) else { return Vec::new() };
-        let state = |file: usize| match self.verdict.files[file] {
+        let state = |file: &usize| match self.verdict.files[*file] {
             FileState::Unchanged | FileState::Touched(_) => OutputState::Current,
             FileState::Changed | FileState::Unchecked
-                if Stamp::of(self.kept.file(file).path()) == Stamp::MISSING =>
+                if Stamp::of(&self.kept.files[*file].path) == Stamp::MISSING =>
             {
                 OutputState::Missing
             }
             FileState::Changed | FileState::Unchecked => OutputState::Outdated,
         };
-        self.kept.record(number).outputs().map(state).collect()
+        self.kept.records[number].outputs.iter().map(state).collect()
     }
 
     /// The inputs of a cached result.
     pub fn facts(&self, subject: &str) -> Option<Dependencies<'_>> {
-        let record = self.kept.record(self.record(subject)?);
-        let files = record.files().map(|file| self.kept.file(file).path());
-        let lookup = |lookup| {
-            let (directories, name) = self.kept.lookup(lookup);
-            let list = self.kept.directory_list(directories);
-            list.map(move |directory| (self.kept.directory(directory).path(), name))
+        let record = &self.kept.records[self.record(subject)?];
+        let files = record.files.iter().map(|file| &*self.kept.files[*file].path);
+        let lookup = |lookup: &usize| {
+            let Lookup { directories, name } = &self.kept.lookups[*lookup];
+            let list = self.kept.directory_lists[*directories].iter();
+            list.map(move |directory| (&*self.kept.directories[*directory].path, &**name))
         };
-        Some(Dependencies { files: files.collect(), lookups: record.lookups().flat_map(lookup).collect() })
+        Some(Dependencies {
+            files: files.collect(),
+            lookups: record.lookups.iter().flat_map(lookup).collect(),
+        })
     }
 
     /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
@@ -192,7 +193,7 @@ impl ResultStore {
     }
 
     fn record(&self, subject: &str) -> Option<usize> {
-        let number = self.kept.find_record(subject, self.next.get())?;
+        let number = self.kept.find(subject, self.next.get())?;
         self.next.set(number + 1);
         Some(number)
     }
@@ -203,24 +204,26 @@ impl ResultStore {
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
         let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| &*fresh.subject).collect();
         let mut builder = CatalogueBuilder::new(self, session, begun, fresh);
-        for number in (0..self.kept.records()).filter(|number| self.verdict.is_sound[*number]) {
-            let subject = self.kept.record(number).subject();
+        for (record, _) in
+            self.kept.records.iter().zip(&self.verdict.is_sound).filter(|(_, is_sound)| **is_sound)
+        {
+            let subject = &*record.subject;
             if !fresh_subjects.contains(subject) && self.scope.may_return(subject, session.db().system()) {
-                builder.add_kept(number);
+                builder.add_kept(record);
             }
         }
         for fresh in fresh {
             builder.add_fresh(fresh);
         }
         // Without write access, the results are not cached.
-        _ = self.place.store(&self.key, &builder.finish());
+        _ = self.place.store(&self.key, builder.finish());
     }
 }
 
 /// Verifies the cached results against the files.
 fn verify_snapshot(
     workspace: &Workspace,
-    kept: &Snapshot,
+    kept: &Catalogue,
     coverage: &Coverage,
     scope: &Scope,
     listings: Listings,

@@ -1,4 +1,7 @@
-//! Maintenance of the cache: listing, checking and removing results.
+//! Where results are stored: in the user's cache directory, in a directory named after the tree's real path, so that no repository can
+//! bring its own cache; or in a directory that the user named. Any number of processes may read and write there: files are replaced
+//! atomically, so every file is complete, and the last writer wins. (book: reference/configuration)
+
 #![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
 use std::fs;
@@ -6,13 +9,142 @@ use std::io;
 use std::time::{Duration, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::Value;
-use pathbuild_diagnostic::reasons::{NO_CACHE, reason};
+use pathbuild_diagnostic::reasons::{self, HOLDS_OTHERS, NO_CACHE, reason};
+use pathbuild_diagnostic::{Text, Value};
+use pathbuild_files::{CLOCK, Clock, private};
 
-use crate::format::{self, CacheFault, Key};
-use crate::tree_store::{Home, LARGEST, SMALL, TAG, TREE, TreeStore, is_own_tag, is_own_tree};
-use pathbuild_files::CLOCK;
-use pathbuild_files::private;
+use crate::catalogue::Catalogue;
+use crate::results_file::{self, CacheFault, Key};
+
+/// Where the results of all trees are stored.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Home {
+    /// pathbuild's directory in the user's cache directory; each tree has a subdirectory.
+    User(Utf8PathBuf),
+    /// A directory that the user named. It is trusted whichever tree it was made for, so that it also serves copies of that tree.
+    Named(Utf8PathBuf),
+}
+
+/// Where the results of one tree are stored.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TreeStore {
+    directory: Utf8PathBuf,
+    /// Real path of the tree; `None` if the user named the directory.
+    tree: Option<Utf8PathBuf>,
+}
+
+/// Name of the file that records the tree's path.
+const TREE: &str = "tree";
+/// Size limit of results files in bytes: a planted file must not exhaust the memory.
+const LARGEST: u64 = 1 << 30;
+/// Size limit of the other files in bytes.
+const SMALL: u64 = 1 << 16;
+/// Name of the file that marks a directory as a cache.
+const TAG: &str = "CACHEDIR.TAG";
+
+impl TreeStore {
+    /// The store of the tree with this configuration directory. Creates nothing yet.
+    pub fn of_tree(home: &Home, tree: &Utf8Path) -> Self {
+        match home {
+            Home::Named(directory) => Self { directory: directory.clone(), tree: None },
+            Home::User(caches) => {
+                let tree = tree.canonicalize_utf8().unwrap_or_else(|_| tree.to_owned());
+                Self { directory: caches.join(name_of(&tree)), tree: Some(tree) }
+            }
+        }
+    }
+
+    /// The directory of the results.
+    pub fn directory(&self) -> &Utf8Path {
+        &self.directory
+    }
+
+    /// Why the store must not be used: its directory is a symbolic link, belongs to another user, or holds other files.
+    pub fn refusal(&self) -> Option<&'static Text> {
+        let holds_others = || entry_names(&self.directory).any(|name| !is_ours(&self.directory, &name));
+        let is_right = || match private::read(&self.directory.join(TAG), SMALL) {
+            Ok(Some(tag)) => is_own_tag(&tag),
+            Ok(None) => !holds_others(),
+            Err(_) => false,
+        };
+        private::refusal(&self.directory).or_else(|| (!is_right()).then_some(&HOLDS_OTHERS))
+    }
+
+    /// Loads the results of a key; `None` if there are none.
+    ///
+    /// # Errors
+    /// Why the results file cannot be used.
+    pub fn load(&self, key: &Key) -> Result<Option<Catalogue>, CacheFault> {
+        match private::read(&self.directory.join(key.file_name()), LARGEST) {
+            Ok(Some(file)) => results_file::decode(key, &file).map(Some),
+            Ok(None) => Ok(None),
+            Err(_) => Err(CacheFault::Damaged),
+        }
+    }
+
+    /// Stores results under a key, replacing earlier ones.
+    ///
+    /// # Errors
+    /// If they cannot be written; the earlier ones remain.
+    pub fn store(&self, key: &Key, mut catalogue: Catalogue) -> io::Result<()> {
+        catalogue.records.sort_unstable_by(|a, b| a.subject.cmp(&b.subject));
+        let too_much = || reasons::error(io::ErrorKind::Other, &reasons::TOO_MUCH_TO_KEEP);
+        let bytes = results_file::encode(key, &catalogue).ok_or_else(too_much)?;
+        if bytes.len() as u64 > LARGEST {
+            return Err(too_much());
+        }
+        self.make()?;
+        private::replace(&self.directory, &key.file_name(), &bytes)
+    }
+
+    /// Current time of the directory's file system.
+    ///
+    /// # Errors
+    /// If nothing can be written there.
+    pub fn clock(&self) -> io::Result<Clock> {
+        Clock::of(&self.directory)
+    }
+
+    /// Creates the directory, and the tag that keeps it out of backups. Returns whether the directory is new.
+    ///
+    /// # Errors
+    /// If it cannot be created.
+    pub fn make(&self) -> io::Result<bool> {
+        let is_new = private::make_directory(&self.directory)?;
+        let tag = private::read(&self.directory.join(TAG), SMALL);
+        if tag.map_err(|_| reasons::error(io::ErrorKind::Other, &reasons::TAG_UNREADABLE))?.is_none() {
+            private::replace(&self.directory, TAG, TAG_TEXT.as_bytes())?;
+            if let Some(tree) = &self.tree {
+                private::replace(&self.directory, TREE, tree.as_str().as_bytes())?;
+            }
+        }
+        Ok(is_new)
+    }
+}
+
+/// Whether a cache tag was written by pathbuild: other programs use the same signature line.
+fn is_own_tag(tag: &[u8]) -> bool {
+    tag == TAG_TEXT.as_bytes()
+}
+
+/// Whether the directory's tree file was written by pathbuild: the directory is named after that tree.
+fn is_own_tree(directory: &Utf8Path) -> bool {
+    let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
+    let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
+    tree.is_some_and(|tree| directory.file_name() == Some(name_of(Utf8Path::new(&tree)).as_str()))
+}
+
+/// Name of a tree's subdirectory in the user's cache directory.
+fn name_of(tree: &Utf8Path) -> String {
+    blake3::hash(tree.as_str().as_bytes()).to_hex()[..NAME_LENGTH].to_owned()
+}
+
+/// Number of hexadecimal digits in the name of a tree's subdirectory.
+const NAME_LENGTH: usize = 32;
+
+const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\
+    # This directory holds results that pathbuild can make again. It may be deleted at any time.\n\
+    # https://bford.info/cachedir/\n";
 
 /// A results file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,7 +175,7 @@ impl TreeStore {
     /// All results files, sorted by name, each with whether this build of the program can use it.
     pub fn entries(&self, build: &Key) -> Vec<Entry> {
         let mut entries: Vec<Entry> = entry_names(self.directory())
-            .filter(|name| format::is_file_name(name))
+            .filter(|name| results_file::is_file_name(name))
             .map(|name| self.directory().join(name))
             .map(|path| Entry {
                 size: fs::symlink_metadata(&path).map_or(0, |data| data.len()),
@@ -109,8 +241,8 @@ impl Home {
 }
 
 /// Whether pathbuild creates files of this name in a results directory.
-pub(crate) fn is_ours(directory: &Utf8Path, name: &str) -> bool {
-    let is_named_so = format::is_file_name(name) || is_temporary(name) || name == TAG;
+fn is_ours(directory: &Utf8Path, name: &str) -> bool {
+    let is_named_so = results_file::is_file_name(name) || is_temporary(name) || name == TAG;
     is_named_so || name == TREE && is_own_tree(directory)
 }
 
@@ -119,7 +251,7 @@ fn is_temporary(name: &str) -> bool {
     let word = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     word.and_then(|word| word.rsplit_once('.')).is_some_and(|(name, numbers)| {
-        (format::is_file_name(name) || matches!(name, TAG | TREE | CLOCK))
+        (results_file::is_file_name(name) || matches!(name, TAG | TREE | CLOCK))
             && numbers
                 .split_once('-')
                 .is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
@@ -175,11 +307,11 @@ fn entry_names(directory: &Utf8Path) -> impl Iterator<Item = String> + use<> {
 
 fn fault(path: &Utf8Path, build: &Key) -> Option<CacheFault> {
     let Ok(Some(file)) = private::read(path, LARGEST) else { return Some(CacheFault::Damaged) };
-    let Some(key) = format::key_of(&file) else { return Some(CacheFault::Damaged) };
+    let Some(key) = results_file::key_of(&file) else { return Some(CacheFault::Damaged) };
     if key.build != build.build {
         return Some(CacheFault::Foreign);
     }
-    format::decode(&key, file).err()
+    results_file::decode(&key, &file).err()
 }
 
 fn is_older(path: &Utf8Path, age: Duration) -> bool {

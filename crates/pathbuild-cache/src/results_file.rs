@@ -1,11 +1,6 @@
-//! The header of a results file: it identifies the results by their [`Key`] and protects them by a checksum. The body that follows is laid
-//! out in [`flat`].
-//!
-//! [`flat`]: crate::flat
+//! A results file: a header that identifies the results by their [`Key`] and protects them by a checksum, and the encoded catalogue.
 
-use crate::facts::Catalogue;
-use crate::flat::{CatalogueTooLarge, write};
-use crate::snapshot::Snapshot;
+use crate::catalogue::{self, Catalogue};
 
 /// Identifies a set of cached results: program build, settings, and query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,11 +20,10 @@ pub enum CacheFault {
     Foreign,
 }
 
-const MAGIC: &[u8; 16] = b"pathbuild cache\x04";
+const MAGIC: &[u8; 16] = b"pathbuild cache\x05";
 
 /// Length of the header: magic, both halves of the key, checksum.
-const HEAD: usize = 16 + 32 + 32 + CHECKSUM;
-const CHECKSUM: usize = 32;
+const HEAD: usize = 16 + 32 + 32 + 32;
 
 impl Key {
     /// Hashes the build and the query.
@@ -59,32 +53,24 @@ const SUFFIX: &str = ".results";
 /// Number of hexadecimal digits of the query's hash in a file name.
 const DIGITS: usize = 24;
 
-/// Encodes a catalogue as a complete results file.
-///
-/// # Errors
-/// If the catalogue is larger than a results file can be.
-pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Result<Vec<u8>, CatalogueTooLarge> {
-    let mut file = Vec::new();
-    file.extend_from_slice(MAGIC);
-    file.extend_from_slice(&key.build);
-    file.extend_from_slice(&key.question);
-    file.extend_from_slice(&[0; CHECKSUM]);
-    write(catalogue, &mut file)?;
-    let checksum = *blake3::hash(&file[HEAD..]).as_bytes();
-    file[HEAD - CHECKSUM..HEAD].copy_from_slice(&checksum);
-    Ok(file)
+/// Encodes a catalogue as a complete results file; `None` if that is impossible.
+pub(crate) fn encode(key: &Key, catalogue: &Catalogue) -> Option<Vec<u8>> {
+    let body = catalogue::encode(catalogue)?;
+    let checksum = blake3::hash(&body);
+    Some([MAGIC, &key.build[..], &key.question[..], checksum.as_bytes(), &body].concat())
 }
 
 /// Decodes a results file that is complete and belongs to this key.
-pub(crate) fn decode(key: &Key, file: Vec<u8>) -> Result<Snapshot, CacheFault> {
-    let found = key_of(&file).ok_or(CacheFault::Damaged)?;
-    if found != *key {
+pub(crate) fn decode(key: &Key, file: &[u8]) -> Result<Catalogue, CacheFault> {
+    if key_of(file).ok_or(CacheFault::Damaged)? != *key {
         return Err(CacheFault::Foreign);
     }
-    if !is_whole(&file) {
+    let (head, body) = file.split_at_checked(HEAD).ok_or(CacheFault::Damaged)?;
+    if !head.ends_with(blake3::hash(body).as_bytes()) {
         return Err(CacheFault::Damaged);
     }
-    Snapshot::new(file, HEAD).ok_or(CacheFault::Damaged)
+    let catalogue: Catalogue = catalogue::decode(body).map_err(|_| CacheFault::Damaged)?;
+    if catalogue.is_consistent() { Ok(catalogue) } else { Err(CacheFault::Damaged) }
 }
 
 /// The key in a file's header.
@@ -93,10 +79,4 @@ pub(crate) fn key_of(file: &[u8]) -> Option<Key> {
     let (build, rest) = rest.split_first_chunk()?;
     let (question, _) = rest.split_first_chunk()?;
     Some(Key { build: *build, question: *question })
-}
-
-/// Whether the checksum in the header matches the body.
-fn is_whole(file: &[u8]) -> bool {
-    let split = file.split_at_checked(HEAD);
-    split.is_some_and(|(head, body)| head.ends_with(blake3::hash(body).as_bytes()))
 }

@@ -1,0 +1,123 @@
+//! Results to be cached, the inputs that they depend on, and the encoding of both. (`postcard`)
+
+use camino::Utf8PathBuf;
+use pathbuild_files::Stamp;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Results with all their inputs. Files, directories and lookups that several results share are stored once.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Catalogue {
+    /// Every file that was read or written.
+    pub files: Vec<FileFact>,
+    /// Every directory that was listed.
+    pub directories: Vec<DirectoryFact>,
+    /// Sets of directories that are searched together, as indices into `directories`. Thousands of lookups search the same set.
+    pub directory_lists: Vec<Vec<usize>>,
+    /// Every lookup.
+    pub lookups: Vec<Lookup>,
+    /// The results, sorted by subject once they are stored.
+    pub records: Vec<Record>,
+}
+
+/// A file as it was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileFact {
+    /// Its path, spelled as in the run that read it.
+    pub path: Utf8PathBuf,
+    /// The file's metadata when it was read.
+    pub stamp: Stamp,
+    /// The blake3 hash of its bytes; `None` if it could not be read.
+    pub hash: Option<[u8; 32]>,
+}
+
+/// A directory as it was listed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DirectoryFact {
+    /// Its path, spelled as in the run that read it.
+    pub path: Utf8PathBuf,
+    /// The names of its drawings, sorted.
+    pub names: Vec<Box<str>>,
+    /// Canonical paths of the directory and of the target of each symbolic link in it, relative to the configuration's directory if inside it.
+    /// They decide whether two files are the same.
+    pub canonical: Box<str>,
+    /// Whether lookups in this directory are always repeated: names may be missing, or the directory changed while it was read.
+    pub is_doubtful: bool,
+}
+
+/// A result.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// What the result is about, mostly a drawing. Unique among the records.
+    pub subject: Box<str>,
+    /// The files that were read, as indices into [`Catalogue::files`].
+    pub files: Vec<usize>,
+    /// The lookups that were made, as indices into [`Catalogue::lookups`].
+    pub lookups: Vec<usize>,
+    /// The files that were written, as indices into [`Catalogue::files`]. If one is missing, the result still holds, but the file must be
+    /// written again.
+    pub outputs: Vec<usize>,
+    /// The result itself; only the crate that stored it can decode it.
+    #[serde(serialize_with = "serialize_bytes", deserialize_with = "deserialize_bytes")]
+    pub payload: Vec<u8>,
+}
+
+/// A search in directories: which of their files may contain the path of this name?
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Lookup {
+    /// Index into [`Catalogue::directory_lists`].
+    pub directories: usize,
+    /// Name of the path.
+    pub name: Box<str>,
+}
+
+impl Catalogue {
+    /// Index of the result about this subject, in a catalogue that was loaded. `hint` is tried first.
+    pub fn find(&self, subject: &str, hint: usize) -> Option<usize> {
+        match self.records.get(hint) {
+            Some(record) if &*record.subject == subject => Some(hint),
+            _ => self.records.binary_search_by(|record| (*record.subject).cmp(subject)).ok(),
+        }
+    }
+
+    /// Whether records are sorted, and every index refers to something that exists.
+    pub(crate) fn is_consistent(&self) -> bool {
+        let are_below = |indices: &[usize], all: usize| indices.iter().all(|index| *index < all);
+        let is_sound = |record: &Record| {
+            are_below(&record.files, self.files.len())
+                && are_below(&record.outputs, self.files.len())
+                && are_below(&record.lookups, self.lookups.len())
+        };
+        self.records.is_sorted_by(|a, b| a.subject <= b.subject)
+            && self.records.iter().all(is_sound)
+            && self.lookups.iter().all(|lookup| lookup.directories < self.directory_lists.len())
+            && self.directory_lists.iter().all(|list| are_below(list, self.directories.len()))
+    }
+}
+
+/// The bytes do not decode to a value of the expected type. The cached result is then ignored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CorruptPayload;
+
+/// Encodes a value; `None` if `postcard` cannot represent it.
+pub fn encode<T: Serialize + ?Sized>(value: &T) -> Option<Vec<u8>> {
+    postcard::to_allocvec(value).ok()
+}
+
+/// Decodes what [`encode`] wrote.
+///
+/// # Errors
+/// If the bytes do not decode to this type, or if bytes remain.
+pub fn decode<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, CorruptPayload> {
+    match postcard::take_from_bytes(bytes) {
+        Ok((value, [])) => Ok(value),
+        _ => Err(CorruptPayload),
+    }
+}
+
+fn serialize_bytes<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_bytes(bytes)
+}
+
+fn deserialize_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
+    <&[u8]>::deserialize(deserializer).map(<[u8]>::to_vec)
+}
