@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Text, words};
 
 use crate::letter::Letter;
 use crate::matrix::{ElementClass, Use};
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::values::{GivenNumber, Values};
 
 /// Option values that apply if a drawing gives none. Feeds are in mm/min, lengths in mm.

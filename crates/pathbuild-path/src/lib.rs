@@ -9,17 +9,13 @@ mod assign;
 mod bind;
 mod chain;
 mod combinations;
-mod default_pattern;
 mod definition;
 mod doubts;
 mod effective;
 mod element;
 mod embedding;
 mod faults;
-mod file_name;
-mod files;
 mod geometry;
-mod group;
 mod in_force;
 mod keep_out;
 mod letter;
@@ -27,15 +23,12 @@ mod limits;
 mod line_type;
 mod matrix;
 mod mistakes;
-mod name;
+mod names;
 mod number;
-mod number_range;
 mod path;
-mod pattern;
 mod q_project;
 mod raw;
 mod read;
-mod table;
 mod text;
 mod text_circle;
 mod values;
@@ -52,28 +45,27 @@ pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
 pub use embedding::{
     Judge, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits, with_near_names,
 };
-pub use file_name::{is_q_project, judge_file_name, q_project_name, tested_by_q_project};
-pub use files::{FilePattern, NameRange, PathKey};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
 pub use letter::Letter;
 pub use line_type::{LineType, LineTypeAliases};
 pub use matrix::{ElementClass, Use};
-pub use name::{PathLayer, PathName, PathPattern, SpeltName};
+pub use names::{
+    FilePattern, NameRange, PathKey, PathLayer, PathName, PathPattern, PatternError, RangeTable, SpeltName,
+    is_q_project, judge_file_name, q_project_name, tested_by_q_project,
+};
 pub use number::{parse_integer, parse_number};
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,
     SubpathName, SubpathValue, Turn,
 };
-pub use pattern::PatternError;
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
 pub use raw::{DrawnElements, Language, Position, RawFile, RawPath, SourceMap};
 pub use read::{
     AssignedElement, AssignedText, NearNames, ProxyLine, assigned_texts, keep_outs, may_be_stray_text,
     proxy_lines, raw_file, stray_findings,
 };
-pub use table::RangeTable;
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId};
 pub use text_circle::TextCircle;
 pub use variables::Bindings;

@@ -11,7 +11,7 @@ use crate::faults::Faults;
 use crate::geometry::{Curve, Xy};
 use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
-use crate::name::{PathName, SpeltName};
+use crate::names::{PathName, SpeltName};
 use crate::raw::DrawnElements;
 use crate::text::TextId;
 

@@ -12,7 +12,7 @@ use crate::faults::DrawingFaults;
 use crate::keep_out::KeepOutPattern;
 use crate::letter::Letter;
 use crate::line_type::LineTypeAliases;
-use crate::name::{PathName, PathPattern, SpeltName};
+use crate::names::{PathName, PathPattern, SpeltName};
 use crate::text::{ParameterText, ParameterTexts, TextId, ValueKind};
 
 /// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].

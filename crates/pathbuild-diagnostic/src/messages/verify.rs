@@ -1,4 +1,4 @@
-//! Messages about verifying G-code. (PB739 to PB777; book: program/verify)
+//! Messages about verifying G-code. (PB739 to PB777; book: program/reading)
 
 messages! {
     /// `verify --against`: no T word before the first cut.

@@ -10,7 +10,7 @@ use super::signature::{PathHeader, PathSignature, SubpathCall};
 use crate::approx::{at_least, near};
 use crate::definition::Definition;
 use crate::letter::Letter;
-use crate::name::{PathName, PathPattern};
+use crate::names::{PathName, PathPattern};
 use crate::path::{SubpathName, SubpathValue};
 
 /// Checks the subpath segments of one path. All diagnostics carry the path and the place of the segment.

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Value, is_slip};
 
-use crate::name::PathName;
+use crate::names::PathName;
 
 /// Names that a note lists at most.
 const MOST: usize = 5;

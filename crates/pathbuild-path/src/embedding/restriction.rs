@@ -2,7 +2,7 @@
 
 use regex::Regex;
 
-use crate::name::PathName;
+use crate::names::PathName;
 
 /// Paths whose names match PARENT may only embed paths whose names match CHILD.
 #[derive(Clone, Debug)]

@@ -10,7 +10,7 @@ use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
 use crate::element::Origin;
 use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
-use crate::name::SpeltName;
+use crate::names::SpeltName;
 use crate::path::{Path, Segment, SegmentKind, Subpath};
 use crate::raw::RawPath;
 use crate::variables::Bindings;

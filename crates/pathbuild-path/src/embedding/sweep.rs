@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, TextFault};
 use crate::approx::above;
 use crate::element::Origin;
 use crate::letter::Letter;
-use crate::name::SpeltName;
+use crate::names::SpeltName;
 use crate::path::{Path, Segment, SegmentKind};
 use crate::text::TextId;
 

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Diagnostic;
 use smol_str::SmolStr;
 
 use crate::geometry::{Curve, Placement, Xy};
-use crate::pattern::{LazyRegex, PatternError};
+use crate::names::{LazyRegex, PatternError};
 
 pub use map::{KeepOutMap, Way};
 

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
 use super::Component;
 use crate::approx::{coincide, near};
 use crate::letter::Letter;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::number::parse_number;
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName};
 use crate::read::ProxyLine;

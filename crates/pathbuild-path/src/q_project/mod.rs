@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use crate::bind::bind;
 use crate::definition::Definition;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::path::Path;
 use crate::raw::{Language, RawPath};
 use crate::read::ProxyLine;

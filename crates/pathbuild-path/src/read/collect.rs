@@ -17,7 +17,7 @@ use crate::element::{Element, Marker, MeantMarker, Shape};
 use crate::faults::DrawingFaults;
 use crate::geometry::Curve;
 use crate::line_type::LineTypes;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::raw::{DrawnElements, Language, Position, RawPath, SourceMap};
 use crate::text::ParameterTexts;
 

@@ -2,7 +2,7 @@
 
 use pathbuild_dxf::{Drawing, Layer};
 
-use crate::name::{PathName, PathPattern};
+use crate::names::{PathName, PathPattern};
 
 /// The path layers of a drawing.
 pub(super) struct PathLayers {

@@ -8,7 +8,7 @@ use pathbuild_dxf::{Drawing, Entity};
 use super::collect::{self, PathCollector};
 use super::texts::Match;
 use crate::element::Shape;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::raw::{Language, Position};
 use crate::text_circle::TextCircle;
 

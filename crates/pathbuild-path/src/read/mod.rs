@@ -23,7 +23,7 @@ use pathbuild_dxf::Drawing;
 use crate::element::{Origin, shown};
 use crate::geometry::Xy;
 use crate::letter::Letter;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::raw::{Language, RawFile};
 
 use collect::PathCollector;

@@ -13,7 +13,7 @@ use crate::definition::Definition;
 use crate::element::{Cut, Role};
 use crate::letter::Letter;
 use crate::matrix::ElementClass;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::text::{LetterValue, ParameterText};
 
 impl PathCheck<'_> {

@@ -13,7 +13,7 @@ use crate::element::{Origin, Shape, Source};
 use crate::geometry::{Curve, Line};
 use crate::letter::Letter;
 use crate::line_type::LineType;
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::raw::{Language, Position};
 use crate::text::{LetterValue, ParameterText, ParameterTexts};
 

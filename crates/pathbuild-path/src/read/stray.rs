@@ -16,7 +16,7 @@ use crate::assign::{Candidate, SearchBudget};
 use crate::element::shown;
 use crate::geometry::Xy;
 use crate::letter::{Letter, Letters};
-use crate::name::PathName;
+use crate::names::PathName;
 use crate::raw::Language;
 use crate::text::{ParameterText, ParameterTexts, ValueKind};
 

@@ -1,16 +1,24 @@
-//! Path names and path layers. (book: language/layers-and-names)
+//! Path names and path layers, and the patterns by which layers and files are named after paths. (book: language/layers-and-names)
+
+mod files;
+mod pattern;
 
 use std::borrow::Cow;
 use std::fmt;
 use std::hash::{Hash, Hasher};
-use std::ops::Deref;
+use std::ops::{Deref, Range};
 
 use regex::Regex;
 use smol_str::SmolStr;
 
-use crate::default_pattern::DefaultPattern;
-use crate::group::Groups;
-use crate::pattern::{Pattern, PatternError};
+use pattern::{DefaultPattern, Groups, Pattern};
+
+pub use files::{
+    FilePattern, NameRange, PathKey, RangeTable, is_q_project, judge_file_name, q_project_name,
+    tested_by_q_project,
+};
+pub(crate) use pattern::LazyRegex;
+pub use pattern::PatternError;
 
 /// A path name as spelt by its layer, with points. Comparison ignores case. Short names are stored inline, since every stage passes them
 /// on.
@@ -111,7 +119,7 @@ impl PathPattern {
     }
 
     /// The first path name in the text of a subpath, with its byte range.
-    pub fn find(&self, text: &str) -> Option<(PathName, std::ops::Range<usize>)> {
+    pub fn find(&self, text: &str) -> Option<(PathName, Range<usize>)> {
         let found = self.0.find(text)?;
         Some((PathName(text[found.clone()].into()), found))
     }
