@@ -1,9 +1,17 @@
 //! Q-projects: rows of subpath segments, each with its text. (book: language/q-projects)
 
-use crate::draft::Draft;
-use crate::error::DrawError;
-use crate::model::{Entity, Point};
-use crate::sheet::Sheet;
+use dxf::entities::{
+    Arc as CrateArc, Circle as CrateCircle, Entity, EntityType, Line as CrateLine, MText as CrateMText,
+};
+use dxf::enums::{AcadVersion, AttachmentPoint};
+use dxf::{Drawing, Point as CratePoint};
+use encoding_rs::WINDOWS_1252;
+
+use crate::geometry::{Arc, Circle, Line, Point};
+use crate::pairs::{
+    CHUNK, Pair, Record, Tickets, ascii, chunks, identify, kind, records, reduce_mtext, tidy, value,
+};
+use crate::place::{Candidate, ElementPart, Extent, HEIGHT, Seats, no_room, reduced};
 
 /// Distance in mm between the end of a segment and the start of the next.
 const GAP: f64 = 20.0;
@@ -28,45 +36,233 @@ pub struct EmbeddingPath<'a> {
     pub segments: Vec<(f64, &'a str)>,
 }
 
-/// Draws paths that embed others. Each path is a row to the right; the first starts at (0, 0), and each further one below the one before.
+/// Draws paths that embed others, as DXF. Each path is a row to the right; the first starts at (0, 0), and each further one below the one
+/// before.
 ///
 /// # Errors
-/// A segment is too short for its text.
-pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Sheet, Vec<DrawError>> {
-    let mut draft = Draft::new();
+/// The texts that have no room beside their elements.
+pub fn q_project(paths: &[EmbeddingPath<'_>]) -> Result<Vec<u8>, Vec<String>> {
+    let mut elements = Vec::new();
     let mut start = Point::new(0.0, 0.0);
     for path in paths {
-        draft.layer(path.layer);
-        draw(&mut draft, path, start);
+        add_row(&mut elements, path, start);
         start = start - Point::new(0.0, ROW);
     }
-    draft.finish()
+    let mut layers = vec!["0"];
+    for path in paths {
+        // Names of layers ignore case.
+        if !layers.iter().any(|layer| layer.to_lowercase() == path.layer.to_lowercase()) {
+            layers.push(path.layer);
+        }
+    }
+    Ok(to_dxf(&layers, &elements, &seat_texts(&elements)?))
 }
 
-fn draw(draft: &mut Draft, path: &EmbeddingPath<'_>, start: Point) {
-    draft.add(Entity::start(start).note(&escaped(path.parameters)));
+/// An element of a Q-project.
+struct Element<'a> {
+    shape: ElementPart,
+    layer: &'a str,
+    line_type: &'static str,
+    /// Its parameter text, which may be empty; `None` if it takes none.
+    text: Option<&'a str>,
+}
+
+/// The text of an element with its position.
+struct PlacedText<'a> {
+    text: &'a str,
+    /// The upper left corner.
+    corner: Point,
+    /// The height of the letters.
+    height: f64,
+}
+
+fn add_row<'a>(elements: &mut Vec<Element<'a>>, path: &EmbeddingPath<'a>, start: Point) {
+    let mut add =
+        |shape, line_type, text| elements.push(Element { shape, layer: path.layer, line_type, text });
+    let line = |from, to| ElementPart::Line(Line { from, to });
+    add(ElementPart::Circle(Circle { centre: start, radius: 0.5 }), "PHANTOM", Some(path.parameters));
     let mut at = start;
     for (index, (length, text)) in path.segments.iter().enumerate() {
         if index > 0 {
             let next = at + Point::new(GAP, 0.0);
-            draft.add(Entity::line(at, next).typed("HIDDEN"));
+            add(line(at, next), "HIDDEN", None);
             at = next;
         }
         let (segment, end) = segment(at, *length);
-        draft.add(segment.typed("DASHDOT").note(&escaped(text)));
+        add(segment, "DASHDOT", Some(*text));
         at = end;
     }
-    draft.add(Entity::end(at));
+    add(ElementPart::Circle(Circle { centre: at, radius: 1.0 }), "PHANTOM", None);
 }
 
 /// A segment that begins at a point, and its end point. For a closed path it is a full circle.
-fn segment(from: Point, length: f64) -> (Entity, Point) {
+fn segment(from: Point, length: f64) -> (ElementPart, Point) {
     if length < CLOSED {
         let centre = from + Point::new(0.0, CIRCLE);
-        return (Entity::arc(centre, CIRCLE, 270.0, 270.0), from);
+        return (ElementPart::Arc(Arc { centre, radius: CIRCLE, start: 270.0, end: 270.0 }), from);
     }
     let to = from + Point::new(length, 0.0);
-    (Entity::line(from, to), to)
+    (ElementPart::Line(Line { from, to }), to)
+}
+
+/// Positions the texts, one entry for each element.
+fn seat_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>>>, Vec<String>> {
+    let candidate = |(index, element): (usize, &Element<'_>)| Candidate {
+        entity: Some(index),
+        layer: element.layer.trim().to_lowercase(),
+        takes_text: element.text.is_some(),
+        pieces: vec![element.shape],
+    };
+    let candidates: Vec<Candidate> = elements.iter().enumerate().map(candidate).collect();
+    let mut seats = Seats::new(&candidates);
+    let mut errors = Vec::new();
+    let mut placed = Vec::new();
+    for (index, element) in elements.iter().enumerate() {
+        let text = element.text.filter(|text| !text.is_empty());
+        placed.push(text.and_then(|text| {
+            let lines: Vec<&str> = text.split('\n').collect();
+            let extent = |height| Extent::of_mtext(&lines, height);
+            let seat = seats.seat(index, &candidates[index].layer, &reduced(HEIGHT), extent);
+            if seat.is_none() {
+                errors.push(no_room(&escaped(text)));
+            }
+            let (centre, extent, height) = seat?;
+            let corner = Point::new(centre.x - extent.width / 2.0, centre.y + extent.height / 2.0);
+            Some(PlacedText { text, corner, height })
+        }));
+    }
+    if errors.is_empty() { Ok(placed) } else { Err(errors) }
+}
+
+/// The drawing around the layers and entities, as the crate `dxf` writes it for R2000 after corrections. `#n` is the nth handle after those
+/// of the entities, `#+n` the nth after those of entities and layers.
+const FRAME: &str = include_str!("frame.txt");
+
+/// The handle of the first entity.
+const FIRST_HANDLE: u64 = 0x100;
+
+/// The number in [`FRAME`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space, which
+/// comes after the layers.
+const FIRST_LAYER: u64 = 31;
+const PLOT_STYLE: u64 = 10;
+const LAYER_TABLE: u64 = 30;
+const MODEL_SPACE: u64 = 40;
+
+fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>]) -> Vec<u8> {
+    let mut tickets = Tickets::default();
+    let written = entities(elements, texts, &mut tickets);
+    let behind = FIRST_HANDLE + (elements.len() + texts.iter().flatten().count()) as u64;
+    let behind_layers = behind + layers.len() as u64;
+    let number = |text: &str| text.parse::<u64>().unwrap_or_default();
+    let mut pairs = Vec::new();
+    for pair in records(FRAME).into_iter().flatten() {
+        match pair.value.strip_prefix('#') {
+            None => pairs.push(pair),
+            Some("count") => pairs.push(Pair::integer(70, i64::try_from(layers.len()).unwrap_or_default())),
+            Some("layers") => {
+                let handles = behind + FIRST_LAYER..;
+                pairs.extend(
+                    layers.iter().zip(handles).flat_map(|(name, handle)| layer(name, handle, behind)),
+                );
+            }
+            Some("entities") => {
+                let owner = behind_layers + MODEL_SPACE;
+                pairs.extend(entity_pairs(&written, &tickets, owner));
+            }
+            Some(handle) => {
+                let handle = match handle.strip_prefix('+') {
+                    Some(handle) => behind_layers + number(handle),
+                    None => behind + number(handle),
+                };
+                pairs.push(Pair::handle(pair.code, handle));
+            }
+        }
+    }
+    ascii(&pairs, Some(WINDOWS_1252), b"\r\n")
+}
+
+/// The record of a visible layer, CONTINUOUS and white.
+fn layer(name: &str, handle: u64, behind: u64) -> Record<'_> {
+    vec![
+        Pair::new(0, "LAYER"),
+        Pair::handle(5, handle),
+        Pair::handle(330, behind + LAYER_TABLE),
+        Pair::new(100, "AcDbSymbolTableRecord"),
+        Pair::new(100, "AcDbLayerTableRecord"),
+        Pair::new(2, name),
+        Pair::integer(70, 0),
+        Pair::integer(62, 7),
+        Pair::new(6, "CONTINUOUS"),
+        Pair::new(290, "1"),
+        Pair::handle(390, behind + PLOT_STYLE),
+    ]
+}
+
+/// Lets the crate write the entities: each element is followed by its text.
+fn entities(elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>], tickets: &mut Tickets) -> String {
+    let mut drawing = Drawing::new();
+    drawing.clear();
+    drawing.header.version = AcadVersion::R2000;
+    for (element, text) in elements.iter().zip(texts) {
+        let mut entity = Entity::new(shape(&element.shape));
+        element.line_type.clone_into(&mut entity.common.line_type_name);
+        let text = text.as_ref().map(|text| Entity::new(mtext(text, tickets)));
+        for mut entity in std::iter::once(entity).chain(text) {
+            entity.common.layer = tickets.ticket(element.layer);
+            entity.common.lineweight_enum_value = -1;
+            drawing.add_entity(entity);
+        }
+    }
+    let mut text = Vec::new();
+    // Saving to memory without a thumbnail cannot fail.
+    _ = drawing.save(&mut text);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+fn shape(shape: &ElementPart) -> EntityType {
+    let point = |point: Point| CratePoint::new(point.x, point.y, point.z);
+    match shape {
+        ElementPart::Line(line) => EntityType::Line(CrateLine::new(point(line.from), point(line.to))),
+        ElementPart::Arc(arc) => {
+            EntityType::Arc(CrateArc::new(point(arc.centre), arc.radius, arc.start, arc.end))
+        }
+        ElementPart::Circle(circle) => {
+            EntityType::Circle(CrateCircle::new(point(circle.centre), circle.radius))
+        }
+    }
+}
+
+fn mtext(placed: &PlacedText<'_>, tickets: &mut Tickets) -> EntityType {
+    let mut chunks = chunks(&escaped(placed.text), CHUNK);
+    let last = chunks.pop().unwrap_or_default();
+    EntityType::MText(CrateMText {
+        insertion_point: CratePoint::new(placed.corner.x, placed.corner.y, 0.0),
+        initial_text_height: placed.height,
+        reference_rectangle_width: 0.0,
+        attachment_point: AttachmentPoint::TopLeft,
+        extended_text: chunks.iter().map(|chunk| tickets.ticket(chunk)).collect(),
+        text: tickets.ticket(&last),
+        ..Default::default()
+    })
+}
+
+/// The entities in the crate's output, corrected, with handles and owner.
+fn entity_pairs<'a>(written: &'a str, tickets: &'a Tickets, owner: u64) -> Vec<Pair<'a>> {
+    let records = records(written).into_iter();
+    let entities = records
+        .skip_while(|record| kind(record) != "SECTION" || value(record, 2) != Some("ENTITIES"))
+        .skip(1)
+        .take_while(|record| kind(record) != "ENDSEC");
+    let corrected = entities.zip(FIRST_HANDLE..).flat_map(|(mut record, handle)| {
+        tickets.redeem_all(&mut record);
+        tidy(&mut record);
+        if kind(&record) == "MTEXT" {
+            reduce_mtext(&mut record, &[50]);
+        }
+        identify(&mut record, 5, Some(handle), Some(owner));
+        record
+    });
+    corrected.collect()
 }
 
 /// Escapes a text for MTEXT.

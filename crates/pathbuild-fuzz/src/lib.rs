@@ -1,24 +1,46 @@
 //! The functions behind the fuzz targets. A target panics if pathbuild misbehaves: if it panics, hangs, reports PB006, or contradicts
 //! itself. The tests of this crate run all targets on the corpora in `fuzz/corpus` and on random mutations of them.
 
-mod drawing;
-mod drawn;
-mod program;
-mod settings;
+mod grid_drawing;
+
+use std::sync::Arc;
+
+use camino::Utf8Path;
+use pathbuild_cache::decode;
+use pathbuild_db::system::MemorySystem;
+use pathbuild_db::{
+    Database, Db, Limits, Role, Settings, Target, check_file, check_target, path_names, program,
+};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang};
+use pathbuild_gcode::adjust::{Inputs, Source, adjust};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::estimate::{Kinematics, seconds};
+use pathbuild_gcode::interpret::{Options, guess, interpret};
+use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::summary::Summary;
+use pathbuild_path::{
+    FilePattern, KeepOutPattern, Language, LineTypeAliases, PathKey, PathOptions, PathPattern,
+};
+use pathbuild_post::{Job, Post, PostOptions, ToolTable, native_remark};
+use pathbuild_toolpath::{Correction, Program};
+use pathbuild_workspace::config;
+use pathbuild_workspace::session::{limits, reading};
+
+use grid_drawing::{Choices, dxf as drawn, written};
 
 /// A target with its name.
-pub type Target = (&'static str, fn(&[u8]));
+pub type FuzzTarget = (&'static str, fn(&[u8]));
 
 /// All targets, named after their corpora in `fuzz/corpus`.
-pub const TARGETS: [Target; 8] = [
-    ("dxf", drawing::dxf),
-    ("texts", drawing::texts),
-    ("walk", drawing::walk),
-    ("post", program::post),
-    ("gcode", program::gcode),
-    ("values", program::values),
-    ("config", settings::config),
-    ("cache", settings::cache),
+pub const TARGETS: [FuzzTarget; 8] = [
+    ("dxf", dxf),
+    ("texts", texts),
+    ("walk", walk),
+    ("post", post),
+    ("gcode", gcode),
+    ("values", values),
+    ("config", config),
+    ("cache", cache),
 ];
 
 /// Runs a target.
@@ -30,5 +52,198 @@ pub fn run(name: &str, data: &[u8]) {
     assert!(target.is_some(), "there is no target {name}");
     if let Some((_, run)) = target {
         run(data);
+    }
+}
+
+// Targets for drawings: bytes to entities, texts to parameters, elements to programs.
+
+/// Arbitrary bytes as a drawing, ASCII or binary.
+fn dxf(data: &[u8]) {
+    compile(data);
+}
+
+/// Lines of arbitrary characters as texts of each kind of element, as layer names, and as a file name.
+fn texts(data: &[u8]) {
+    let text = String::from_utf8_lossy(data);
+    let mut lines = text.lines();
+    let mut line = || lines.next().unwrap_or_default().trim_end();
+    let mut drawing = String::from("0\nSECTION\n2\nENTITIES\n");
+    let places = [(0.0, 0.0), (20.0, 0.0), (60.0, 0.0), (100.0, 0.0)];
+    let elements = [
+        "CIRCLE\n8\n1001.1P\n6\nPHANTOM\n10\n0\n20\n0\n40\n0.5\n",
+        "LINE\n8\n1001.1P\n6\nCONTINUOUS\n10\n0\n20\n0\n11\n40\n21\n0\n",
+        "LINE\n8\n1001.1P\n6\nDASHDOT\n10\n40\n20\n0\n11\n80\n21\n0\n",
+        "CIRCLE\n8\n1001.1P\n6\nCONTINUOUS\n10\n100\n20\n0\n40\n3\n",
+    ];
+    for (element, (x, y)) in elements.iter().zip(places) {
+        drawing.extend(["0\n", element]);
+        written(&mut drawing, "TEXT", "1001.1P", x, y, line());
+    }
+    written(&mut drawing, "MTEXT", "1001.1P", 20.0, 0.0, line());
+    let (layer, name) = (line(), line());
+    written(&mut drawing, "TEXT", layer, 0.0, 0.0, "T5 O2 I1 B0 MX");
+    drawing.push_str("0\nCIRCLE\n8\n1001.1P\n6\nPHANTOM\n10\n80\n20\n0\n40\n1\n0\nENDSEC\n0\nEOF\n");
+    compile(drawing.as_bytes());
+    let pattern = PathPattern::default();
+    _ = FilePattern::default().ranges(name);
+    _ = PathKey::new(name, &pattern);
+    if pattern.matches(name) {
+        assert!(pattern.is_layer(name), "{name:?} is a path's name, but no layer's");
+    }
+}
+
+/// Lines, arcs, circles and texts on a grid, which often form a path.
+fn walk(data: &[u8]) {
+    compile(drawn(&mut Choices::new(data)).as_bytes());
+}
+
+/// Compiles a drawing completely and renders all findings.
+fn compile(bytes: &[u8]) {
+    let system = Arc::new(MemorySystem::default());
+    system.put("1001.dxf", bytes);
+    let db = Database::new(system);
+    settle(&db);
+    let file = db.file("1001.dxf".into());
+    judge(check_file(&db, file));
+    for name in path_names(&db, file) {
+        for role in [Role::Checked, Role::Emitted] {
+            let target = Target::new(&db, file, name.as_str().into(), role);
+            judge(check_target(&db, target));
+            if let Some(program) = program(&db, target) {
+                write(program);
+            }
+        }
+    }
+}
+
+fn settle(db: &Database) {
+    let language = Language {
+        path_pattern: PathPattern::default(),
+        keep_out: KeepOutPattern::new("clamps").ok(),
+        line_types: LineTypeAliases::default(),
+        text_limit: 4096,
+        doubts: pathbuild_path::DoubtThresholds::default(),
+        join_tolerance: 0.0,
+    };
+    let (files, search) = (FilePattern::default(), Vec::new());
+    let fold = PathOptions { feed: Some(100.0), sweep_height: Some(20.0), ..PathOptions::default() };
+    // Without this limit, a fuzzer would find slow inputs that are merely large.
+    let settings = config::Settings::default();
+    let limits = Limits { moves: 20_000, ..limits(&settings) };
+    Settings::new(db, reading(&settings, false), Arc::new(language), files, search, Vec::new(), fold, limits);
+}
+
+/// Checks that findings can be rendered and are not bugs.
+fn judge<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
+    for diagnostic in found {
+        let text = diagnostic.text(Lang::En) + &diagnostic.text(Lang::De);
+        assert!(diagnostic.code() != Code::InternalError, "{text}");
+        assert!(!text.contains(pathbuild_diagnostic::shown::acts), "{text:?}");
+        _ = (diagnostic.help(Lang::En), diagnostic.help(Lang::De));
+    }
+}
+
+/// Writes a program natively and through posts, and reads it back.
+fn write(program: &Program) {
+    let options = WriteOptions {
+        lang: Lang::En,
+        charset: Charset::Ascii,
+        rapid: 1000.0,
+        correction: Correction::default(),
+    };
+    let text = native::program(program, &Header::default(), &options);
+    if let Err(problem) = native::read_back(&text, program) {
+        judge(&[*problem]);
+    }
+    for name in ["linuxcnc", "grbl"] {
+        let Ok(post) = pathbuild_post::load(name) else { continue };
+        let (job, warnings) = Job::from_programs("1001", &[program], &ToolTable::default(), false);
+        judge(&warnings);
+        match post.write(&job, &PostOptions::default()) {
+            Ok(output) => judge(&output.warnings),
+            Err(problems) => judge(&problems),
+        }
+    }
+}
+
+// Targets for G-code, post definitions and measured values.
+
+const PROGRAM: &[u8] = b"%\n(P 1)\nF100\nG00 Z20.000\nG00 X0.000 Y0.000\nG01 F100.000 Z0.000\nG01 X40.000 Y0.000\nG02 F100.000 X40.000 Y-10.000 I0.000 J-5.000\nG00 Z20.000\nM30\n%\n";
+
+/// A post definition: if it can be read, a program is written with it.
+fn post(data: &[u8]) {
+    for file in ["post.cbpp", "post.toml"] {
+        let Ok(post) = Post::read(data, Utf8Path::new(file)) else { continue };
+        let steps = interpret(PROGRAM, Dialect::Native, &Options::default()).steps;
+        if let Ok(job) = Job::from_steps("1001", &steps, Dialect::Native, &native_remark) {
+            _ = post.write(&job, &PostOptions::default());
+        }
+    }
+}
+
+/// A G-code program; the first byte selects the dialect.
+fn gcode(data: &[u8]) {
+    let Some((choice, text)) = data.split_first() else { return };
+    let dialect = Dialect::ALL[usize::from(*choice) % Dialect::ALL.len()];
+    let result = interpret(text, dialect, &Options::default());
+    assert!(
+        result.moves().iter().all(|(_, motion)| motion.to.at.iter().all(|at| at.is_finite())),
+        "a move leads nowhere"
+    );
+    guess(text);
+    Summary::of(&result.steps, dialect == Dialect::Xpertmill);
+    let machine = Kinematics { rates: [3000.0; 3], accelerations: [200.0; 3], junction_deviation: 0.01 };
+    assert!(seconds(&result.steps, &machine) >= 0.0, "a program takes less than no time");
+    if let Ok(job) = Job::from_steps("1001", &result.steps, dialect, &native_remark)
+        && let Ok(post) = pathbuild_post::load("linuxcnc")
+    {
+        _ = post.write(&job, &PostOptions::default());
+    }
+}
+
+const CLEAN: &[u8] = b"%\n([0.000 0.000]/T=5.000 #51)\nG00 Z20.000\nG01 F150.000 X1.000 Y0.000 Z1.000(=1.000+1.000*[#51-5.000])\nM30\n%\n";
+
+/// Measured values, followed by a program and a log, separated by lines of dashes.
+fn values(data: &[u8]) {
+    let mut parts = Vec::new();
+    let mut rest = data;
+    while let Some(at) = rest.windows(5).position(|part| part == b"\n---\n") {
+        parts.push(&rest[..at]);
+        rest = &rest[at + 5..];
+    }
+    parts.push(rest);
+    let part = |number: usize, file: &'static str| {
+        parts.get(number).map(|bytes| Source { file: Utf8Path::new(file), bytes })
+    };
+    let clean = Source { file: Utf8Path::new("a_Clean.gcode"), bytes: CLEAN };
+    let inputs = Inputs {
+        values: part(0, "a_Z.txt").unwrap_or(Source { file: Utf8Path::new("a_Z.txt"), bytes: b"" }),
+        program: part(1, "a_Clean.gcode").unwrap_or(clean),
+        log: part(2, "log"),
+        max_correction: 1.0,
+    };
+    if let Ok(adjusted) = adjust(&inputs) {
+        let (least, most) = adjusted.corrections;
+        // Weights are rounded to three decimals, for which `adjust` has a tolerance.
+        let limit = 1.002 + 0.002 + 1e-9;
+        assert!(least.abs() <= limit && most.abs() <= limit, "a correction is too large");
+    }
+}
+
+// Targets for the configuration and cached results.
+
+/// A pathbuild.toml.
+fn config(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    for fault in config::faults(Utf8Path::new("pathbuild.toml"), text) {
+        let text = fault.text(Lang::En) + &fault.text(Lang::De);
+        assert!(!text.contains(pathbuild_diagnostic::shown::acts), "{text:?}");
+    }
+}
+
+/// Cached findings.
+fn cache(data: &[u8]) {
+    if let Ok(found) = decode::<Diagnostic>(data) {
+        _ = (found.text(Lang::En), found.help(Lang::De));
     }
 }

@@ -1,9 +1,9 @@
 //! Shared support for tests, benchmarks and the examples of `explain`. It is not part of the product.
 //!
 //! [`sheet`] parses a drawing in the text form that README.md describes; a [`Fixture`] contains several drawings and other files in one
-//! text, with commands and their expected results; [`generate`] creates libraries of any size. Drawings built in Rust use pathbuild-draw,
-//! which is re-exported here.
+//! text, with commands and their expected results; [`generate`] creates libraries of any size; [`draw`] builds drawings in Rust.
 
+pub mod draw;
 mod fixture;
 mod furniture;
 pub mod generate;
@@ -13,7 +13,7 @@ mod parse;
 mod random;
 mod workshop;
 
-pub use pathbuild_draw::{
+pub use crate::draw::{
     Block, Draft, DrawError, Entity, Layer, Options, Point, Shape, Sheet, TextCircle, Version, model,
     text_circle,
 };

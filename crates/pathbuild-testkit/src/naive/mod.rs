@@ -6,22 +6,18 @@
 
 mod clamps;
 mod embedding;
-mod file_names;
-mod finding;
-mod names;
-mod q_projects;
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-use pathbuild_diagnostic::{Diagnostic, ElementId};
+use pathbuild_diagnostic::{Diagnostic, ElementId, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
     Bindings, ExaminedPath, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName,
     PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file, stray_findings,
 };
-
-pub use finding::{Finding, differences};
+use regex::Regex;
 
 /// Files by their paths, with `/` between directories.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -89,7 +85,7 @@ impl Model {
             }
         }
         found.extend(self.q_projects(&numbers));
-        finding::each_once(found)
+        each_once(found)
     }
 
     /// The findings of checking a single path; none if the drawing does not exist.
@@ -101,7 +97,7 @@ impl Model {
         let path = path.take_while(|(raw, _)| *raw.name != PathName::new(name)).count();
         let mut found = self.drawings[number].faults();
         found.extend(self.check_path(number, path));
-        finding::each_once(found)
+        each_once(found)
     }
 
     /// The paths of the drawings in a directory and below, as file and name.
@@ -192,4 +188,204 @@ fn drawn(bytes: &[u8], keep_layer: &dyn Fn(&str) -> bool) -> pathbuild_dxf::Draw
 
 fn is_drawing(path: &str) -> bool {
     path.to_ascii_lowercase().ends_with(".dxf")
+}
+
+/// A finding as far as the model knows it. The program's message must contain all its words.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Finding {
+    /// The code, for example `PB503`.
+    pub code: String,
+    /// The file.
+    pub file: String,
+    /// The path.
+    pub path: Option<String>,
+    /// The handle of the element.
+    pub handle: Option<String>,
+    /// Words of the message.
+    pub words: Vec<String>,
+}
+
+impl Finding {
+    /// Converts a located diagnostic about a drawing.
+    pub fn of(diagnostic: &Diagnostic) -> Self {
+        Self {
+            code: diagnostic.code().to_string(),
+            file: diagnostic.file.as_ref().map(ToString::to_string).unwrap_or_default(),
+            path: diagnostic.path.as_ref().map(ToString::to_string),
+            handle: diagnostic.place.handle.map(|handle| handle.to_string()),
+            words: vec![diagnostic.text(Lang::En)],
+        }
+    }
+
+    /// Converts a diagnostic of reading, binding or walking.
+    pub(super) fn shared(diagnostic: &Diagnostic, file: &str) -> Self {
+        Self { file: file.to_owned(), ..Self::of(diagnostic) }
+    }
+
+    /// Removes the chain of a cycle: it is found on every way that leads to it, but counts once.
+    fn without_chain(mut self) -> Self {
+        if self.code == "PB509" {
+            self.words.clear();
+        }
+        self
+    }
+
+    /// Whether a finding of the program is the same.
+    fn is_meant_by(&self, program: &Self) -> bool {
+        let place = |finding: &Self| {
+            (finding.code.clone(), finding.file.clone(), finding.path.clone(), finding.handle.clone())
+        };
+        place(self) == place(program)
+            && self.words.iter().all(|word| program.words.iter().any(|message| message.contains(&**word)))
+    }
+}
+
+/// Sorts findings and removes duplicates.
+fn each_once(mut found: Vec<Finding>) -> Vec<Finding> {
+    found.sort();
+    found.dedup();
+    found
+}
+
+/// Findings that only one of both sides has.
+pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
+    let mut open: Vec<Finding> = model.iter().cloned().map(Finding::without_chain).collect();
+    open = each_once(open);
+    let mut program: Vec<Finding> = program.to_vec();
+    for found in program.iter_mut().filter(|found| found.code == "PB509") {
+        found.words.clear();
+    }
+    let mut differences = Vec::new();
+    for found in each_once(program) {
+        // Choose the most specific match, since other findings may match the less specific ones.
+        let meant = (0..open.len()).filter(|place| open[*place].is_meant_by(&found));
+        match meant.max_by_key(|place| open[*place].words.concat().len()) {
+            Some(place) => _ = open.remove(place),
+            None => differences.push(format!("only the program: {found:?}")),
+        }
+    }
+    differences.extend(open.iter().map(|found| format!("only the model: {found:?}")));
+    differences
+}
+
+// Finds the files of paths by comparing file names with path names. (book: language/layers-and-names)
+
+static PATH: LazyLock<Regex> = LazyLock::new(|| pattern("(?i)^([0-9]{4})[.]([0-9]+)([A-Z])$"));
+static PART: LazyLock<Regex> = LazyLock::new(|| pattern(r"([0-9]{4})(?:[.]([0-9]+))?"));
+static RANGE: LazyLock<Regex> =
+    LazyLock::new(|| pattern(r"([0-9]{4})(?:[.]([0-9]+))?-([0-9]{4})(?:[.]([0-9]+))?"));
+
+pub(super) fn pattern(text: &str) -> Regex {
+    Regex::new(text).expect("a regular expression of the model's own")
+}
+
+impl Model {
+    /// The drawings that define a path which a drawing refers to.
+    pub(super) fn holders(&self, from: usize, name: &PathName) -> Vec<usize> {
+        if self.defines(from, name) {
+            return vec![from];
+        }
+        let own = directory(&self.drawings[from].path);
+        let is_searched = |at: &str| at == own || self.rules.search.iter().any(|searched| searched == at);
+        let may_hold = |number: &usize| {
+            let path = &self.drawings[*number].path;
+            is_searched(directory(path)) && may_hold(stem(path), name.as_str())
+        };
+        (0..self.drawings.len()).filter(may_hold).filter(|number| self.defines(*number, name)).collect()
+    }
+
+    fn defines(&self, drawing: usize, name: &PathName) -> bool {
+        self.drawings[drawing].content.paths.iter().any(|(raw, _)| *raw.name == *name)
+    }
+}
+
+pub(super) fn directory(path: &str) -> &str {
+    path.rsplit_once('/').map_or("", |(directory, _)| directory)
+}
+
+pub(super) fn stem(path: &str) -> &str {
+    let name = path.rsplit('/').next().unwrap_or_default();
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// Whether a file with this stem may define a path, by the default patterns.
+fn may_hold(stem: &str, path: &str) -> bool {
+    let Some(path) = PATH.captures(path) else { return false };
+    let path: Vec<&str> = (1..=3).map(|group| &path[group]).collect();
+    let end = |found: &regex::Captures<'_>, first: usize| -> Vec<String> {
+        let group =
+            |number: usize| found.get(number).map_or(String::new(), |group| group.as_str().to_owned());
+        vec![group(first), group(first + 1)]
+    };
+    let mut ranges = RANGE.captures_iter(stem).map(|found| (end(&found, 1), end(&found, 3)));
+    let mut parts = PART.captures_iter(stem).map(|found| end(&found, 1));
+    ranges.any(|(from, to)| compare(&from, &path).is_le() && compare(&to, &path).is_ge())
+        || parts.any(|part| compare(&part, &path).is_eq())
+}
+
+/// Compares a part of a file name with a path name.
+fn compare(file: &[String], path: &[&str]) -> Ordering {
+    for (file, path) in file.iter().zip(path) {
+        if file.is_empty() {
+            // The rest of the path is covered by a file name that does not specify it.
+            return Ordering::Equal;
+        }
+        let order = match (file.parse::<u64>(), path.parse::<u64>()) {
+            (Ok(file), Ok(path)) => file.cmp(&path),
+            _ => file.to_uppercase().cmp(&path.to_uppercase()),
+        };
+        if order.is_ne() {
+            return order;
+        }
+    }
+    Ordering::Equal
+}
+
+// Compares file names with the paths that they announce. (book: language/layers-and-names)
+
+static FULL: LazyLock<Regex> =
+    LazyLock::new(|| pattern(r"(?i)\b([0-9]{4})[.]([0-9]+)([A-Z])(?:[^0-9A-Z]|$)"));
+static END: LazyLock<Regex> =
+    LazyLock::new(|| pattern(r"(?i)[0-9]{4}(?:[.][0-9]+)?[A-Z]? *[-\u{2013}] *[0-9]{4}(?:[.][0-9]+)?[A-Z]?"));
+
+impl Drawing {
+    /// Findings about the name of the drawing.
+    fn name_faults(&self) -> Vec<Finding> {
+        let stem = stem(&self.path);
+        if stem.to_lowercase().ends_with("_q") || self.content.diagnostics.iter().any(Diagnostic::is_error) {
+            return Vec::new();
+        }
+        let held: Vec<String> =
+            self.content.paths.iter().map(|(raw, _)| raw.name.to_string().to_uppercase()).collect();
+        // Commas keep the parts before and after a range separate.
+        let singles = END.replace_all(stem, ",");
+        let finding = |code: &str, name: &str, path: Option<String>| Finding {
+            code: code.to_owned(),
+            file: self.path.clone(),
+            path,
+            words: vec![name.to_owned()],
+            ..Finding::default()
+        };
+        let mut found = Vec::new();
+        for promised in FULL.captures_iter(&singles) {
+            let same = |name: &String| {
+                let number = |text: &str| text.trim_start_matches('0').to_owned();
+                let Some((first, rest)) = name.split_once('.') else { return false };
+                let (second, letter) = rest.split_at(rest.len() - 1);
+                first == &promised[1]
+                    && number(second) == number(&promised[2])
+                    && letter == promised[3].to_uppercase()
+            };
+            if !held.iter().any(same) {
+                let name = format!("{}.{}{}", &promised[1], &promised[2], &promised[3]);
+                found.push(finding("PB519", &name, None));
+            }
+        }
+        for (raw, _) in &self.content.paths {
+            if !may_hold(stem, raw.name.as_str()) {
+                found.push(finding("PB521", raw.name.as_str(), Some(raw.name.to_string())));
+            }
+        }
+        found
+    }
 }

@@ -8,5 +8,6 @@ mod files;
 mod fixtures;
 mod library;
 mod placement;
+mod q_projects;
 mod reader;
 mod records;

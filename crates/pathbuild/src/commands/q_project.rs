@@ -159,10 +159,7 @@ fn dxf(planned: &[QProject], names: &[PathName]) -> Result<Vec<u8>, String> {
         let segments = path.lines.iter().map(|line| (line.length, line.text.as_str())).collect();
         paths.push(EmbeddingPath { layer: name.as_str(), parameters: &path.parameters, segments });
     }
-    let reasons = |errors: Vec<pathbuild_draw::DrawError>| {
-        errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-    };
-    Ok(pathbuild_draw::q_project(&paths).map_err(reasons)?.to_dxf())
+    pathbuild_draw::q_project(&paths).map_err(|reasons| reasons.join("; "))
 }
 
 fn write(

@@ -1,40 +1,23 @@
-use super::encoding::Encoder;
-use super::record::Pair;
-use crate::model::{LineEnds, Options, Version};
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use pathbuild_draw::pairs::{self, Pair};
 
-/// Writes ASCII DXF: one line for the code, one for the value.
+use super::model::{LineEnds, Options, TextEncoding, Version};
+
+/// Writes ASCII DXF.
 pub(crate) fn ascii(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
-    let encoder = Encoder::of(options);
     let line_end: &[u8] = match options.line_ends {
         LineEnds::CrLf => b"\r\n",
         LineEnds::Lf => b"\n",
         LineEnds::Cr => b"\r",
     };
-    let mut bytes = Vec::with_capacity(pairs.len() * 16);
-    if options.byte_order_mark {
-        bytes.extend(b"\xef\xbb\xbf");
-    }
-    for pair in pairs {
-        append_code(pair.code, &mut bytes);
-        bytes.extend(line_end);
-        encoder.append(&pair.value, &mut bytes);
-        bytes.extend(line_end);
-    }
+    let mut bytes = if options.byte_order_mark { b"\xef\xbb\xbf".to_vec() } else { Vec::new() };
+    bytes.extend(pairs::ascii(pairs, encoding(options), line_end));
     bytes
-}
-
-/// Appends a group code, right-aligned in three columns.
-fn append_code(code: i32, bytes: &mut Vec<u8>) {
-    match u8::try_from(code) {
-        Ok(short @ ..10) => bytes.extend([b' ', b' ', b'0' + short]),
-        Ok(short @ 10..100) => bytes.extend([b' ', b'0' + short / 10, b'0' + short % 10]),
-        _ => bytes.extend(code.to_string().bytes()),
-    }
 }
 
 /// Writes binary DXF. A malformed number is written as 0, since the format cannot represent it.
 pub(crate) fn binary(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
-    let encoder = Encoder::of(options);
+    let encoding = encoding(options);
     let mut bytes = b"AutoCAD Binary DXF\r\n\x1a\0".to_vec();
     for pair in pairs {
         let code = u16::try_from(pair.code).unwrap_or_default();
@@ -46,13 +29,13 @@ pub(crate) fn binary(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
                 bytes.extend(code.to_le_bytes());
             }
         }
-        append_value(pair, encoder, options.version, &mut bytes);
+        append_value(pair, encoding, options.version, &mut bytes);
     }
     bytes
 }
 
 /// Appends a value in the type that the DXF reference gives for its group code.
-fn append_value(pair: &Pair<'_>, encoder: Encoder, version: Version, bytes: &mut Vec<u8>) {
+fn append_value(pair: &Pair<'_>, encoding: Option<&'static Encoding>, version: Version, bytes: &mut Vec<u8>) {
     let value = pair.value.trim();
     match pair.code {
         10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
@@ -68,7 +51,7 @@ fn append_value(pair: &Pair<'_>, encoder: Encoder, version: Version, bytes: &mut
         160..=169 => bytes.extend(value.parse::<i64>().unwrap_or_default().to_le_bytes()),
         310..=319 | 1004 => append_chunk(value, bytes),
         _ => {
-            encoder.append(&pair.value, bytes);
+            pairs::encode(&pair.value, encoding, bytes);
             bytes.push(0);
         }
     }
@@ -80,4 +63,32 @@ fn append_chunk(hex: &str, bytes: &mut Vec<u8>) {
         digits.chunks_exact(2).filter_map(|two| u8::try_from(two[0] * 16 + two[1]).ok()).take(255).collect();
     bytes.extend(u8::try_from(chunk.len()));
     bytes.extend(chunk);
+}
+
+/// The encoding of a sheet's strings; `None` for ASCII only.
+pub(crate) fn encoding(options: &Options) -> Option<&'static Encoding> {
+    match options.encoding {
+        // A byte order mark implies UTF-8 for the whole file.
+        TextEncoding::Proper if options.version >= Version::R2007 || options.byte_order_mark => Some(UTF_8),
+        TextEncoding::Proper => code_page(options.code_page.as_deref().unwrap_or("ANSI_1252")),
+        TextEncoding::Utf8 => Some(UTF_8),
+        TextEncoding::Escaped => None,
+    }
+}
+
+/// The encoding for a value of $DWGCODEPAGE. `None` if it is unknown: ASCII with escapes is correct in any encoding.
+fn code_page(name: &str) -> Option<&'static Encoding> {
+    let lower = name.to_ascii_lowercase();
+    let number = lower.strip_prefix("ansi_").or_else(|| lower.strip_prefix("dos"));
+    let label = match number {
+        Some("932") => "shift_jis".to_owned(),
+        Some("936") => "gbk".to_owned(),
+        Some("949") => "euc-kr".to_owned(),
+        Some("950") => "big5".to_owned(),
+        Some("874") => "windows-874".to_owned(),
+        Some("866") => "ibm866".to_owned(),
+        Some(number) if lower.starts_with("ansi_") => format!("windows-{number}"),
+        _ => return (lower == "ascii" || lower == "undefined").then_some(WINDOWS_1252),
+    };
+    Encoding::for_label(label.as_bytes())
 }

@@ -1,3 +1,5 @@
+//! Points, lines, arcs and circles of drawings, in mm and degrees.
+
 use std::ops::{Add, Mul, Sub};
 
 /// A point or vector in world coordinates, in mm.
@@ -44,7 +46,7 @@ impl Point {
 }
 
 /// Sine and cosine of an angle in degrees, exact for multiples of 90 degrees, which most drawings consist of.
-pub(crate) fn sin_cos(degrees: f64) -> (f64, f64) {
+pub fn sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),
         90.0 => (1.0, 0.0),
@@ -81,5 +83,44 @@ impl Mul<f64> for Point {
 
     fn mul(self, factor: f64) -> Self {
         Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
+
+/// A straight line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Line {
+    pub from: Point,
+    pub to: Point,
+}
+
+/// A part of a circle, counterclockwise from `start` to `end` (degrees).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Arc {
+    pub centre: Point,
+    pub radius: f64,
+    pub start: f64,
+    pub end: f64,
+}
+
+/// A whole circle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Circle {
+    pub centre: Point,
+    pub radius: f64,
+}
+
+impl Arc {
+    /// The point at an angle in degrees.
+    pub fn point(&self, degrees: f64) -> Point {
+        self.centre.polar(self.radius, degrees)
+    }
+
+    /// The angle covered, greater than 0 and at most 360 degrees.
+    pub fn sweep(&self) -> f64 {
+        let sweep = (self.end - self.start).rem_euclid(360.0);
+        if sweep == 0.0 { 360.0 } else { sweep }
     }
 }

@@ -1,0 +1,238 @@
+//! Positions parameter texts so that each belongs to its element. (book: language/parameter-texts)
+
+use crate::geometry::{Arc, Circle, Line, Point};
+
+/// Usual letter height in mm.
+pub const HEIGHT: f64 = 2.0;
+
+/// A letter height, followed by those to try if there is no room.
+pub fn reduced(height: f64) -> [f64; 7] {
+    [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1].map(|factor| factor * height)
+}
+
+/// A part of an element, as used for matching texts.
+#[derive(Clone, Copy, Debug)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum ElementPart {
+    Circle(Circle),
+    Arc(Arc),
+    Line(Line),
+}
+
+/// Priority of an element's part: circles before arcs before lines, regardless of distance.
+type Rank = u8;
+
+impl ElementPart {
+    /// Rank and distance if a text circle overlaps this part. (book: language/parameter-texts)
+    fn overlapped(&self, centre: Point, radius: f64) -> Option<(Rank, f64)> {
+        match self {
+            Self::Circle(circle) => {
+                let distance = centre.distance(circle.centre);
+                (distance < radius + circle.radius).then_some((0, distance))
+            }
+            Self::Arc(arc) => {
+                let distance = (centre.distance(arc.centre) - arc.radius).abs();
+                (covers(arc, centre) && distance <= radius).then_some((1, distance))
+            }
+            Self::Line(line) => {
+                let foot = foot(line, centre)?;
+                let distance = centre.distance(foot);
+                (distance < radius).then_some((2, distance))
+            }
+        }
+    }
+
+    /// The distance of a point from the part; negative inside a circle.
+    fn clearance(&self, point: Point) -> f64 {
+        let to_ends = |a: Point, b: Point| point.distance(a).min(point.distance(b));
+        match self {
+            Self::Circle(circle) => point.distance(circle.centre) - circle.radius,
+            Self::Arc(arc) if covers(arc, point) => (point.distance(arc.centre) - arc.radius).abs(),
+            Self::Arc(arc) => to_ends(arc.point(arc.start), arc.point(arc.end)),
+            Self::Line(line) => {
+                foot(line, point).map_or_else(|| to_ends(line.from, line.to), |foot| point.distance(foot))
+            }
+        }
+    }
+
+    /// Centres at which a text circle of this radius overlaps the part, the best looking first.
+    fn seats(&self, radius: f64) -> Vec<Point> {
+        const ALONG: [f64; 11] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.28, 0.72, 0.1, 0.9];
+        const ASIDE: [f64; 3] = [0.6, -0.6, 0.0];
+        const ROUND: [f64; 16] = [
+            45.0, 135.0, 225.0, 315.0, 0.0, 90.0, 180.0, 270.0, 22.5, 67.5, 112.5, 157.5, 202.5, 247.5,
+            292.5, 337.5,
+        ];
+        match self {
+            Self::Circle(circle) => {
+                let outside = circle.radius + 0.8 * radius;
+                let inside = circle.radius - 0.6 * radius;
+                let rings = [outside, inside.max(0.0), 0.0].into_iter();
+                rings.flat_map(|d| ROUND.map(|angle| circle.centre.polar(d, angle))).collect()
+            }
+            Self::Arc(arc) => {
+                let sweep = arc.sweep();
+                let ring = |aside: f64| (arc.radius + aside * radius).max(arc.radius / 2.0);
+                let at = |t: f64, aside: f64| arc.centre.polar(ring(aside), arc.start + t * sweep);
+                ALONG.iter().flat_map(|t| ASIDE.map(|aside| at(*t, aside))).collect()
+            }
+            Self::Line(line) => {
+                let length = line.from.distance(line.to);
+                let unit =
+                    if length > 0.0 { (line.to - line.from) * (1.0 / length) } else { Point::new(1.0, 0.0) };
+                let normal = Point::new(-unit.y, unit.x);
+                let at =
+                    |t: f64, aside: f64| line.from + (line.to - line.from) * t + normal * (aside * radius);
+                ALONG.iter().flat_map(|t| ASIDE.map(|aside| at(*t, aside))).collect()
+            }
+        }
+    }
+}
+
+/// Whether a point's direction from the centre lies within the arc.
+fn covers(arc: &Arc, point: Point) -> bool {
+    (arc.centre.direction(point) - arc.start).rem_euclid(360.0) <= arc.sweep()
+}
+
+/// The foot of the perpendicular, if it lies on the line.
+fn foot(line: &Line, point: Point) -> Option<Point> {
+    let (along, to) = (line.to - line.from, point - line.from);
+    let length2 = along.x * along.x + along.y * along.y;
+    let t = (to.x * along.x + to.y * along.y) / length2;
+    (0.0..=1.0).contains(&t).then(|| line.from + along * t)
+}
+
+/// An element that a text may belong to.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// Its index among the entities; `None` if it comes from a block.
+    pub entity: Option<usize>,
+    /// The layer in lower case.
+    pub layer: String,
+    /// Whether it accepts a text; lines of type HIDDEN, end markers and turn markers do not.
+    pub takes_text: bool,
+    /// The parts that a text circle may overlap.
+    pub pieces: Vec<ElementPart>,
+}
+
+/// Width, height and circle radius of a text.
+#[derive(Clone, Copy, Debug)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Extent {
+    pub width: f64,
+    pub height: f64,
+    pub radius: f64,
+}
+
+impl Extent {
+    /// The extent of a TEXT.
+    pub fn of_text(value: &str, height: f64) -> Self {
+        let width = 0.6 * height * value.chars().count() as f64;
+        Self { width, height, radius: libm::hypot(width, height) / 2.0 }
+    }
+
+    /// The extent of an MTEXT with these lines.
+    pub fn of_mtext<S: AsRef<str>>(lines: &[S], letters: f64) -> Self {
+        let longest = lines.iter().map(|line| line.as_ref().chars().count()).max().unwrap_or(0);
+        let width = 0.6 * letters * longest as f64;
+        let height = letters * lines.len() as f64;
+        Self { width, height, radius: (libm::hypot(width, height) / 2.0).min(0.7 * height) }
+    }
+}
+
+/// A test of whether a text circle with this centre and radius suits the target on this layer.
+type Rule<'a> = fn(&Seats<'a>, usize, &str, Point, f64) -> bool;
+
+/// The elements of a drawing, and which of them have a text already.
+#[derive(Debug)]
+pub struct Seats<'a> {
+    candidates: &'a [Candidate],
+    taken: Vec<bool>,
+}
+
+impl<'a> Seats<'a> {
+    /// Elements without texts.
+    pub fn new(candidates: &'a [Candidate]) -> Self {
+        Self { candidates, taken: vec![false; candidates.len()] }
+    }
+
+    /// Marks the element that a text of the drawing belongs to.
+    pub fn take(&mut self, layer: &str, centre: Point, radius: f64) {
+        if let Some(found) = self.found(layer, centre, radius) {
+            self.taken[found] = true;
+        }
+    }
+
+    /// The centre and the extent of an entity's text, and the height of its letters: preferably far from all other elements, otherwise
+    /// anywhere that the rules assign to the entity. The heights are tried in this order.
+    pub fn seat(
+        &mut self,
+        entity: usize,
+        layer: &str,
+        heights: &[f64],
+        extent: impl Fn(f64) -> Extent,
+    ) -> Option<(Point, Extent, f64)> {
+        let target = self.candidates.iter().position(|candidate| candidate.entity == Some(entity))?;
+        if self.taken[target] {
+            return None;
+        }
+        let rules: [Rule<'a>; 2] = [Self::is_alone, Self::is_given];
+        let seat = rules.iter().find_map(|rule| {
+            heights.iter().find_map(|height| {
+                let extent = extent(*height);
+                let mut seats =
+                    self.candidates[target].pieces.iter().flat_map(|piece| piece.seats(extent.radius));
+                let centre = seats.find(|seat| rule(self, target, layer, *seat, extent.radius))?;
+                Some((centre, extent, *height))
+            })
+        });
+        self.taken[target] |= seat.is_some();
+        seat
+    }
+
+    /// Whether the circle overlaps the target and keeps well clear of everything else.
+    fn is_alone(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
+        let others = self
+            .candidates
+            .iter()
+            .enumerate()
+            .filter(|(index, other)| *index != target && other.takes_text && other.layer == layer);
+        let mut pieces = others.flat_map(|(_, other)| &other.pieces);
+        overlaps(&self.candidates[target], centre, 0.9 * radius)
+            && pieces.all(|piece| piece.clearance(centre) > 1.1 * radius + 0.05)
+    }
+
+    /// Whether the rules assign the text to the target when its turn comes, even if lengths are slightly off.
+    fn is_given(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
+        let near = |factor: f64| self.found(layer, centre, factor * radius);
+        if self.candidates[target].takes_text {
+            [0.95, 1.0, 1.05].into_iter().all(|factor| near(factor) == Some(target))
+        } else {
+            overlaps(&self.candidates[target], centre, 0.9 * radius) && near(1.05).is_none()
+        }
+    }
+
+    /// The element that a text circle matches among those that have no text yet.
+    fn found(&self, layer: &str, centre: Point, radius: f64) -> Option<usize> {
+        let free = self.candidates.iter().enumerate().filter(|(index, candidate)| {
+            candidate.takes_text && !self.taken[*index] && candidate.layer == layer
+        });
+        let overlapped = free.flat_map(|(index, candidate)| {
+            let ranks = candidate.pieces.iter().filter_map(|piece| piece.overlapped(centre, radius));
+            ranks.map(move |(rank, distance)| (rank, distance, index))
+        });
+        overlapped.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(.., index)| index)
+    }
+}
+
+fn overlaps(candidate: &Candidate, centre: Point, radius: f64) -> bool {
+    candidate.pieces.iter().any(|piece| piece.overlapped(centre, radius).is_some())
+}
+
+/// Says that an element's text has no room.
+pub fn no_room(text: &str) -> String {
+    format!(
+        "no place found where the text {text:?} would belong to this element and to no other; \
+         give the neighbours texts of their own first, move them apart, or write a `text` or `mtext` line"
+    )
+}

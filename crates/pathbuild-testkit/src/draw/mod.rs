@@ -1,0 +1,17 @@
+//! Drawings built in Rust and written as DXF, in each version, as text or binary.
+//!
+//! A [`Draft`] collects entities; finishing it gives a [`Sheet`], in which each parameter text is positioned so that it belongs to its
+//! element. `Sheet::to_dxf` writes the sheet through the crate `dxf`; its output is deterministic. (book: reference/dxf)
+
+mod bytes;
+mod convert;
+mod draft;
+pub mod model;
+mod place;
+mod tables;
+mod write;
+
+pub use convert::LINE_TYPES;
+pub use draft::{Draft, Sheet};
+pub use model::{Block, DrawError, Entity, Layer, Options, Point, Shape, Template, Version};
+pub use place::{TextCircle, text_circle};

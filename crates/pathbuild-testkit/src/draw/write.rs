@@ -1,0 +1,360 @@
+//! Writes sheets as DXF through the crate `dxf`.
+//!
+//! Its output is corrected pair by pair (`pathbuild_draw::pairs`). Entities carry tags in place of handles.
+
+use pathbuild_draw::pairs::{
+    self, Pair, Record, Tickets, drop_codes, identify, kind, records, reduce_mtext, value,
+};
+
+use super::convert::TAG;
+use super::draft::Sheet;
+use super::model::{Change, Direction, Entity, Part, Shape, Template, Version};
+use super::tables::{Objects, Owners, Tables};
+use super::{bytes, convert};
+
+impl Sheet {
+    /// Writes the drawing as DXF, ASCII or binary according to the options.
+    pub fn to_dxf(&self) -> Vec<u8> {
+        if self.options().binary {
+            return self.to_binary_dxf();
+        }
+        with_pairs(self, |pairs| bytes::ascii(pairs, self.options()))
+    }
+
+    /// Writes the drawing as binary DXF.
+    pub fn to_binary_dxf(&self) -> Vec<u8> {
+        with_pairs(self, |pairs| bytes::binary(pairs, self.options()))
+    }
+}
+
+fn with_pairs(sheet: &Sheet, write: impl FnOnce(&[Pair<'_>]) -> Vec<u8>) -> Vec<u8> {
+    with_written(sheet, |written| write(&assemble(sheet, written)))
+}
+
+/// Lets the crate write a sheet without its template.
+fn with_written<T>(sheet: &Sheet, next: impl FnOnce(CrateOutput<'_>) -> T) -> T {
+    let mut tickets = Tickets::default();
+    let drawing = convert::drawing(sheet, &mut tickets);
+    let mut text = Vec::new();
+    // Saving to memory without a thumbnail cannot fail.
+    _ = drawing.save(&mut text);
+    let text = String::from_utf8_lossy(&text);
+    let mut written = CrateOutput::of(&text, &tickets);
+    written.tidy(&sheet.tagged(), sheet.options().version);
+    next(written)
+}
+
+/// Joins the sections: assigns unique handles and owners, and omits the parts that the options exclude.
+fn assemble<'a>(sheet: &'a Sheet, mut written: CrateOutput<'a>) -> Vec<Pair<'a>> {
+    let options = sheet.options();
+    let is_in = |part: Part| !options.left_out.contains(&part);
+    if let Some((template, left_out)) = sheet.template() {
+        template.add_to(&mut written, left_out);
+    }
+    let objects = Objects::from(sheet.next_handle());
+    let mut counter = objects.end()..;
+    let mut next = || counter.next().filter(|_| is_in(Part::Handles));
+    let tables = Tables { sheet, plot_style: objects.plot_style(), layouts: objects.layouts() };
+    let (table_pairs, owners) = tables.pairs(written.tables, &mut next);
+    let entities = Entities::new(sheet, &owners, is_in(Part::Handles));
+    let block_pairs = entities.blocks(written.blocks, &mut next);
+    let entity_pairs = entities.entities(written.entities, None, &mut next);
+    let has_objects = options.version >= Version::R13 && is_in(Part::Objects);
+    let seed = next().unwrap_or(objects.end());
+    let sections = [
+        ("HEADER", is_in(Part::Header), header_pairs(sheet, written.header, seed)),
+        ("TABLES", is_in(Part::Tables), table_pairs),
+        ("BLOCKS", is_in(Part::Blocks), block_pairs),
+        ("ENTITIES", true, entity_pairs),
+        ("OBJECTS", has_objects, objects.pairs(options.version, entities.spaces)),
+    ];
+    let mut pairs: Vec<Pair<'a>> = Vec::new();
+    for (name, _, content) in sections.into_iter().filter(|(_, is_wanted, _)| *is_wanted) {
+        pairs.extend([Pair::new(0, "SECTION"), Pair::new(2, name)]);
+        pairs.extend(content);
+        pairs.push(Pair::new(0, "ENDSEC"));
+    }
+    pairs.extend(is_in(Part::Eof).then(|| Pair::new(0, "EOF")));
+    pairs
+}
+
+/// Assigns handles and owners to blocks and entities.
+struct Entities<'a, 'o> {
+    /// The entities in the order of their tags.
+    tagged: Vec<&'a Entity>,
+    version: Version,
+    has_handles: bool,
+    owners: &'o Owners,
+    /// The handles of the block records of model and paper space.
+    spaces: [u64; 2],
+}
+
+impl<'a, 'o> Entities<'a, 'o> {
+    fn new(sheet: &'a Sheet, owners: &'o Owners, has_handles: bool) -> Self {
+        let space =
+            |wanted: &str| owners.iter().find(|(name, _)| name == wanted).map_or(0, |(_, handle)| *handle);
+        let spaces = [space("*Model_Space"), space("*Paper_Space")];
+        Self { tagged: sheet.tagged(), version: sheet.options().version, has_handles, owners, spaces }
+    }
+
+    fn owner(&self, owner: Option<u64>) -> Option<u64> {
+        owner.filter(|_| self.has_handles && self.version >= Version::R2000)
+    }
+
+    /// Blocks: BLOCK and ENDBLK get handles of their own, and everything between them is owned by the block.
+    fn blocks(&self, records: Vec<Record<'a>>, next: &mut impl FnMut() -> Option<u64>) -> Vec<Pair<'a>> {
+        let mut pairs = Vec::new();
+        let mut owner = None;
+        let mut inner = Vec::new();
+        for mut record in records {
+            let is_begin = kind(&record) == "BLOCK";
+            if is_begin {
+                let name = value(&record, 2).unwrap_or_default();
+                owner = self.owners.iter().find(|(owner, _)| owner == name).map(|(_, handle)| *handle);
+            } else if kind(&record) != "ENDBLK" {
+                inner.push(record);
+                continue;
+            }
+            pairs.extend(self.entities(std::mem::take(&mut inner), owner, next));
+            identify(&mut record, 5, next(), self.owner(owner));
+            pairs.extend(record);
+        }
+        pairs
+    }
+
+    /// The entities of a block, or of model and paper space.
+    fn entities(
+        &self,
+        records: Vec<Record<'a>>,
+        block: Option<u64>,
+        next: &mut impl FnMut() -> Option<u64>,
+    ) -> Vec<Pair<'a>> {
+        let mut pairs = Vec::new();
+        let mut whole = None;
+        for mut record in records {
+            if let Some(entity) = entity_of(&record, &self.tagged) {
+                let space = self.spaces[usize::from(entity.paper)];
+                whole = entity.handle.map(|handle| handle.0).filter(|_| self.has_handles);
+                if let Shape::Raw(raw) = &entity.shape {
+                    record = raw.iter().map(Pair::borrowed).collect();
+                } else {
+                    identify(&mut record, 5, whole, self.owner(block.or(Some(space))));
+                }
+                apply_changes(&mut record, &entity.changes);
+            } else if matches!(kind(&record), "VERTEX" | "SEQEND") {
+                identify(&mut record, 5, next(), self.owner(whole));
+            } else {
+                whole = next();
+                identify(&mut record, 5, whole, self.owner(block.or(Some(self.spaces[0]))));
+            }
+            pairs.extend(record);
+        }
+        pairs
+    }
+}
+
+/// The output of the crate, section by section.
+#[derive(Debug, Default)]
+struct CrateOutput<'a> {
+    /// Header variables: the pair with the name, and the pairs of its value.
+    pub(crate) header: Vec<Record<'a>>,
+    /// The records of all tables, without their heads.
+    pub(crate) tables: Vec<Record<'a>>,
+    pub(crate) blocks: Vec<Record<'a>>,
+    pub(crate) entities: Vec<Record<'a>>,
+}
+
+impl<'a> CrateOutput<'a> {
+    /// Splits the output of the crate and replaces the tickets by their strings.
+    pub(crate) fn of(text: &'a str, tickets: &'a Tickets) -> Self {
+        let mut written = Self::default();
+        let mut section = String::new();
+        for mut record in records(text) {
+            match kind(&record) {
+                "SECTION" => {
+                    value(&record, 2).unwrap_or_default().clone_into(&mut section);
+                    if section == "HEADER" {
+                        written.header = variables(&record[2..]);
+                    }
+                }
+                "ENDSEC" | "EOF" | "TABLE" | "ENDTAB" => {}
+                _ => {
+                    tickets.redeem_all(&mut record);
+                    match section.as_str() {
+                        "TABLES" => written.tables.push(record),
+                        "BLOCKS" => written.blocks.push(record),
+                        "ENTITIES" => written.entities.push(record),
+                        _ => {}
+                    }
+                }
+            }
+        }
+        written
+    }
+
+    /// Corrects the entities in the crate's output.
+    fn tidy(&mut self, tagged: &[&Entity], version: Version) {
+        for record in self.entities.iter_mut().chain(&mut self.blocks) {
+            pairs::tidy(record);
+            if version < Version::R13 {
+                drop_codes(record, &[100]);
+            }
+            if let Some(entity) = entity_of(record, tagged) {
+                correct_entity(record, entity);
+            }
+        }
+    }
+}
+
+fn variables<'a>(pairs: &[Pair<'a>]) -> Vec<Record<'a>> {
+    pairs.chunk_by(|_, next| next.code != 9).map(<[Pair<'_>]>::to_vec).collect()
+}
+
+/// The entity of a record, by the tag in place of its handle.
+fn entity_of<'e>(record: &Record<'_>, tagged: &[&'e Entity]) -> Option<&'e Entity> {
+    let tag = u64::from_str_radix(value(record, 5)?, 16).ok()?;
+    let index = usize::try_from(tag.checked_sub(TAG)?).ok()?;
+    tagged.get(index).copied()
+}
+
+/// A fixed date in 2025 as a Julian date, since the output must not depend on the time of writing.
+const DATE: &str = "2460676.5";
+const GUID: &str = "{00000000-0000-0000-0000-000000000000}";
+
+/// Header variables that refer to objects that are not written.
+const POINTERS: [&str; 4] = ["$DRAGVS", "$CMATERIAL", "$INTERFEREOBJVS", "$INTERFEREVPVS"];
+
+/// The pairs of the header section: the output of the crate, with fixed values for everything it would make up.
+fn header_pairs<'a>(sheet: &'a Sheet, mut variables: Vec<Record<'a>>, hand_seed: u64) -> Vec<Pair<'a>> {
+    let options = sheet.options();
+    variables.retain(|variable| !POINTERS.contains(&kind(variable)));
+    for variable in &mut variables {
+        let Some(fixed) = fixed(kind(variable), hand_seed) else { continue };
+        variable.truncate(2);
+        if let Some(pair) = variable.last_mut() {
+            *pair = Pair::new(pair.code, fixed);
+        }
+    }
+    let units = options.units.filter(|units| options.version >= Version::R2000 || *units != 4);
+    set_variable(&mut variables, "$INSUNITS", units.map(|units| Pair::integer(70, units.into())));
+    let code_page = options.code_page.as_deref().filter(|_| options.version >= Version::R12);
+    set_variable(&mut variables, "$DWGCODEPAGE", code_page.map(|name| Pair::new(3, name)));
+    if options.left_out.contains(&Part::Handles) {
+        set_variable(&mut variables, "$HANDLING", Some(Pair::integer(70, 0)));
+    }
+    for (name, pair) in &options.header {
+        set_variable(&mut variables, name, Some(pair.borrowed()));
+    }
+    variables.into_iter().flatten().collect()
+}
+
+fn fixed(variable: &str, hand_seed: u64) -> Option<String> {
+    Some(match variable {
+        "$TDCREATE" | "$TDUCREATE" | "$TDUPDATE" | "$TDUUPDATE" => DATE.to_owned(),
+        "$FINGERPRINTGUID" | "$VERSIONGUID" => GUID.to_owned(),
+        "$HANDSEED" => format!("{hand_seed:X}"),
+        "$MEASUREMENT" | "$HANDLING" => "     1".to_owned(),
+        _ => return None,
+    })
+}
+
+/// Sets a variable, adds it at the end, or removes it.
+fn set_variable<'a>(variables: &mut Vec<Record<'a>>, wanted: &'a str, value: Option<Pair<'a>>) {
+    let at = variables.iter().position(|variable| kind(variable) == wanted);
+    match (at, value) {
+        (Some(at), Some(value)) => variables[at] = vec![Pair::new(9, wanted), value],
+        (None, Some(value)) => variables.push(vec![Pair::new(9, wanted), value]),
+        (Some(at), None) => _ = variables.remove(at),
+        (None, None) => {}
+    }
+}
+
+/// Corrects an entity in the crate's output.
+fn correct_entity(record: &mut Record<'_>, entity: &Entity) {
+    match &entity.shape {
+        Shape::Text(_) => correct_text(record),
+        Shape::MText(mtext) => match mtext.direction {
+            Direction::Rotation(_) => reduce_mtext(record, &[50]),
+            Direction::Vector(_) => reduce_mtext(record, &[11, 21, 31]),
+        },
+        Shape::Spline(spline) if spline.fit.is_empty() => drop_codes(record, &[12, 22, 32, 13, 23, 33]),
+        _ => {}
+    }
+}
+
+/// Restores an alignment point at the origin, and moves the vertical alignment to its place.
+fn correct_text(record: &mut Record<'_>) {
+    let is_aligned = value(record, 72).or(value(record, 73)).is_some();
+    if is_aligned && value(record, 11).is_none() {
+        let behind = record.iter().position(|pair| pair.code == 72).map_or(record.len(), |at| at + 1);
+        record.splice(behind..behind, [11, 21, 31].map(|code| Pair::new(code, "0.0")));
+    }
+    if let Some(at) = record.iter().position(|pair| pair.code == 73) {
+        let vertical = record.remove(at);
+        record.push(vertical);
+    }
+}
+
+/// Applies the changes that the drawing requests.
+fn apply_changes<'a>(record: &mut Record<'a>, changes: &'a [Change]) {
+    for change in changes {
+        match change {
+            Change::Set(pair) => set(record, pair.borrowed()),
+            Change::Unset(code) => drop_codes(record, &[*code]),
+        }
+    }
+}
+
+/// Sets the first pair of a code, or appends it.
+fn set<'a>(record: &mut Record<'a>, pair: Pair<'a>) {
+    match record.iter_mut().find(|old| old.code == pair.code) {
+        Some(old) => *old = pair,
+        None => record.push(pair),
+    }
+}
+
+impl Template {
+    /// Creates a template from a sheet without parameter texts. Its first `early` entities precede those of the surrounded drawing.
+    pub fn new(sheet: &Sheet, early: usize) -> Self {
+        with_written(sheet, |written| {
+            let is_block = |record: &&Record<'_>| kind(record) == "BLOCK_RECORD" && !is_space(record);
+            let tables = written.tables.iter().filter(is_block).map(owned).collect();
+            let mut space = false;
+            let is_inside = |record: &&Record<'_>| {
+                if kind(record) == "BLOCK" {
+                    space = is_space(record);
+                }
+                !space
+            };
+            let blocks = written.blocks.iter().filter(is_inside).map(owned).collect();
+            let mut entities: Vec<_> = written.entities.iter().map(owned).collect();
+            let is_entity = |record: &Record<'_>| !matches!(kind(record), "VERTEX" | "SEQEND");
+            let mut starts = (0..entities.len()).filter(|at| is_entity(&entities[*at]));
+            let begin = starts.nth(early).unwrap_or(entities.len());
+            let late = entities.split_off(begin);
+            Self { tables, blocks, early: entities, late }
+        })
+    }
+
+    /// Adds the template to the records of a sheet, without its last `left_out` records.
+    fn add_to<'a>(&'a self, written: &mut CrateOutput<'a>, left_out: usize) {
+        written.tables.extend(borrowed(&self.tables));
+        written.blocks.extend(borrowed(&self.blocks));
+        written.entities.splice(0..0, borrowed(&self.early));
+        written.entities.extend(borrowed(&self.late[..self.late.len().saturating_sub(left_out)]));
+    }
+}
+
+fn borrowed<'a>(records: &'a [Record<'static>]) -> impl Iterator<Item = Record<'a>> {
+    records.iter().map(|record| record.iter().map(Pair::borrowed).collect())
+}
+
+fn is_space(record: &Record<'_>) -> bool {
+    matches!(value(record, 2), Some("*Model_Space" | "*Paper_Space"))
+}
+
+fn owned(record: &Record<'_>) -> Record<'static> {
+    let mut record: Record<'static> = record.iter().map(Pair::owned).collect();
+    drop_codes(&mut record, &[5]);
+    record
+}
