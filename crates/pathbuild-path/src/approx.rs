@@ -3,7 +3,7 @@
 //! Coordinates come from CAD exports, so equality is approximate. It is not transitive: use these functions to find minima in a single
 //! scan, but never to sort.
 
-use crate::Xy;
+use nalgebra::Point2;
 
 /// Whether two numbers are equal up to rounding.
 pub fn near(a: f64, b: f64) -> bool {
@@ -21,7 +21,7 @@ pub fn above(a: f64, b: f64) -> bool {
 }
 
 /// Whether two points coincide (within about 0.0000316 mm), for ends of segments, markers and the walk.
-pub fn coincide(a: Xy, b: Xy) -> bool {
+pub fn coincide(a: Point2<f64>, b: Point2<f64>) -> bool {
     near((b - a).norm_squared(), 0.0)
 }
 

@@ -7,10 +7,22 @@ use pathbuild_diagnostic::messages::parameters as messages;
 
 use crate::approx::above;
 use crate::element::Origin;
-use crate::geometry::{Curve, Xy};
+use crate::geometry::{Curve, Line, Xy};
 use crate::letter::Letter;
-use crate::path::{CutParameters, Path, SegmentKind};
-use crate::walk::{Passage, WalkedPath, curve};
+use crate::path::{CutParameters, Path, Segment, SegmentKind};
+
+/// A path in milling order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WalkedPath {
+    /// The operations in order. Complete only if no diagnostic is an error.
+    pub items: Vec<Item>,
+    /// The members of all chains, in walking order.
+    pub(crate) members: Vec<ChainSegment>,
+    /// One of PB401 to PB404, PB201 for each chain without I, and PB114 and PB210.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The last point of a path without an end marker.
+    pub open_end: Option<Xy>,
+}
 
 /// An operation. Its segment is an index into [`Path::segments`].
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +50,7 @@ pub struct Chain {
     pub infeed: f64,
     /// W in mm: the depth from which on milling is sweepless.
     pub first_depth: Option<f64>,
-    /// Never empty; see [`WalkedPath::members`](crate::WalkedPath::members).
+    /// Never empty; see [`WalkedPath::members`].
     pub(crate) members: Range<usize>,
 }
 
@@ -75,6 +87,18 @@ pub struct PlacedSubpath {
     pub start: Xy,
     /// The point from which the walk continues.
     pub end: Xy,
+}
+
+impl WalkedPath {
+    /// A walk that failed.
+    pub fn failed(problem: Diagnostic) -> Self {
+        Self { diagnostics: vec![problem], ..Self::default() }
+    }
+
+    /// The members of a chain in the items: at least one, each in walking direction.
+    pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
+        &self.members[chain.members.clone()]
+    }
 }
 
 /// Groups the traversed segments into items. Reports chains without I, and letters without effect inside chains.
@@ -239,4 +263,62 @@ impl ChainSegment {
             self.origin(path).at(problem.with_text(fault))
         })
     }
+}
+
+/// A segment in walking direction.
+#[derive(Clone, Debug)]
+pub(crate) struct Passage {
+    pub(crate) start: Xy,
+    pub(crate) end: Xy,
+    /// Whether it runs against the drawn direction.
+    pub(crate) is_turned: bool,
+    /// The milled curve if it differs from the drawn one, because the start was moved to close a gap.
+    pub(crate) moved: Option<Box<Curve>>,
+}
+
+impl Passage {
+    /// The passage in the drawn direction.
+    pub(crate) fn drawn([start, end]: [Xy; 2]) -> Self {
+        Self { start, end, is_turned: false, moved: None }
+    }
+
+    /// The passage in the opposite direction. A subpath is then embedded the other way round, so that its start is where the walk comes
+    /// from.
+    pub(crate) fn turned_round(self) -> Self {
+        self.turned_if(true)
+    }
+
+    /// The passage in the opposite direction if `is_turned`. Ends are selected by index, since the direction is unpredictable for a branch.
+    #[inline]
+    pub(crate) fn turned_if(mut self, is_turned: bool) -> Self {
+        let (ends, first) = ([self.start, self.end], usize::from(is_turned));
+        (self.start, self.end) = (ends[first], ends[1 - first]);
+        self.is_turned ^= is_turned;
+        if let Some(moved) = self.moved.as_mut().filter(|_| is_turned) {
+            **moved = moved.reversed();
+        }
+        self
+    }
+
+    /// The passage from a point close to its start, for which the end of a line is moved.
+    pub(crate) fn starting_at(self, start: Xy, segment: &Segment) -> Self {
+        let line = Curve::Line(Line { start, end: self.end });
+        let moved = matches!(segment.kind, SegmentKind::Cut(_)).then(|| Box::new(line));
+        Self { start, moved, ..self }
+    }
+
+    /// A short line from a nearby point to the start of the passage.
+    pub(crate) fn lead_in(&self, from: Xy) -> Self {
+        let line = Curve::Line(Line { start: from, end: self.start });
+        Self { start: from, end: self.start, is_turned: false, moved: Some(Box::new(line)) }
+    }
+}
+
+/// The curve of a segment in walking direction; `None` for circles.
+pub(crate) fn curve(path: &Path, segment: &Segment, is_turned: bool, moved: Option<&Curve>) -> Option<Curve> {
+    if let Some(moved) = moved {
+        return Some(*moved);
+    }
+    let drawn = path.curve(segment)?;
+    Some(if is_turned { drawn.reversed() } else { drawn })
 }

@@ -7,12 +7,11 @@ use smol_str::SmolStr;
 
 use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
 use crate::element::{Cut, Element, Origin, Shape};
-use crate::faults::Faults;
 use crate::geometry::{Curve, Xy};
 use crate::letter::{Letter, Letters};
 use crate::matrix::ElementClass;
 use crate::names::{PathName, SpeltName};
-use crate::raw::DrawnElements;
+use crate::raw::{DrawnElements, Faults};
 use crate::text::TextId;
 
 /// A path with all parameters present and within their limits.

@@ -2,18 +2,16 @@
 
 use std::sync::Arc;
 
+use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
 use smol_str::SmolStr;
 
-use crate::definition::Definition;
-use crate::doubts::DoubtThresholds;
 use crate::element::{Element, Marker, Origin};
-use crate::faults::DrawingFaults;
-use crate::keep_out::KeepOutPattern;
-use crate::letter::Letter;
-use crate::line_type::LineTypeAliases;
-use crate::names::{PathName, PathPattern, SpeltName};
+use crate::geometry::Xy;
+use crate::letter::{Letter, Letters};
+use crate::names::{PathName, SpeltName};
 use crate::text::{ParameterText, ParameterTexts, TextId, ValueKind};
+use crate::variables::{Bindings, Definition};
 
 /// A path as drawn. It contains no lines and handles of the file, see [`SourceMap`].
 #[derive(Clone, Debug, PartialEq)]
@@ -67,23 +65,6 @@ pub struct Position {
     pub handle: Option<Handle>,
 }
 
-/// Settings of the drawing language.
-#[derive(Clone, Debug)]
-pub struct Language {
-    /// The names of path layers.
-    pub path_pattern: PathPattern,
-    /// The names of layers with clamps, if configured.
-    pub keep_out: Option<KeepOutPattern>,
-    /// Additional names of line types.
-    pub line_types: LineTypeAliases,
-    /// Largest gap in mm that the walk closes with a warning (PB115); 0 requires ends to coincide.
-    pub join_tolerance: f64,
-    /// Maximum length in bytes of a value with variables substituted.
-    pub text_limit: usize,
-    /// Thresholds beyond which something is doubtful.
-    pub doubts: DoubtThresholds,
-}
-
 /// All paths of a drawing, in order of first appearance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RawFile {
@@ -91,13 +72,6 @@ pub struct RawFile {
     pub paths: Vec<(RawPath, SourceMap)>,
     /// Findings about the file that belong to none of its paths.
     pub diagnostics: Vec<Diagnostic>,
-}
-
-impl Language {
-    /// Whether a layer holds clamps.
-    pub fn is_keep_out(&self, layer: &str) -> bool {
-        self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
-    }
 }
 
 impl RawPath {
@@ -129,6 +103,26 @@ impl RawPath {
             (None, Some(start)) => start.origin.at(diagnostic).in_path(self.name.as_str()),
             (None, None) => diagnostic,
         }
+    }
+
+    /// PB302 for each variable without a value, since a path with variables cannot be emitted on its own.
+    pub fn missing_values(&self, bindings: &Bindings) -> Vec<Diagnostic> {
+        let missing = self.definitions.iter().filter(|definition| bindings.get(definition.name).is_none());
+        let report = |definition: &Definition| {
+            let problem = Diagnostic::new(&messages::MISSING_VALUE)
+                .with("variable", definition.name)
+                .quoting("definition", definition.to_string());
+            let piece = self.parameters().pieces().iter().find(|piece| {
+                piece.letter == Some(Letter::Variable)
+                    && self.parameters().value(piece).starts_with(definition.name)
+            });
+            let problem = match piece {
+                Some(piece) => problem.with_text(self.parameters().fault(piece)),
+                None => problem,
+            };
+            self.at_parameters(problem)
+        };
+        missing.map(report).collect()
     }
 
     /// The cutter's diameter: O, if it is a literal and valid number.
@@ -170,4 +164,38 @@ impl SourceMap {
     pub fn positions(&self) -> &[Position] {
         &self.0
     }
+}
+
+/// What errors in the drawing of a path leave unknown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct DrawingFaults {
+    /// Letters in texts without an element: any element may lack them for that reason.
+    pub(crate) stray_letters: Letters,
+    /// Whether there is an unreadable entity, which may be anything.
+    pub(crate) has_broken_entity: bool,
+    /// Whether there are two starts, either of which may have the path's text.
+    pub(crate) has_second_start: bool,
+    /// End markers after the first.
+    pub(crate) other_ends: Vec<Xy>,
+    /// Circles without a meaning: the walk may turn or end there.
+    pub(crate) unclear_circles: Vec<Xy>,
+    /// Lines and arcs of unknown line types: the path runs along them in an unknown way.
+    pub(crate) unclear_curves: Vec<Element>,
+    /// Variables with an erroneous definition.
+    pub(crate) variables: Vec<char>,
+}
+
+/// What is unknown about a path with errors.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Faults {
+    /// Letters whose values are unknown.
+    pub(crate) letters: Letters,
+    /// Whether an error may hide I of a segment.
+    pub(crate) is_infeed_unknown: bool,
+    /// Whether the walk cannot be checked, because its start, its order or a segment is unknown.
+    pub(crate) is_walk_unknown: bool,
+    /// Possible ends of the path; empty if the end is unknown.
+    pub(crate) ends: Vec<Xy>,
+    /// See [`DrawingFaults::unclear_circles`].
+    pub(crate) unclear_circles: Vec<Xy>,
 }

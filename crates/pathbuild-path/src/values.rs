@@ -1,14 +1,18 @@
-//! The values in a parameter text, with variables substituted. (book: language/letters)
+//! The values of a parameter text: their bounds, and values that are permitted but suspicious to a machinist. (book: language/letters)
 
 use std::borrow::Cow;
 
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, TextFault};
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
+use crate::approx::above;
+use crate::language::DoubtThresholds;
 use crate::letter::{Letter, Letters};
 use crate::matrix::{ElementClass, Use};
-use crate::mistakes;
-use crate::text::{LetterValue, ParameterText, ValueKind};
+use crate::text::{
+    LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_without_value, mistake_in_text,
+    unit_mistake,
+};
 use crate::variables::Interpolation;
 
 /// The value that a text gives a letter.
@@ -69,7 +73,7 @@ impl<'t> Values<'t> {
         if text.is_plain {
             return values;
         }
-        if let Some(misreading) = mistakes::in_text(text, class) {
+        if let Some(misreading) = mistake_in_text(text, class) {
             values.filled.resize_with(text.pieces().len(), || FilledValue::Nothing);
             values.unread = misreading.unread;
             return values;
@@ -83,7 +87,7 @@ impl<'t> Values<'t> {
                 && (*letter == Letter::Variable || !text.repeats(*letter))
         };
         let has_unread = values.unread != Letters::default();
-        let is_apart = |piece: &LetterValue| has_unread && mistakes::is_without_value(text, piece);
+        let is_apart = |piece: &LetterValue| has_unread && is_without_value(text, piece);
         let mut filled = Vec::with_capacity(text.pieces().len());
         for piece in text.pieces() {
             filled.push(match piece.letter.filter(is_value) {
@@ -113,7 +117,7 @@ impl<'t> Values<'t> {
             },
             Err(Some(problem)) => {
                 let problem =
-                    mistakes::equals_sign(letter, self.text.value(piece), &problem).unwrap_or(*problem);
+                    equals_sign_mistake(letter, self.text.value(piece), &problem).unwrap_or(*problem);
                 self.report(piece, problem);
             }
             Err(None) => {}
@@ -205,7 +209,7 @@ impl<'t> Values<'t> {
 }
 
 fn no_number(letter: Letter, value: &str) -> Diagnostic {
-    if let Some(problem) = mistakes::unit(letter, value) {
+    if let Some(problem) = unit_mistake(letter, value) {
         return problem;
     }
     let is_integer = letter == Letter::N;
@@ -216,4 +220,153 @@ fn no_number(letter: Letter, value: &str) -> Diagnostic {
     };
     let visible = value.replace('\u{a0}', "\u{2423}");
     Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible)
+}
+
+/// Letters that must always be positive. (Z is not in the list of the specification, but a machine probing at feed 0 never arrives.)
+const POSITIVE: [Letter; 8] =
+    [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
+
+/// Letters that must be positive on paths and on elements with bars.
+const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
+
+/// Problems with the values that `own` gives; other values come from the path.
+pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
+    let mut limits = Limits { own, path, problems: Vec::new() };
+    limits.check_positive(&POSITIVE);
+    limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
+    // T of a probe or a subpath is the thickness there, which is unrelated to the path's depths.
+    for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != Use::Unknown) {
+        limits.check_above(Letter::T, depth, &messages::NOT_BELOW);
+    }
+    if class.has_bars() {
+        limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
+        limits.check_positive(&POSITIVE_BARS);
+    }
+    limits.problems
+}
+
+/// A usual value for a letter that must be positive.
+fn example(letter: Letter) -> &'static str {
+    match letter {
+        Letter::F => "F150",
+        Letter::I => "I0.5",
+        Letter::C => "C1",
+        Letter::O => "O2",
+        Letter::T => "T5",
+        Letter::A => "A8",
+        Letter::W => "W4",
+        Letter::Z => "Z50",
+        Letter::P => "P1",
+        _ => "U5",
+    }
+}
+
+struct Limits<'a> {
+    own: &'a Values<'a>,
+    path: &'a Values<'a>,
+    problems: Vec<Diagnostic>,
+}
+
+impl Limits<'_> {
+    fn check_positive(&mut self, letters: &[Letter]) {
+        for letter in letters {
+            let GivenNumber::Number(value) = self.own.number(*letter) else { continue };
+            if !above(value, 0.0) {
+                let problem = Diagnostic::new(&messages::NOT_POSITIVE)
+                    .with("letter", letter.as_char())
+                    .with("value", value)
+                    .quoting("example", example(*letter));
+                self.problems.push(self.own.underline(*letter, problem));
+            }
+        }
+    }
+
+    /// Checks that `upper` is greater than `lower`, if the element's own text gives either; otherwise the problem is reported at the path.
+    fn check_above(&mut self, upper: Letter, lower: Letter, message: &'static Message) {
+        if !self.own.has(upper) && !self.own.has(lower) {
+            return;
+        }
+        let value = |letter| -> GivenNumber { self.own.number(letter).or(self.path.number(letter)) };
+        let (GivenNumber::Number(high), GivenNumber::Number(low)) = (value(upper), value(lower)) else {
+            return;
+        };
+        if above(high, low) {
+            return;
+        }
+        // The message concerns the letter that can be corrected here.
+        let says_upper = *message == messages::NOT_ABOVE;
+        let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
+        let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };
+        let problem = Diagnostic::new(message)
+            .with("letter", subject.as_char())
+            .with("value", subject_value)
+            .with("limit_letter", limit.as_char())
+            .with("limit", limit_value);
+        let underlined = if self.own.has(subject) { subject } else { limit };
+        self.problems.push(self.own.underline(underlined, problem));
+    }
+}
+
+/// The finding about a mark with this bottom in mm. `is_path`: whether that is the path's D rather than the mark's own.
+pub(crate) fn check_mark(
+    bottom: f64,
+    own: &Values<'_>,
+    path: &Values<'_>,
+    limits: &DoubtThresholds,
+) -> Option<(Diagnostic, bool)> {
+    let thickness = path.number(Letter::T).number()?;
+    let depth = thickness - bottom;
+    if !above(depth, limits.mark_depth * thickness) {
+        return None;
+    }
+    let is_own = own.has(Letter::D);
+    let message = if is_own { &messages::DEEP_MARK } else { &messages::DEEP_MARKS_OF_PATH };
+    let problem = Diagnostic::new(message)
+        .with("value", bottom)
+        .with("depth", depth)
+        .with("thickness", thickness)
+        .with("example", thickness - thickness.min(SHALLOW));
+    let says = if is_own { own } else { path };
+    Some((says.underline(Letter::D, problem), !is_own))
+}
+
+/// A usual depth of a mark in mm, for help.
+const SHALLOW: f64 = 0.2;
+
+/// Findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
+pub(crate) fn check_doubts(
+    own: &Values<'_>,
+    path: &Values<'_>,
+    class: ElementClass,
+    limits: &DoubtThresholds,
+) -> Vec<Diagnostic> {
+    let value = |letter| {
+        let has_effect = !matches!(class.use_of(letter), Use::Unknown | Use::Ignored | Use::PathOnly);
+        own.number(letter).number().filter(|_| has_effect)
+    };
+    let thickness = path.number(Letter::T).number();
+    let below = value(Letter::B).filter(|bottom| above(-bottom, limits.below_plate)).map(|bottom| {
+        let depth = -bottom;
+        let problem = match thickness.filter(|thickness| above(*thickness, depth)) {
+            Some(thickness) => Diagnostic::new(&messages::BELOW_PLATE_BY_DEPTH)
+                .with("thickness", thickness)
+                .with("example", thickness - depth),
+            None => Diagnostic::new(&messages::BELOW_PLATE),
+        };
+        let problem = problem.with("value", bottom).with("depth", depth).with("limit", limits.below_plate);
+        own.underline(Letter::B, problem)
+    });
+    let infeed = value(Letter::I)
+        .zip(thickness)
+        .filter(|(infeed, thickness)| above(*infeed, limits.infeed * thickness));
+    let infeed = infeed.map(|(infeed, thickness)| {
+        let problem = Diagnostic::new(&messages::INFEED_ABOVE_THICKNESS).with("value", infeed);
+        own.underline(Letter::I, problem.with("thickness", thickness))
+    });
+    let feed = value(Letter::F).zip(limits.maximum_feed).filter(|(feed, maximum)| above(*feed, *maximum));
+    let feed = feed.map(|(feed, maximum)| {
+        let problem = Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
+        own.underline(Letter::F, problem.with("limit", maximum))
+    });
+    [below, infeed, feed].into_iter().flatten().collect()
 }

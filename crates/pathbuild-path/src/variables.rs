@@ -1,15 +1,16 @@
-//! Values of variables, and their substitution in texts. (book: language/variables)
+//! Variables: their definitions and permitted values, and the texts with their values. (book: language/variables)
 
 use std::borrow::Cow;
+use std::collections::HashSet;
+use std::fmt;
 
 use pathbuild_diagnostic::limits::{TEXT_WITH_VALUES, bytes, exceeded};
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use smol_str::SmolStr;
+use smol_str::{SmolStr, ToSmolStr};
 
-use crate::definition::Definition;
-use crate::letter::Letter;
-use crate::raw::RawPath;
+use crate::approx::at_least;
+use crate::text::parse_number;
 
 /// The values bound to a path's variables, in order of their names.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -64,28 +65,6 @@ impl Bindings {
     /// Whether there are no bindings.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
-    }
-}
-
-impl RawPath {
-    /// PB302 for each variable without a value, since a path with variables cannot be emitted on its own.
-    pub fn missing_values(&self, bindings: &Bindings) -> Vec<Diagnostic> {
-        let missing = self.definitions.iter().filter(|definition| bindings.get(definition.name).is_none());
-        let report = |definition: &Definition| {
-            let problem = Diagnostic::new(&messages::MISSING_VALUE)
-                .with("variable", definition.name)
-                .quoting("definition", definition.to_string());
-            let piece = self.parameters().pieces().iter().find(|piece| {
-                piece.letter == Some(Letter::Variable)
-                    && self.parameters().value(piece).starts_with(definition.name)
-            });
-            let problem = match piece {
-                Some(piece) => problem.with_text(self.parameters().fault(piece)),
-                None => problem,
-            };
-            self.at_parameters(problem)
-        };
-        missing.map(report).collect()
     }
 }
 
@@ -154,4 +133,168 @@ impl Interpolation<'_> {
     fn too_long(&self) -> Box<Diagnostic> {
         Box::new(exceeded(&TEXT_WITH_VALUES, bytes(self.limit as u64), "text-length"))
     }
+}
+
+/// A variable defined at the start of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// Its name, one character.
+    pub name: char,
+    /// Its permitted values.
+    pub values: AllowedValues,
+    written: SmolStr,
+}
+
+/// The values that a definition permits.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the ends as written and as numbers")]
+pub enum AllowedValues {
+    /// `-0.5~1,2`: numbers in a range that includes both ends.
+    Range { from: f64, to: f64, from_text: SmolStr, to_text: SmolStr },
+    /// `P1,P2,P3`: exactly these texts.
+    List(Vec<SmolStr>),
+    /// `?PQRS`: exactly one of these characters.
+    Characters(Vec<char>),
+}
+
+impl Definition {
+    /// Parses the `:` piece of a path's start: a name, followed by the permitted values.
+    ///
+    /// # Errors
+    /// PB301, without a place.
+    pub fn parse(value: &str) -> Result<Self, Box<Diagnostic>> {
+        let mut characters = value.chars();
+        let name = characters.next().ok_or_else(|| invalid(&messages::INVALID_DEFINITION, value))?;
+        let written = characters.as_str();
+        Ok(Self { name, values: allowed(written)?, written: written.into() })
+    }
+
+    /// Whether a value is permitted.
+    pub fn allows(&self, value: &str) -> bool {
+        match &self.values {
+            AllowedValues::Range { from, to, .. } => {
+                parse_number(value).is_some_and(|number| at_least(number, *from) && at_least(*to, number))
+            }
+            AllowedValues::List(values) => values.iter().any(|allowed| allowed == value),
+            AllowedValues::Characters(characters) => {
+                let mut value = value.chars();
+                value.next().is_some_and(|character| characters.contains(&character))
+                    && value.next().is_none()
+            }
+        }
+    }
+
+    /// The example value for checking, if the variable is the `k`-th of its path.
+    pub fn check_value(&self, k: usize) -> SmolStr {
+        match &self.values {
+            AllowedValues::Range { from_text, .. } if k.is_multiple_of(2) => from_text.clone(),
+            AllowedValues::Range { to_text, .. } => to_text.clone(),
+            AllowedValues::List(values) => values[k % values.len()].clone(),
+            AllowedValues::Characters(characters) => characters[k % characters.len()].to_smolstr(),
+        }
+    }
+
+    /// The values that `check --all-bindings` uses: all values of a list, both ends of a range.
+    pub fn corner_values(&self) -> Vec<SmolStr> {
+        match &self.values {
+            AllowedValues::Range { .. } => vec![self.check_value(0), self.check_value(1)],
+            AllowedValues::List(values) => values.clone(),
+            AllowedValues::Characters(characters) => characters.iter().map(ToSmolStr::to_smolstr).collect(),
+        }
+    }
+}
+
+/// The definition as written at the path's start.
+impl fmt::Display for Definition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.written)
+    }
+}
+
+/// Tries the forms in this order: a range may contain decimal commas, and a list may begin with a question mark.
+fn allowed(written: &str) -> Result<AllowedValues, Box<Diagnostic>> {
+    if let Some(range) = range(written) {
+        return range;
+    }
+    if written.contains(',') {
+        let clean = written.replace('?', "");
+        let values: Vec<SmolStr> = clean.split(',').map(|value| value.trim().into()).collect();
+        if values.iter().any(SmolStr::is_empty) {
+            return Err(invalid(&messages::EMPTY_ELEMENT, written));
+        }
+        return Ok(AllowedValues::List(values));
+    }
+    match written.strip_prefix('?') {
+        Some("") => Err(invalid(&messages::EMPTY_ELEMENT, written)),
+        Some(characters) => Ok(AllowedValues::Characters(characters.chars().collect())),
+        None => Err(invalid(&messages::INVALID_DEFINITION, written)),
+    }
+}
+
+/// Parses a range; `None` if it is not one.
+fn range(written: &str) -> Option<Result<AllowedValues, Box<Diagnostic>>> {
+    let (from_text, to_text) = written.split_once('~')?;
+    let (from, to) = (parse_number(from_text)?, parse_number(to_text)?);
+    if from > to {
+        return Some(Err(invalid(&messages::REVERSED_RANGE, written)));
+    }
+    Some(Ok(AllowedValues::Range { from, to, from_text: from_text.into(), to_text: to_text.into() }))
+}
+
+fn invalid(message: &'static pathbuild_diagnostic::Message, written: &str) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(message).quoting("definition", written))
+}
+
+/// Some combinations of values, and the total number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Combinations {
+    /// The combinations, up to the limit, beginning with the example values. Every value of every variable occurs in one of them if the
+    /// limit permits.
+    pub chosen: Vec<Bindings>,
+    /// The total number of combinations.
+    pub all: u64,
+}
+
+impl Combinations {
+    /// Combines all values of lists with both ends of ranges.
+    pub fn new(definitions: &[Definition], limit: usize) -> Self {
+        let values: Vec<(char, Vec<SmolStr>)> =
+            definitions.iter().map(|definition| (definition.name, corners(definition))).collect();
+        let counts = || values.iter().map(|(_, values)| values.len());
+        let all = counts().fold(1_u64, |all, count| all.saturating_mul(count as u64));
+        let longest = counts().max().unwrap_or(1);
+        // Diagonal combinations first: number k takes value k + i of the i-th variable, as the example values do. Then all others in
+        // counting order.
+        let diagonal = (0..longest).map(|k| at(&values, |index, count| (k + index) % count));
+        let counted = (0..all).map(|number| {
+            let mut rest = number;
+            at(&values, |_, count| {
+                let index = rest % count as u64;
+                rest /= count as u64;
+                usize::try_from(index).unwrap_or_default()
+            })
+        });
+        let mut seen = HashSet::new();
+        let distinct = diagonal.chain(counted).filter(|bindings| seen.insert(bindings.clone()));
+        Self { chosen: distinct.take(limit.min(usize::try_from(all).unwrap_or(limit))).collect(), all }
+    }
+}
+
+/// The values of a definition, without duplicates.
+fn corners(definition: &Definition) -> Vec<SmolStr> {
+    let mut values: Vec<SmolStr> = Vec::new();
+    for value in definition.corner_values() {
+        if !values.contains(&value) {
+            values.push(value);
+        }
+    }
+    values
+}
+
+/// The combination in which `choose` selects the value of each variable, given the variable's index and number of values.
+fn at(values: &[(char, Vec<SmolStr>)], mut choose: impl FnMut(usize, usize) -> usize) -> Bindings {
+    let value = |(index, (name, values)): (usize, &(char, Vec<SmolStr>))| {
+        (*name, values[choose(index, values.len())].clone())
+    };
+    Bindings::new(values.iter().enumerate().map(value))
 }

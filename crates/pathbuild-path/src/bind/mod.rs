@@ -1,10 +1,7 @@
 //! Binds the variables of a raw path to values, which gives a [`Path`] with every parameter resolved, inherited and checked.
 //! (book: language/letters, book: language/variables)
 
-mod circles;
 mod cuts;
-mod habits;
-mod segments;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -15,18 +12,21 @@ use regex::Regex;
 use smol_str::SmolStr;
 
 use crate::approx::above;
-use crate::element::{Cut, Element, Marker, Origin};
-use crate::faults::{DrawingFaults, Faults};
+use crate::effective::Texts;
+use crate::element::{Cut, Element, Marker, Origin, Role, Shape};
+use crate::geometry::Curve;
+use crate::language::Language;
 use crate::letter::{Letter, Letters};
-use crate::matrix::ElementClass;
-use crate::path::{CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Surface, Turn};
-use crate::raw::{Language, RawPath};
-use crate::text::{ParameterText, TextId};
-use crate::values::{GivenNumber, Values};
+use crate::matrix::{ElementClass, Use};
+use crate::path::{
+    CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
+    Surface, Turn,
+};
+use crate::raw::{DrawingFaults, Faults, RawPath};
+use crate::read::{Part, Ring, rings};
+use crate::text::{LetterValue, ParameterText, TextId};
+use crate::values::{GivenNumber, Values, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
-use crate::{doubts, limits};
-
-use segments::{Scope, UNNUMBERED};
 
 /// A path as far as it is known, with the problems of its values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -247,9 +247,9 @@ impl<'a> Binder<'a> {
             let problem = Diagnostic::new(&messages::INVALID_REGEX).with("reason", regex_reason(&error));
             problems.push(self.values.underline(Letter::E, problem));
         }
-        problems.extend(limits::check(&self.values, &self.values, ElementClass::PathStart));
+        problems.extend(check_limits(&self.values, &self.values, ElementClass::PathStart));
         let doubts = &self.language.doubts;
-        problems.extend(doubts::check(&self.values, &self.values, ElementClass::PathStart, doubts));
+        problems.extend(check_doubts(&self.values, &self.values, ElementClass::PathStart, doubts));
         for problem in problems {
             self.report_at_start(problem);
         }
@@ -269,8 +269,7 @@ impl<'a> Binder<'a> {
     fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
-        let doubt =
-            (cut == Cut::Mark).then(|| doubts::check_mark(bottom, scope.values, &self.values, doubts));
+        let doubt = (cut == Cut::Mark).then(|| check_mark(bottom, scope.values, &self.values, doubts));
         match doubt.flatten() {
             Some((problem, false)) => self.report(scope.at, problem),
             Some((problem, true)) if !self.has_doubtful_marks => {
@@ -303,8 +302,8 @@ impl<'a> Binder<'a> {
         }
         let mut values = Values::of(text, class, &self.interpolation);
         let mut problems = std::mem::take(&mut values.problems);
-        problems.append(&mut limits::check(&values, &self.values, class));
-        problems.append(&mut doubts::check(&values, &self.values, class, &self.language.doubts));
+        problems.append(&mut check_limits(&values, &self.values, class));
+        problems.append(&mut check_doubts(&values, &self.values, class, &self.language.doubts));
         for problem in problems {
             self.report(at, problem);
         }
@@ -365,4 +364,189 @@ pub fn regex_reason(error: &regex::Error) -> Value {
     let text = error.to_string();
     let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
     Value::foreign(last.trim().trim_start_matches("error: "))
+}
+
+/// Order of elements without N. (book: language/chains-and-passes)
+const UNNUMBERED: f64 = 9998.0;
+
+impl Binder<'_> {
+    fn bind_segments(&mut self, tool: Option<f64>) {
+        let raw = self.raw;
+        let mut segments = std::mem::take(&mut self.segments);
+        segments.reserve(raw.drawn.elements.len());
+        self.cuts.reserve(raw.drawn.elements.len());
+        for (number, element) in (0_u32..).zip(&raw.drawn.elements) {
+            let segment = |order, kind| Segment { element: number, order, kind };
+            match (element.role, &element.shape) {
+                (Role::Cut(cut), Shape::Curve(curve)) => {
+                    let (order, parameters) = self.cut(element, cut, curve, tool);
+                    segments.push(segment(order, SegmentKind::Cut(parameters)));
+                }
+                (Role::Cut(cut), Shape::Circle { centre, radius }) => {
+                    let (order, kind) = self.circle(element, cut, *centre, *radius, tool);
+                    segments.push(segment(order, kind));
+                }
+                // Their texts are ignored.
+                (Role::SilentSweep | Role::SkippedSubpath, _) => {
+                    segments.push(segment(UNNUMBERED, SegmentKind::Sweep { height: None }));
+                }
+                _ => segments.extend(self.other(element).map(|(order, kind)| segment(order, kind))),
+            }
+        }
+        self.segments = segments;
+    }
+
+    /// The segment for any other element, with its order at a star.
+    fn other(&mut self, element: &Element) -> Option<(f64, SegmentKind)> {
+        let Shape::Curve(curve) = element.shape else { return None };
+        let class = element.class(None);
+        let values =
+            self.element_values(FaultSite::Element(element), self.raw.drawn.text(element.text), class);
+        let scope = Scope { at: FaultSite::Element(element), class, values: &values };
+        let order = self.order(&scope);
+        if element.role != Role::Subpath {
+            return Some((order, SegmentKind::Sweep { height: self.value(&scope, Letter::S) }));
+        }
+        // A faulty text may hide the name of the embedded path, so it is not required.
+        if values.is_unknown(Letter::Embed) || values.text(Letter::Embed) == Some("") && has_unread(&values) {
+            return Some((order, SegmentKind::Sweep { height: None }));
+        }
+        let subpath = self.subpath(element, &scope, curve);
+        Some((order, SegmentKind::Subpath(Box::new(subpath))))
+    }
+
+    /// N of an element, or the default order.
+    fn order(&mut self, scope: &Scope<'_>) -> f64 {
+        self.unknown.order |=
+            scope.values.number(Letter::N) == GivenNumber::Faulty && scope.values.has(Letter::N);
+        self.value(scope, Letter::N).unwrap_or(UNNUMBERED)
+    }
+
+    fn subpath(&mut self, element: &Element, scope: &Scope<'_>, curve: Curve) -> Subpath {
+        let values = scope.values;
+        let [thickness, tool] = [Letter::T, Letter::O].map(|letter| self.value(scope, letter));
+        let is_material_unknown = values.is_unknown(Letter::M)
+            || values.text(Letter::M).is_none() && self.values.is_unknown(Letter::M);
+        let unknown =
+            [(Letter::T, thickness.is_none()), (Letter::O, tool.is_none()), (Letter::M, is_material_unknown)];
+        let unknown = unknown.into_iter().filter(|(_, is_unknown)| *is_unknown);
+        let own_text = |letter| values.text(letter).map(SmolStr::from);
+        let value = |(value, piece): (&str, &LetterValue)| {
+            let mut characters = value.chars();
+            let variable = characters.next();
+            let text = values.underlined(piece);
+            SubpathValue { variable, value: characters.as_str().into(), text }
+        };
+        Subpath {
+            start: curve.start(),
+            end: curve.end(),
+            name: self.subpath_name(values, self.raw.drawn.text(element.text)),
+            thickness: thickness.unwrap_or_default(),
+            tool: tool.unwrap_or_default(),
+            unknown: unknown.fold(Letters::default(), |all, (letter, _)| all.and(Letters::of(&[letter]))),
+            material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
+            height: scope.texts(&self.values).number_or_default(Letter::H).unwrap_or_default(),
+            values: values.variables().map(value).collect(),
+            text: element.text,
+        }
+    }
+
+    fn subpath_name(&self, values: &Values<'_>, text: Option<ParameterText<'_>>) -> SubpathName {
+        let Some(value) = values.text(Letter::Embed) else {
+            return SubpathName::Missing { text: text.map(ParameterText::whole) };
+        };
+        match self.language.path_pattern.find(value) {
+            None => SubpathName::Invalid { value: value.into() },
+            Some((name, range)) => {
+                let has_more = range.len() < value.len();
+                SubpathName::Found { name: name.into(), has_more: has_more.then(|| value.into()) }
+            }
+        }
+    }
+
+    /// The value of a letter for an element by the table of letters: its own or the path's. PB201 if it is required and neither gives it.
+    fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
+        let given = scope.texts(&self.values).number(letter);
+        // A letter that every path must have is reported once, at the path's start.
+        let is_missing_here = || ElementClass::PathStart.use_of(letter) != Use::Needed;
+        if scope.class.use_of(letter) == Use::Needed && given == GivenNumber::Absent && is_missing_here() {
+            let problem = Diagnostic::new(&messages::MISSING)
+                .with("letter", letter.as_char())
+                .with("element", scope.class.word());
+            self.report(scope.at, problem);
+        }
+        self.unknown.needed |= scope.class.use_of(letter) == Use::Needed && given.number().is_none();
+        self.unknown.infeed |= letter == Letter::I && given == GivenNumber::Faulty;
+        given.number()
+    }
+}
+
+/// Whether a text contains pieces that do not begin with a letter.
+fn has_unread(values: &Values<'_>) -> bool {
+    values.unread != Letters::default()
+}
+
+/// The element whose values are looked up.
+struct Scope<'a> {
+    at: FaultSite<'a>,
+    class: ElementClass,
+    values: &'a Values<'a>,
+}
+
+impl<'a> Scope<'a> {
+    /// The texts that can give the element its parameters. Chains are not known yet, so the letters of chains come from the element itself.
+    fn texts(&self, path: &'a Values<'a>) -> Texts<'a, 'a> {
+        Texts { class: self.class, own: self.values, chain: None, path }
+    }
+}
+
+/// Appends an item and returns its index.
+fn pushed<T>(list: &mut Vec<T>, thing: T) -> u32 {
+    list.push(thing);
+    u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
+}
+
+/// The letters that only apply to support bars.
+const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
+
+impl Binder<'_> {
+    /// Reports W of a path without a chain, and missing support bars of an outline.
+    fn check_habits(&mut self) {
+        let is_chain =
+            |element: &Element| matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)));
+        if self.values.has(Letter::W) && !self.raw.drawn.elements.iter().any(is_chain) {
+            let problem = Diagnostic::new(&messages::FIRST_DEPTH_WITHOUT_CHAIN);
+            let problem = problem.with("letter", Letter::W.as_char());
+            self.report_at_start(self.values.underline(Letter::W, problem));
+        }
+        if BAR_LETTERS.into_iter().any(|letter| self.values.has(letter)) {
+            self.check_bars();
+        }
+    }
+
+    /// PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose.
+    fn check_bars(&mut self) {
+        let elements = &self.raw.drawn.elements;
+        if elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {
+            return;
+        }
+        let outline = self.segments.iter().filter_map(|segment| {
+            let SegmentKind::Cut(cut) = segment.kind else { return None };
+            let cut = &self.cuts[cut as usize];
+            let Shape::Curve(curve) = elements[segment.element as usize].shape else { return None };
+            (cut.cut == Cut::Mill && !above(cut.bottom, 0.0)).then_some((segment.element, curve))
+        });
+        let part = |(entity, curve): (u32, Curve)| Part { curve, group: None, entity: entity as usize };
+        let parts: Vec<Part> = outline.map(part).collect();
+        let closed = rings(&parts).into_iter().find_map(|ring| match ring {
+            Ring::Closed(parts) => parts.iter().map(|part| part.entity).min(),
+            Ring::Open { .. } | Ring::Branch { .. } => None,
+        });
+        let Some(first) = closed else { return };
+        let letters = BAR_LETTERS.into_iter().filter(|letter| self.values.has(*letter));
+        let letters: Value = letters.map(|letter| letter.as_char().to_string()).collect();
+        let problem = Diagnostic::new(&messages::LOST_BARS).with("letters", letters);
+        let problem = problem.in_path(self.raw.name.as_str());
+        self.problems.push(self.raw.drawn.origin(&elements[first]).at(problem));
+    }
 }

@@ -1,17 +1,15 @@
 //! Checks embeddings. The order of errors: book: reference/diagnostics.
 
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value, is_slip};
 use regex::Regex;
 
-use super::near::with_near_names;
-use super::restriction::Restriction;
-use super::signature::{PathHeader, PathSignature, SubpathCall};
 use crate::approx::{at_least, near};
-use crate::definition::Definition;
+use crate::embedding::{PathHeader, PathSignature, Restriction, SubpathCall};
 use crate::letter::Letter;
 use crate::names::{PathName, PathPattern};
 use crate::path::{SubpathName, SubpathValue};
+use crate::variables::Definition;
 
 /// Checks the subpath segments of one path. All diagnostics carry the path and the place of the segment.
 #[derive(Debug)]
@@ -284,4 +282,28 @@ impl<'a> Judge<'a> {
 fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.severity = Severity::Warning;
     diagnostic
+}
+
+/// Names that a note lists at most.
+const MOST: usize = 5;
+
+/// Adds a note to a finding about a path that none of the searched drawings defines: the names of which `name` may be a misspelling, else
+/// all names there are in these drawings.
+pub fn with_near_names(problem: Diagnostic, name: &PathName, mut known: Vec<PathName>) -> Diagnostic {
+    known.sort();
+    known.dedup();
+    let similar = known.iter().filter(|other| is_slip(name.as_str(), other.as_str()));
+    let similar: Vec<&PathName> = similar.take(MOST).collect();
+    match (similar.as_slice(), known.as_slice()) {
+        ([], []) => problem,
+        ([], known) => {
+            let others = (known.len() > MOST).then_some("...");
+            let known = known.iter().take(MOST).map(PathName::as_str).chain(others).collect::<Value>();
+            problem.note(&messages::NAMES_THERE, vec![("names", known)])
+        }
+        (similar, _) => {
+            let similar = similar.iter().map(|name| name.as_str()).collect::<Value>();
+            problem.note(&messages::NEAR_NAMES, vec![("names", similar)])
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Path names and path layers, and the patterns by which layers and files are named after paths. (book: language/layers-and-names)
 
-mod files;
+pub(crate) mod files;
 mod pattern;
 
 use std::borrow::Cow;
@@ -13,10 +13,6 @@ use smol_str::SmolStr;
 
 use pattern::{DefaultPattern, Groups, Pattern};
 
-pub use files::{
-    FilePattern, NameRange, PathKey, RangeTable, is_q_project, judge_file_name, q_project_name,
-    tested_by_q_project,
-};
 pub(crate) use pattern::LazyRegex;
 pub use pattern::PatternError;
 

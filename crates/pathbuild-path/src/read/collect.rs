@@ -1,24 +1,26 @@
-//! Collects the entities of each path.
+//! Collects the entities of each path and determines their meaning. (book: language/line-types, book: language/markers)
 
 use std::mem::take;
-use std::sync::Arc;
+use std::sync;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Message, Point, Value, words};
-use pathbuild_dxf::Drawing;
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Message, Point, Value};
+use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use smol_str::SmolStr;
 
-use super::Starts;
-use super::checked::PathCheck;
-use super::layers::{FoundLayer, Membership, PathLayers};
-use super::texts::Texts;
-use crate::assign::Candidate;
-use crate::element::{Element, Marker, MeantMarker, Shape};
-use crate::faults::DrawingFaults;
-use crate::geometry::Curve;
-use crate::line_type::LineTypes;
-use crate::names::PathName;
-use crate::raw::{DrawnElements, Language, Position, RawPath, SourceMap};
+use crate::approx::near;
+use crate::element::{
+    CircleMeaning, Cut, Element, Marker, MeantMarker, Origin, Role, Shape, Source, circle_meaning, curve_role,
+};
+use crate::geometry::{Curve, Line, Xy};
+use crate::language::Language;
+use crate::line_type::{LineType, LineTypes};
+use crate::names::{PathName, PathPattern};
+use crate::raw::{DrawingFaults, DrawnElements, Position, RawPath, SourceMap};
+use crate::read::candidates::{Candidate, Owner};
+use crate::read::entities::{plane_arc, xy};
+use crate::read::parameters::{PathCheck, Starts};
+use crate::read::texts::Texts;
 use crate::text::ParameterTexts;
 
 /// A path whose entities are being collected.
@@ -59,17 +61,6 @@ pub(super) struct SharedProblem {
     pub(super) message: &'static Message,
     index: usize,
     count: usize,
-}
-
-/// The owner of a text that belongs to a candidate.
-#[derive(Clone, Copy)]
-pub(crate) enum Owner {
-    Start,
-    Probe(usize),
-    /// An element of the path, by its index.
-    Element(usize),
-    /// An element with errors of its own.
-    Faulty,
 }
 
 /// The paths of a drawing in order of first appearance, before their texts are assigned.
@@ -182,7 +173,7 @@ impl PathCollector<'_> {
             end: ends.next(),
             turns: self.turns,
             probes: self.probes,
-            drawn: Arc::new(drawn),
+            drawn: sync::Arc::new(drawn),
             parameters: None,
             borrowed_from: None,
             definitions: Vec::new(),
@@ -201,7 +192,7 @@ impl PathCollector<'_> {
     }
 
     /// Reports a problem at the first element that has it, and counts the others.
-    pub(super) fn report_shared(&mut self, line_type: &str, diagnostic: Diagnostic) {
+    fn report_shared(&mut self, line_type: &str, diagnostic: Diagnostic) {
         let message = diagnostic.message;
         let is_same = |known: &&mut SharedProblem| known.message == message && known.line_type == line_type;
         if let Some(known) = self.shared.iter_mut().find(is_same) {
@@ -242,7 +233,7 @@ impl PathCollector<'_> {
         self.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
     }
 
-    pub(super) fn next_id(&mut self, position: Position) -> ElementId {
+    fn next_id(&mut self, position: Position) -> ElementId {
         let id = u32::try_from(self.map.positions().len()).unwrap_or(u32::MAX);
         self.map.push(position);
         ElementId(id)
@@ -268,11 +259,342 @@ impl PathCollector<'_> {
     }
 }
 
-/// The name of an element that takes texts, for messages.
-pub(crate) fn candidate_word(candidate: &Candidate) -> &'static pathbuild_diagnostic::Text {
-    match candidate.owner {
-        Owner::Start => &words::PATH_START,
-        Owner::Probe(_) => &words::PROBE,
-        Owner::Element(_) | Owner::Faulty => candidate.shape.word(),
+/// The path layers of a drawing.
+pub(super) struct PathLayers {
+    /// The path layers in file order, except that the layers of a path follow its first one.
+    found: Vec<FoundLayer>,
+    /// The memberships by layer number.
+    memberships: Vec<Option<Membership>>,
+}
+
+/// A path layer.
+pub(super) struct FoundLayer {
+    /// The name of its path, as spelt by the layer.
+    pub(super) path: PathName,
+    /// Its number among the layers of the drawing.
+    pub(super) number: usize,
+    /// The number of the first layer of its path.
+    first: usize,
+}
+
+/// The place of a layer in a path.
+#[derive(Clone, Copy)]
+pub(super) struct Membership {
+    /// Index of the path in the drawing.
+    pub(super) path: usize,
+    /// Index of the layer in the path.
+    pub(super) layer: u32,
+}
+
+impl PathLayers {
+    /// Finds the path layers of a drawing.
+    pub(super) fn find(drawing: &Drawing, pattern: &PathPattern) -> Self {
+        let layer = |(number, layer): (usize, &Layer)| {
+            let path = pattern.layer(&layer.name)?.path;
+            Some(FoundLayer { path, number, first: number })
+        };
+        let mut found: Vec<FoundLayer> = drawing.layers.iter().enumerate().filter_map(layer).collect();
+        found.sort_by(|one, other| one.path.cmp(&other.path));
+        for of_path in found.chunk_by_mut(|one, other| one.path == other.path) {
+            let first = of_path[0].number;
+            for layer in of_path {
+                layer.first = first;
+            }
+        }
+        found.sort_by_key(|layer| layer.first);
+        let mut memberships = vec![None; drawing.layers.len()];
+        for (path, layers) in by_path(&found).enumerate() {
+            for (layer, found) in (0_u32..).zip(layers) {
+                memberships[found.number] = Some(Membership { path, layer });
+            }
+        }
+        Self { found, memberships }
+    }
+
+    /// The layers of each path, in order of first appearance.
+    fn by_path(&self) -> impl Iterator<Item = &[FoundLayer]> {
+        by_path(&self.found)
+    }
+
+    /// The membership of a layer; `None` if it is not a path layer.
+    pub(super) fn membership(&self, layer: u32) -> Option<Membership> {
+        self.memberships[layer as usize]
+    }
+}
+
+fn by_path(found: &[FoundLayer]) -> impl Iterator<Item = &[FoundLayer]> {
+    found.chunk_by(|one, other| one.first == other.first)
+}
+
+/// An entity on one of a path's layers.
+#[derive(Clone, Copy)]
+struct LayerEntity<'d> {
+    source: Source,
+    entity: &'d Entity,
+    line_type: Option<LineType>,
+}
+
+impl<'d> PathCollector<'d> {
+    /// Adds the next entity in file order.
+    pub(super) fn add(
+        &mut self,
+        entity: &'d Entity,
+        layer: u32,
+        position: Position,
+        line_types: &mut LineTypes<'_, 'd>,
+    ) {
+        let source = Source { id: self.next_id(position), entity: entity.kind, layer };
+        let found = |line_type| LayerEntity { source, entity, line_type };
+        match &entity.geometry {
+            Geometry::Text(text) => self.texts.add_text(text, source),
+            Geometry::MText(text) => self.texts.add_mtext(text, source),
+            Geometry::Circle(circle) => {
+                self.check_plane(source, &[circle.centre], xy(circle.centre));
+                let found = found(line_types.get(&entity.line_type));
+                self.add_circle(&found, xy(circle.centre), circle.radius);
+            }
+            Geometry::Line(line) => {
+                let curve = Curve::Line(Line { start: xy(line.start), end: xy(line.end) });
+                self.check_plane(source, &[line.start, line.end], curve.start());
+                self.add_curve(&found(line_types.get(&entity.line_type)), curve);
+            }
+            Geometry::Arc(arc) => {
+                let curve = Curve::Arc(plane_arc(arc));
+                self.check_plane(source, &[arc.centre], curve.start());
+                self.add_curve(&found(line_types.get(&entity.line_type)), curve);
+            }
+        }
+    }
+
+    fn origin(&self, source: Source, point: Xy) -> Origin {
+        self.texts.origin(source, point)
+    }
+
+    fn check_plane(&mut self, source: Source, points: &[Point3], begin: Xy) {
+        self.has_elements = true;
+        // The usual case.
+        if points.iter().all(|point| point.z == 0.0) {
+            return;
+        }
+        if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
+            let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
+            self.report_shared("", self.origin(source, begin).at(problem));
+        }
+    }
+
+    fn add_curve(&mut self, found: &LayerEntity<'_>, curve: Curve) {
+        let shape = Shape::Curve(curve);
+        let Some(role) = found.line_type.and_then(curve_role) else {
+            self.add_unknown(found, shape);
+            let element = Element { source: found.source, shape, role: Role::SilentSweep, text: None };
+            return self.faults.unclear_curves.push(element);
+        };
+        self.add_element(found, shape, role);
+    }
+
+    fn add_circle(&mut self, found: &LayerEntity<'_>, centre: Xy, radius: f64) {
+        let shape = Shape::Circle { centre, radius };
+        let Some(line_type) = found.line_type else {
+            let like = LineType::like(&found.entity.line_type).unwrap_or(LineType::Phantom);
+            self.add_unclear(found, shape, MeantMarker::of(like, radius));
+            return self.add_unknown(found, shape);
+        };
+        match circle_meaning(line_type, radius) {
+            CircleMeaning::Cut(cut) => self.add_element(found, shape, Role::Cut(cut)),
+            CircleMeaning::Start => self.add_start(found, shape),
+            CircleMeaning::End => self.ends.push(self.marker(found, centre)),
+            CircleMeaning::Turn => self.turns.push(self.marker(found, centre)),
+            CircleMeaning::IgnoredProbe => self.candidate(found, shape, Owner::Faulty),
+            CircleMeaning::Probe => {
+                self.candidate(found, shape, Owner::Probe(self.probes.len()));
+                self.probes.push(self.marker(found, centre));
+            }
+            CircleMeaning::UnknownLineType => self.add_unknown(found, shape),
+            CircleMeaning::UnknownDiameter => {
+                let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
+                    .quoting("line_type", &*found.entity.line_type)
+                    .with("diameter", exact(2.0 * radius));
+                self.report(self.origin(found.source, centre).at(diagnostic));
+                let is_phantom = line_type == LineType::Phantom;
+                let meant = if is_phantom { MeantMarker::of_radius(radius) } else { MeantMarker::Other };
+                self.add_unclear(found, shape, meant);
+                self.candidate(found, shape, Owner::Faulty);
+            }
+        }
+    }
+
+    fn add_unclear(&mut self, found: &LayerEntity<'_>, shape: Shape, meant: MeantMarker) {
+        let marker = self.marker(found, shape.point());
+        self.faults.unclear_circles.push(marker.at);
+        self.unclear.push(UnclearCircle { marker, shape, meant });
+    }
+
+    fn marker(&self, found: &LayerEntity<'_>, at: Xy) -> Marker {
+        Marker { origin: self.origin(found.source, at), at, text: None }
+    }
+
+    fn add_start(&mut self, found: &LayerEntity<'_>, shape: Shape) {
+        let marker = self.marker(found, shape.point());
+        if let Some(first) = &self.start {
+            let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
+                .quoting("name", self.name.as_str())
+                .with("first", first.origin.point);
+            self.candidate(found, shape, Owner::Faulty);
+            self.faults.has_second_start = true;
+            return self.report(marker.origin.at(diagnostic));
+        }
+        self.candidate(found, shape, Owner::Start);
+        self.start = Some(marker);
+    }
+
+    /// Adds an element with a meaningless line type. It still takes its text, which would otherwise be reported as belonging to nothing.
+    fn add_unknown(&mut self, found: &LayerEntity<'_>, shape: Shape) {
+        let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
+        let name = &*found.entity.line_type;
+        let like = LineType::like(name);
+        let (message, shown) = match (found.line_type, like) {
+            (Some(_), _) => (&messages::LINE_TYPE_ON_ENTITY, None),
+            (None, Some(like)) => (&messages::LINE_TYPE_LIKE_ANOTHER, Some(like.name())),
+            (None, None) => (&messages::UNKNOWN_LINE_TYPE, None),
+        };
+        let mut diagnostic = Diagnostic::new(message)
+            .quoting("line_type", name)
+            .with("element", shape.word())
+            .with("known", known);
+        if let Some(like) = shown {
+            diagnostic = diagnostic.quoting("like", like);
+        }
+        self.report_shared(name, self.origin(found.source, shape.point()).at(diagnostic));
+        self.candidate(found, shape, Owner::Faulty);
+    }
+
+    fn add_element(&mut self, found: &LayerEntity<'_>, shape: Shape, role: Role) {
+        if role != Role::SilentSweep {
+            self.candidate(found, shape, Owner::Element(self.elements.len()));
+        }
+        self.elements.push(Element { source: found.source, shape, role, text: None });
+    }
+
+    fn candidate(&mut self, found: &LayerEntity<'_>, shape: Shape, owner: Owner) {
+        let LayerEntity { source, entity, .. } = *found;
+        let candidate = Candidate { id: source.id, shape, group: entity.group, owner, is_taken: false };
+        self.texts.add_candidate(source.layer, candidate);
+    }
+}
+
+/// A length with enough digits to distinguish it from a similar one: 1.0001, not 1.
+fn exact(length: f64) -> Value {
+    let is_shown = (length * 1000.0 - (length * 1000.0).round()).abs() <= 1e-6;
+    if is_shown { length.into() } else { Value::quoted(format!("{length:.9}").trim_end_matches('0')) }
+}
+
+/// Radii of the markers, in mm.
+const END: f64 = 1.0;
+const TURN: f64 = 0.75;
+const PROBE: f64 = 3.0;
+
+impl PathCollector<'_> {
+    /// Chooses the circles that were probably meant as start and end. Each problem has been reported already, or is reported here.
+    fn settle_markers(&mut self, texts: &mut Texts<'_>) {
+        let mut has_other_line_type = false;
+        if self.start.is_none() {
+            self.start = self.take_unclear(MeantMarker::Start).or_else(|| self.circle_with_path_text(texts));
+            if self.start.is_none() {
+                self.start = self.element_with_path_text(texts);
+                has_other_line_type = self.start.is_some();
+            }
+            if let Some(start) = &self.start {
+                texts.give_to_start(start);
+            }
+        }
+        if self.ends.is_empty() {
+            let end = self.take_unclear(MeantMarker::End);
+            let end = end.or_else(|| has_other_line_type.then(|| self.element_like_end(texts)).flatten());
+            self.ends.extend(end);
+        }
+        let first = self.ends.first().map(|end| end.origin.point);
+        for end in self.ends.iter().skip(1).map(|end| end.origin.clone()).collect::<Vec<_>>() {
+            let problem = Diagnostic::new(&messages::TWO_ENDS).quoting("name", self.name.as_str());
+            self.report(end.at(problem.with("first", first.unwrap_or(end.point))));
+        }
+    }
+
+    /// The first circle of unknown line type with the diameter of this marker.
+    fn take_unclear(&mut self, meant: MeantMarker) -> Option<Marker> {
+        let index = self.unclear.iter().position(|circle| circle.meant == meant)?;
+        let marker = self.unclear.remove(index).marker;
+        self.faults.unclear_circles.retain(|point| *point != marker.at);
+        Some(marker)
+    }
+
+    /// A circle that is not a start marker but has the text of one. PB101 is reported there.
+    fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
+        let unclear = self.unclear.iter();
+        let unclear = unclear.map(|circle| (&circle.marker, circle.shape.radius().unwrap_or_default()));
+        let ends = self.ends.iter().map(|end| (end, END));
+        let turns = self.turns.iter().map(|turn| (turn, TURN));
+        let probes = self.probes.iter().map(|probe| (probe, PROBE));
+        let circles: Vec<(&Marker, f64)> = ends.chain(unclear).chain(turns).chain(probes).collect();
+        let (marker, radius) =
+            circles.into_iter().find(|(marker, radius)| texts.has_path_text(marker, *radius))?;
+        let marker = marker.clone();
+        let problem = self.missing(&messages::MISSING_START, &marker).note(
+            &messages::MEANT_AS_START,
+            vec![("point", marker.origin.point.into()), ("diameter", (2.0 * radius).into())],
+        );
+        self.report(marker.origin.at(problem));
+        for markers in [&mut self.ends, &mut self.turns, &mut self.probes] {
+            markers.retain(|other| other.origin.id != marker.origin.id);
+        }
+        Some(marker)
+    }
+
+    /// A circle to mill or drill that has the text of a start: its line type was lost. PB101 is reported there.
+    fn element_with_path_text(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
+        let circles = self.elements.iter().enumerate();
+        let mut circles = circles.filter_map(|(index, element)| Some((index, element.shape.radius()?)));
+        let index = circles
+            .find(|(index, radius)| texts.has_path_text(&self.marker_of(*index, texts), *radius))
+            .map(|(index, _)| index)?;
+        let marker = self.take_element(index, texts);
+        let problem = self
+            .missing(&messages::MISSING_START, &marker)
+            .note(&messages::MEANT_AS_PHANTOM_START, vec![("point", marker.origin.point.into())]);
+        self.report(marker.origin.at(problem));
+        Some(marker)
+    }
+
+    /// The only circle to mill that has the diameter of an end marker, in a path whose start has lost its line type. PB102 is reported there.
+    fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
+        let is_like_end = |element: &Element| {
+            element.role == Role::Cut(Cut::Mill)
+                && element.shape.radius().is_some_and(|radius| near(radius, END))
+        };
+        let mut like_end = self.elements.iter().enumerate().filter(|(_, element)| is_like_end(element));
+        let (Some((index, _)), None) = (like_end.next(), like_end.next()) else { return None };
+        let marker = self.take_element(index, texts);
+        let problem = self
+            .missing(&messages::MISSING_END, &marker)
+            .note(&messages::MEANT_AS_PHANTOM_END, vec![("point", marker.origin.point.into())]);
+        self.report(marker.origin.at(problem));
+        Some(marker)
+    }
+
+    fn missing(&self, message: &'static Message, marker: &Marker) -> Diagnostic {
+        Diagnostic::new(message).quoting("name", self.name.as_str()).quoting("layer", &*marker.origin.layer)
+    }
+
+    /// The marker that a circle among the elements would be.
+    fn marker_of(&self, index: usize, texts: &Texts<'_>) -> Marker {
+        let element = &self.elements[index];
+        let at = element.shape.point();
+        Marker { origin: texts.origin(element.source, at), at, text: None }
+    }
+
+    fn take_element(&mut self, index: usize, texts: &mut Texts<'_>) -> Marker {
+        let marker = self.marker_of(index, texts);
+        self.elements.remove(index);
+        texts.forget_element(index);
+        marker
     }
 }

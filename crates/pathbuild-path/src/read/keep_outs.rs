@@ -7,18 +7,15 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use smol_str::SmolStr;
 
-use super::at_entity;
-use super::found_text::AnyText;
-use super::meaning::{plane_arc, xy};
-use super::rings::{Part, Ring, rings};
 use crate::approx::near;
 use crate::element::shown;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
+use crate::language::Language;
 use crate::letter::Letter;
-use crate::raw::Language;
+use crate::read::entities::{AnyText, TextCircle, at_entity, plane_arc, xy};
+use crate::read::rings::{Part, Ring, rings};
 use crate::text::{ParameterText, ParameterTexts, ValueKind, without_percent_codes};
-use crate::text_circle::TextCircle;
 
 /// The clamps of a drawing. At least the layers with clamps must have been read.
 pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {

@@ -1,16 +1,23 @@
-//! Lists the element of each text, for display. (book: language/parameter-texts)
+//! Lists the element of each text, for display, and proxy lines, which are drawn beside the path of a component for copying into projects.
+//! (book: language/parameter-texts, book: language/q-projects)
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::{ElementId, EntityKind};
-use pathbuild_dxf::{Drawing, Entity};
+use pathbuild_diagnostic::{ElementId, EntityKind, TextFault};
+use pathbuild_dxf::{Drawing, Entity, Geometry};
 
-use super::collect::{self, PathCollector};
-use super::texts::Match;
-use crate::element::Shape;
+use crate::element::{Origin, Shape, Source};
+use crate::geometry::{Curve, Line};
+use crate::language::Language;
+use crate::letter::Letter;
+use crate::line_type::LineType;
 use crate::names::PathName;
-use crate::raw::{Language, Position};
-use crate::text_circle::TextCircle;
+use crate::raw::Position;
+use crate::read::candidates::{Candidate, Owner};
+use crate::read::collect::{self, PathCollector};
+use crate::read::entities::{TextCircle, plane_arc, xy};
+use crate::read::texts::{Match, Texts};
+use crate::text::{LetterValue, ParameterText, ParameterTexts};
 
 /// A text on a path layer, with its elements.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,4 +102,106 @@ fn entities_by_path<'d>(drawing: &'d Drawing, language: &Language) -> BTreeMap<P
         }
     }
     entities
+}
+
+/// A DASHDOT line or arc with the text of a subpath, on a layer that is not a path layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProxyLine {
+    /// The line or arc. Its number belongs to no path; use `position`.
+    pub origin: Origin,
+    /// Its position in the file.
+    pub position: Position,
+    /// The drawn curve.
+    pub curve: Curve,
+    /// The text, which contains a `>`.
+    text: ParameterTexts,
+}
+
+impl ProxyLine {
+    /// Its text.
+    pub fn text(&self) -> ParameterText<'_> {
+        self.text.first().unwrap_or_default()
+    }
+
+    /// The path that it represents; `None` if `>` is not followed by a path name.
+    pub fn name(&self, language: &Language) -> Option<PathName> {
+        let (value, _) = self.value(Letter::Embed)?;
+        language.path_pattern.find(value).map(|(name, _)| name).filter(|name| !name.is_part_of_word(value))
+    }
+
+    /// The value of a letter. `None` if it refers to variables, which belong to the project it is copied into.
+    pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
+        self.known(self.text().piece(letter)?)
+    }
+
+    /// The values that it sets, by variable.
+    pub fn variables(&self) -> impl Iterator<Item = (char, &str)> {
+        let pieces = self.text().pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
+        pieces.filter_map(|piece| {
+            let mut value = self.known(piece)?.0.chars();
+            Some((value.next()?, value.as_str()))
+        })
+    }
+
+    fn known(&self, piece: &LetterValue) -> Option<(&str, TextFault)> {
+        let value = self.text().value(piece);
+        (!value.contains('=')).then(|| (value, self.text().fault(piece)))
+    }
+}
+
+/// The proxy lines of a drawing in file order. The drawing must contain all layers; other texts and lines are ignored.
+pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
+    let is_path: Vec<bool> =
+        drawing.layers.iter().map(|layer| language.path_pattern.is_layer(&layer.name)).collect();
+    let (mut texts, mut curves) = (Texts::default(), BTreeMap::new());
+    for layer in &drawing.layers {
+        texts.add_layer(&layer.name);
+    }
+    for (id, entity) in (0_u32..).map(ElementId).zip(&drawing.entities) {
+        if is_path[entity.layer as usize] {
+            continue;
+        }
+        let source = Source { id, entity: entity.kind, layer: entity.layer };
+        match &entity.geometry {
+            Geometry::Text(text) if is_subpath(&text.string) => {
+                texts.add_text(text, source);
+            }
+            Geometry::MText(text) if is_subpath(&text.plain) => {
+                texts.add_mtext(text, source);
+            }
+            _ => {
+                let Some(curve) = dash_dotted(entity, language) else { continue };
+                let shape = Shape::Curve(curve);
+                let group = entity.group;
+                let candidate = Candidate { id, shape, group, owner: Owner::Faulty, is_taken: false };
+                texts.add_candidate(entity.layer, candidate);
+                curves.insert(id, (texts.origin(source, curve.start()), curve));
+            }
+        }
+    }
+    let with_text = texts.matched().into_iter().filter_map(|found| {
+        let (id, _) = found.owners.first()?;
+        let (origin, curve) = curves.remove(id)?;
+        let at = drawing.origins.get(id.0 as usize)?;
+        let position = Position { line: at.line, handle: at.handle };
+        Some(ProxyLine { origin, position, curve, text: (&*found.string).into() })
+    });
+    let mut lines: Vec<ProxyLine> = with_text.collect();
+    lines.sort_by_key(|line| line.origin.id);
+    lines
+}
+
+fn is_subpath(text: &str) -> bool {
+    ParameterTexts::from(text).first().is_some_and(|text| text.piece(Letter::Embed).is_some())
+}
+
+fn dash_dotted(entity: &Entity, language: &Language) -> Option<Curve> {
+    if LineType::of(&entity.line_type, &language.line_types) != Some(LineType::Dashdot) {
+        return None;
+    }
+    match &entity.geometry {
+        Geometry::Line(line) => Some(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
+        Geometry::Arc(arc) => Some(Curve::Arc(plane_arc(arc))),
+        _ => None,
+    }
 }

@@ -1,26 +1,37 @@
 //! Checks the parameters of a path and its elements as far as possible without values: letters, @, definitions.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
-use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::messages::{drawing, parameters};
+use pathbuild_diagnostic::{Diagnostic, Number, Value};
 
-use super::checked::PathCheck;
-use super::{Start, Starts};
-use crate::definition::Definition;
-use crate::element::{Cut, Role};
+use crate::approx::coincide;
+use crate::element::{Cut, Element, Origin, Role, Shape};
+use crate::geometry::{Curve, Xy};
 use crate::letter::Letter;
 use crate::matrix::ElementClass;
 use crate::names::PathName;
+use crate::raw::RawPath;
 use crate::text::{LetterValue, ParameterText};
+use crate::variables::Definition;
+
+/// The start texts of all paths, for references by @; empty if there are no references.
+pub(super) type Starts = BTreeMap<PathName, Start>;
+
+pub(super) struct Start {
+    pub(super) text: Box<str>,
+    /// Whether it refers to another path itself.
+    pub(super) borrows: bool,
+    pub(super) origin: Origin,
+}
 
 impl PathCheck<'_> {
     pub(super) fn check_parameters(&mut self, starts: &Starts) {
         let Some(start) = &self.raw.start else { return self.check_elements(None) };
         let Some(text) = self.raw.drawn.text(start.text) else {
-            let problem = start.origin.at(Diagnostic::new(&messages::NO_PATH_PARAMETERS));
+            let problem = start.origin.at(Diagnostic::new(&parameters::NO_PATH_PARAMETERS));
             if !self.raw.faults.has_broken_entity {
                 self.report(problem);
             }
@@ -111,17 +122,94 @@ fn referenced<'s>(
     starts: &'s Starts,
 ) -> Result<(&'s PathName, &'s Start), Box<Diagnostic>> {
     if text.pieces().len() > 1 {
-        return Err(Box::new(Diagnostic::new(&messages::AT_WITH_OTHERS)));
+        return Err(Box::new(Diagnostic::new(&parameters::AT_WITH_OTHERS)));
     }
     let name = PathName::new(text.value(piece));
     let Some((name, start)) = starts.get_key_value(&name) else {
         let known: Value = starts.keys().map(PathName::as_str).collect();
         let problem =
-            Diagnostic::new(&messages::AT_UNKNOWN).quoting("name", name.as_str()).with("known", known);
+            Diagnostic::new(&parameters::AT_UNKNOWN).quoting("name", name.as_str()).with("known", known);
         return Err(Box::new(problem));
     };
     if start.borrows {
-        return Err(Box::new(Diagnostic::new(&messages::AT_CHAINED).quoting("name", name.as_str())));
+        return Err(Box::new(Diagnostic::new(&parameters::AT_CHAINED).quoting("name", name.as_str())));
     }
     Ok((name, start))
+}
+
+/// Length in mm below which a line is no move, and two circles are one: programs have three decimals.
+const SHORTEST: f64 = 0.0005;
+
+/// A raw path being checked.
+pub(super) struct PathCheck<'r> {
+    pub(super) raw: &'r mut RawPath,
+}
+
+impl PathCheck<'_> {
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        let name = self.raw.name.as_str();
+        let is_placed = diagnostic.path.is_some();
+        self.raw.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
+    }
+
+    /// PB121: lines without length, and circles that lie on others of their kind.
+    pub(super) fn check_leftovers(&mut self) {
+        let drawn = &self.raw.drawn;
+        let at = |element: &Element, problem: Diagnostic| drawn.origin(element).at(problem);
+        let mut found = Vec::new();
+        for element in &drawn.elements {
+            let Shape::Curve(Curve::Line(line)) = element.shape else { continue };
+            let is_short = (line.end - line.start).norm() < SHORTEST;
+            let message = match element.role {
+                Role::Cut(_) if is_short => &drawing::CUT_WITHOUT_LENGTH,
+                // A shorter one connects two ends.
+                Role::Sweep | Role::SilentSweep if coincide(line.start, line.end) => {
+                    &drawing::SWEEP_WITHOUT_LENGTH
+                }
+                _ => continue,
+            };
+            found.push(at(element, Diagnostic::new(message)));
+        }
+        let circles = drawn.elements.iter().enumerate();
+        let mut circles: Vec<(usize, Xy, f64)> = circles
+            .filter_map(|(index, element)| Some((index, element.shape.point(), element.shape.radius()?)))
+            .collect();
+        circles.sort_by_cached_key(|(index, centre, radius)| {
+            ([centre.x, centre.y, *radius].map(|length| Number((length / SHORTEST).round())), *index)
+        });
+        for pair in circles.windows(2) {
+            let [(first, centre, radius), (second, other, other_radius)] = *pair else { continue };
+            let [first, second] = [first, second].map(|index| &drawn.elements[index]);
+            let is_same = (other - centre).norm() < SHORTEST && (other_radius - radius).abs() < SHORTEST;
+            if is_same && first.role == second.role {
+                let problem = Diagnostic::new(&drawing::CIRCLE_TWICE).with("diameter", 2.0 * radius);
+                found.push(at(second, problem));
+            }
+        }
+        for problem in found {
+            self.report(problem);
+        }
+    }
+
+    /// Reports missing markers.
+    pub(super) fn check_markers(&mut self) {
+        if self.raw.start.is_some() && self.raw.end.is_some() {
+            return;
+        }
+        let missing = |message| {
+            Diagnostic::new(message)
+                .quoting("name", self.raw.name.as_str())
+                .quoting("layer", self.raw.layer())
+        };
+        let start = self.raw.start.is_none().then(|| missing(&drawing::MISSING_START));
+        let end = self.raw.end.is_none().then(|| missing(&drawing::MISSING_END));
+        let somewhere = self.raw.drawn.elements.first().map(|element| self.raw.drawn.origin(element));
+        for diagnostic in start.into_iter().chain(end) {
+            let placed = match &somewhere {
+                Some(origin) => origin.at(diagnostic),
+                None => diagnostic,
+            };
+            self.report(placed);
+        }
+    }
 }

@@ -7,17 +7,14 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 
-use super::collect::{self, PathCollector, candidate_word};
-use super::found_text::AnyText;
-use super::layers::PathLayers;
-use super::meaning::{plane_arc, xy};
-use super::{Owner, at_entity};
-use crate::assign::{Candidate, SearchBudget};
 use crate::element::shown;
 use crate::geometry::Xy;
+use crate::language::Language;
 use crate::letter::{Letter, Letters};
 use crate::names::PathName;
-use crate::raw::Language;
+use crate::read::candidates::{Candidate, Owner, SearchBudget};
+use crate::read::collect::{self, PathCollector, PathLayers};
+use crate::read::entities::{AnyText, at_entity, plane_arc, xy};
 use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
 /// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
@@ -135,7 +132,7 @@ fn stray_text(
         .quoting("text", read.as_str().replace('\n', " "))
         .quoting("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
         .quoting("path_layer", layer)
-        .with("element", candidate_word(candidate))
+        .with("element", candidate.word())
         .with("point", shown(candidate.shape.point()))
         .with_text(read.whole());
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))

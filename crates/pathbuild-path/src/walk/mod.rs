@@ -2,41 +2,21 @@
 
 mod ends;
 mod failure;
-mod join;
 mod order;
-mod passage;
-mod stars;
-mod turns;
-mod twice;
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing as messages, parameters};
+use rstar::RTree;
 
-use crate::approx::coincide;
-use crate::chain::{Chain, ChainBuilder, ChainSegment, Item};
+use crate::approx::{above, at_least, coincide};
+use crate::chain::{ChainBuilder, Passage, WalkedPath};
+use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
-
-use ends::Ends;
-use join::OpenEnds;
-use order::comes_before;
-use stars::Stars;
-use turns::Turns;
-
-pub(crate) use passage::{Passage, curve};
-
-/// A path in milling order.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct WalkedPath {
-    /// The operations in order. Complete only if no diagnostic is an error.
-    pub items: Vec<Item>,
-    /// The members of all chains, in walking order.
-    pub(crate) members: Vec<ChainSegment>,
-    /// One of PB401 to PB404, PB201 for each chain without I, and PB114 and PB210.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The last point of a path without an end marker.
-    pub open_end: Option<Xy>,
-}
+use crate::walk::ends::Ends;
+use crate::walk::order::{Stars, Turns, comes_before};
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
@@ -52,18 +32,6 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
         diagnostic.path = Some(path.name.as_str().into());
     }
     walked
-}
-
-impl WalkedPath {
-    /// A walk that failed.
-    pub fn failed(problem: Diagnostic) -> Self {
-        Self { diagnostics: vec![problem], ..Self::default() }
-    }
-
-    /// The members of a chain in the items: at least one, each in walking direction.
-    pub fn members(&self, chain: &Chain) -> &[ChainSegment] {
-        &self.members[chain.members.clone()]
-    }
 }
 
 /// The reason why a walk failed; `None` if it may follow from other errors.
@@ -309,5 +277,94 @@ impl<'a> Walker<'a> {
         let origin = |turn: usize| &self.path.turns[turn].origin;
         let idle = self.turns.idle();
         idle.map(|turn| origin(turn).at(Diagnostic::new(&messages::TURN_WITHOUT_EFFECT))).collect()
+    }
+}
+
+/// A spatial index of the ends of remaining segments.
+struct OpenEnds {
+    /// Each point once: a tree removes one of many equal points by scanning all of them.
+    points: RTree<[f64; 2]>,
+    /// The segments that end at each point.
+    segments: BTreeMap<[u64; 2], BTreeSet<usize>>,
+}
+
+impl OpenEnds {
+    fn new(open: impl Iterator<Item = usize>, ends: &Ends) -> Self {
+        let (mut points, mut segments) = (Vec::new(), BTreeMap::<_, BTreeSet<usize>>::new());
+        for (segment, end) in open.flat_map(|segment| of(segment, ends).map(|end| (segment, end))) {
+            let at_end = segments.entry(bits(end)).or_default();
+            if at_end.is_empty() {
+                points.push(end);
+            }
+            at_end.insert(segment);
+        }
+        Self { points: RTree::bulk_load(points), segments }
+    }
+
+    /// Removes the ends of a segment.
+    fn remove(&mut self, segment: usize, ends: &Ends) {
+        for end in of(segment, ends) {
+            let Some(at_end) = self.segments.get_mut(&bits(end)) else { continue };
+            at_end.remove(&segment);
+            if at_end.is_empty() {
+                self.segments.remove(&bits(end));
+                self.points.remove(&end);
+            }
+        }
+    }
+
+    /// The segment with the end nearest to a point, and its distance; the first of several.
+    fn nearest(&self, point: Xy) -> Option<(usize, f64)> {
+        let by_distance = self.points.nearest_neighbor_iter([point.x, point.y]);
+        let mut points = by_distance.map(|end| (end, (Xy::from(*end) - point).norm())).peekable();
+        let distance = points.peek()?.1;
+        let nearest = points.take_while(|(_, other)| *other <= distance);
+        let firsts = nearest.filter_map(|(end, _)| self.segments.get(&bits(*end))?.first());
+        Some((*firsts.min()?, distance))
+    }
+}
+
+/// The ends of a segment as keys; zeros get a positive sign, since points are compared by their bits.
+fn of(segment: usize, ends: &Ends) -> [[f64; 2]; 2] {
+    ends.of(segment).map(|end| [end.x + 0.0, end.y + 0.0])
+}
+
+fn bits(point: [f64; 2]) -> [u64; 2] {
+    point.map(f64::to_bits)
+}
+
+impl Walker<'_> {
+    /// The segment with the nearest end, if that is within the tolerance. Reports the join.
+    fn next_within_tolerance(&mut self) -> Option<usize> {
+        if self.join_tolerance <= 0.0 {
+            return None;
+        }
+        let (open, ends) = (|segment: &usize| !self.is_traversed[*segment], &self.ends);
+        let open_ends = self
+            .open_ends
+            .get_or_insert_with(|| OpenEnds::new((0..self.is_traversed.len()).filter(open), ends));
+        let (nearest, distance) = open_ends.nearest(self.at)?;
+        if above(distance, self.join_tolerance) {
+            return None;
+        }
+        self.report_join(&self.path.origin(&self.path.segments[nearest]), distance);
+        Some(nearest)
+    }
+
+    /// Whether the end marker is within the tolerance, so that the walk ends there with a warning.
+    fn joins_end(&mut self) -> bool {
+        let distance = (self.path.end - self.at).norm();
+        let is_known = self.path.faults.as_ref().is_none_or(|faults| !faults.ends.is_empty());
+        let is_near = is_known && self.join_tolerance > 0.0 && at_least(self.join_tolerance, distance);
+        if is_near {
+            self.report_join(&self.path.end_origin, distance);
+        }
+        is_near
+    }
+
+    fn report_join(&mut self, origin: &Origin, distance: f64) {
+        let warning = origin.at(Diagnostic::new(&messages::JOINED_ENDS).with("distance", distance));
+        let point = crate::element::shown(self.at);
+        self.joined.push(warning.at_point(point));
     }
 }

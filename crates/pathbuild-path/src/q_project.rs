@@ -1,17 +1,148 @@
-//! Checks Q-projects and proxy lines: PB515, PB516, PB517.
+//! Q-projects: `NAME_Q` embeds every path of `NAME` as given by its proxy lines. (book: language/q-projects)
 
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
 
-use super::Component;
 use crate::approx::{coincide, near};
+use crate::bind::bind;
+use crate::language::Language;
 use crate::letter::Letter;
 use crate::names::PathName;
-use crate::number::parse_number;
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName};
+use crate::raw::RawPath;
 use crate::read::ProxyLine;
+use crate::text::parse_number;
+use crate::variables::{Bindings, Definition};
+
+/// A component: the paths of a drawing, with their proxy lines.
+#[derive(Debug)]
+pub struct Component<'a> {
+    /// The paths in order of first appearance.
+    paths: Vec<&'a RawPath>,
+    proxies: &'a [ProxyLine],
+    language: &'a Language,
+    by_name: BTreeMap<PathName, Vec<&'a ProxyLine>>,
+}
+
+impl<'a> Component<'a> {
+    /// Groups the proxy lines of a drawing by its paths.
+    pub fn new(
+        paths: impl Iterator<Item = &'a RawPath>,
+        proxies: &'a [ProxyLine],
+        language: &'a Language,
+    ) -> Self {
+        let mut by_name: BTreeMap<PathName, Vec<&ProxyLine>> = BTreeMap::new();
+        for proxy in proxies {
+            if let Some(name) = proxy.name(language) {
+                by_name.entry(name).or_default().push(proxy);
+            }
+        }
+        Self { paths: paths.collect(), proxies, language, by_name }
+    }
+
+    fn names(&self) -> impl Iterator<Item = &'a PathName> {
+        self.paths.iter().map(|path| &*path.name)
+    }
+
+    fn raw(&self, name: &PathName) -> Option<&'a RawPath> {
+        self.paths.iter().copied().find(|path| *path.name == *name)
+    }
+
+    /// The proxy lines of a path.
+    fn proxies(&self, name: &PathName) -> &[&'a ProxyLine] {
+        self.by_name.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// A path bound to the values that a proxy line sets, and to example values for its other variables; `None` if the path has errors.
+    fn path(&self, raw: &RawPath, proxy: Option<&ProxyLine>) -> Option<Path> {
+        raw.is_sound().then(|| bind(raw, &values(raw, proxy), self.language).0)?
+    }
+}
+
+/// The values for a path's variables: those that a proxy line sets and the path permits, otherwise example values.
+fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
+    let examples = Bindings::check_values(&raw.definitions);
+    let value = |definition: &Definition| {
+        let given = proxy.and_then(|proxy| proxy.variables().find(|(name, _)| *name == definition.name));
+        let given = given.map(|(_, value)| value).filter(|value| definition.allows(value));
+        let value = given.or_else(|| examples.get(definition.name))?;
+        Some((definition.name, value.into()))
+    };
+    Bindings::new(raw.definitions.iter().filter_map(value))
+}
+
+/// A planned path of a Q-project, for everything milled with one cutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QProject {
+    /// T, O and M of the path: T is the maximum of the embedded paths.
+    pub parameters: String,
+    /// Its segments, in the order of the drawing's paths.
+    pub lines: Vec<QProjectLine>,
+}
+
+/// A planned subpath segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QProjectLine {
+    /// Its length in mm.
+    pub length: f64,
+    /// Its text.
+    pub text: String,
+}
+
+/// Plans the Q-project of a component: one path for each O, in order of first appearance. Each embedded path uses the values of its first
+/// proxy line, or its own. Paths with errors are left out.
+pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
+    let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
+    for planned in component.paths.iter().filter_map(|raw| line(component, raw)) {
+        let is_same = |group: &&mut Vec<(Path, QProjectLine)>| near(group[0].0.tool, planned.0.tool);
+        match by_cutter.iter_mut().find(is_same) {
+            Some(group) => group.push(planned),
+            None => by_cutter.push(vec![planned]),
+        }
+    }
+    by_cutter.into_iter().map(of_cutter).collect()
+}
+
+/// The path that embeds these paths, all of which have the same O.
+fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
+    let first = &planned[0].0;
+    let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
+    let material = first.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
+    let parameters = format!("T{thickness} O{}{material}", first.tool);
+    QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect() }
+}
+
+fn line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProjectLine)> {
+    let proxy = component.proxies(&raw.name).first().copied();
+    let path = component.path(raw, proxy)?;
+    let line = QProjectLine { length: (path.end - path.start).norm(), text: text(raw, &path, proxy) };
+    Some((path, line))
+}
+
+/// The text of a proxy line, completed by the values it leaves open.
+fn text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
+    let mut pieces = vec![format!(">{}", path.name)];
+    if let Some(proxy) = proxy {
+        let others = proxy.text().pieces().iter();
+        let others = others.filter_map(|piece| Some((piece.letter?, proxy.text().value(piece))));
+        let others = others.filter(|(letter, value)| {
+            !matches!(letter, Letter::Embed | Letter::Variable) && !value.contains('=')
+        });
+        pieces.extend(others.map(|(letter, value)| format!("{}{value}", letter.as_char())));
+    }
+    let is_open = |letter| proxy.is_none_or(|proxy| proxy.value(letter).is_none());
+    let own = [
+        path.material.as_ref().map(|material| (Letter::M, material.to_string())),
+        Some((Letter::T, path.thickness.to_string())),
+        Some((Letter::O, path.tool.to_string())),
+    ];
+    let own = own.into_iter().flatten().filter(|(letter, _)| is_open(*letter));
+    pieces.extend(own.map(|(letter, value)| format!("{}{value}", letter.as_char())));
+    pieces.extend(values(raw, proxy).iter().map(|(variable, value)| format!(":{variable}{value}")));
+    pieces.join(" ")
+}
 
 /// Tolerance in mm for lengths, the same as for embedded paths.
 const LENGTH_TOLERANCE: f64 = 0.001;

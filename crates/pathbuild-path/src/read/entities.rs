@@ -1,10 +1,77 @@
-//! The circle by which a text is matched with its element, and its overlap with shapes. (book: language/parameter-texts)
+//! The entities of a drawing as this crate sees them: points in the plane, and texts with the circles by which they find their elements.
+//! (book: language/parameter-texts)
 
 use nalgebra::Vector2;
-use pathbuild_dxf::{HorizontalAlign, MText, Text, VerticalAlign};
+use pathbuild_diagnostic::{Diagnostic, Place};
+use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
 
 use crate::approx::above;
+use crate::element::{Source, shown};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
+
+/// A text of the drawing.
+#[derive(Clone, Copy)]
+pub(super) struct FoundText<'d> {
+    pub(super) source: Source,
+    pub(super) text: AnyText<'d>,
+}
+
+/// TEXT or MTEXT.
+#[derive(Clone, Copy)]
+pub(super) enum AnyText<'d> {
+    Text(&'d Text),
+    MText(&'d MText),
+}
+
+impl<'d> FoundText<'d> {
+    /// The string as in the drawing.
+    pub(super) fn string(&self) -> &'d str {
+        self.text.string()
+    }
+
+    pub(super) fn circle(&self) -> TextCircle {
+        self.text.circle()
+    }
+
+    pub(super) fn anchor(&self) -> Xy {
+        self.text.anchor()
+    }
+
+    pub(super) fn is_mtext(&self) -> bool {
+        matches!(self.text, AnyText::MText(_))
+    }
+}
+
+impl<'d> AnyText<'d> {
+    /// The text, if the entity is one.
+    pub(super) fn of(geometry: &'d Geometry) -> Option<Self> {
+        match geometry {
+            Geometry::Text(text) => Some(Self::Text(text)),
+            Geometry::MText(text) => Some(Self::MText(text)),
+            Geometry::Line(_) | Geometry::Arc(_) | Geometry::Circle(_) => None,
+        }
+    }
+
+    /// The string as in the drawing.
+    pub(super) fn string(self) -> &'d str {
+        match self {
+            Self::Text(text) => &text.string,
+            Self::MText(text) => &text.plain,
+        }
+    }
+
+    pub(super) fn circle(self) -> TextCircle {
+        match self {
+            Self::Text(text) => TextCircle::of_text(text),
+            Self::MText(text) => TextCircle::of_mtext(text),
+        }
+    }
+
+    pub(super) fn anchor(self) -> Xy {
+        let (Self::Text(Text { anchor, .. }) | Self::MText(MText { anchor, .. })) = self;
+        xy(*anchor)
+    }
+}
 
 /// The circle of a text, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,4 +201,27 @@ fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, heig
 fn turned(offset: Vector2<f64>, degrees: f64) -> Vector2<f64> {
     let along = direction(degrees);
     Vector2::new(along.x * offset.x - along.y * offset.y, along.y * offset.x + along.x * offset.y)
+}
+
+pub(super) fn xy(point: Point3) -> Xy {
+    Xy::new(point.x, point.y)
+}
+
+pub(super) fn plane_arc(arc: &pathbuild_dxf::Arc) -> Arc {
+    Arc::from_angles(xy(arc.centre), arc.radius, arc.start_angle, arc.end_angle, arc.clockwise)
+}
+
+/// Places a problem at an entity of a drawing.
+pub(super) fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
+    let (kind, origin) = (drawing.entities[entity].kind, drawing.origins[entity]);
+    let layer = &drawing.layers[drawing.entities[entity].layer as usize];
+    let place = Place {
+        line: Some(origin.line),
+        handle: origin.handle,
+        entity: Some(kind),
+        layer: Some(layer.name.clone()),
+        point: Some(shown(point)),
+        ..Place::default()
+    };
+    Diagnostic { place, ..problem }
 }

@@ -1,0 +1,75 @@
+//! Settings of the drawing language. (book: reference/configuration)
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::parameters as messages;
+
+use crate::approx::above;
+use crate::keep_out::KeepOutPattern;
+use crate::line_type::LineTypeAliases;
+use crate::names::PathPattern;
+
+/// Settings of the drawing language.
+#[derive(Clone, Debug)]
+pub struct Language {
+    /// The names of path layers.
+    pub path_pattern: PathPattern,
+    /// The names of layers with clamps, if configured.
+    pub keep_out: Option<KeepOutPattern>,
+    /// Additional names of line types.
+    pub line_types: LineTypeAliases,
+    /// Largest gap in mm that the walk closes with a warning (PB115); 0 requires ends to coincide.
+    pub join_tolerance: f64,
+    /// Maximum length in bytes of a value with variables substituted.
+    pub text_limit: usize,
+    /// Thresholds beyond which something is doubtful.
+    pub doubts: DoubtThresholds,
+}
+
+/// Thresholds beyond which something is doubtful.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoubtThresholds {
+    /// Depth in mm that B may extend below the plate.
+    pub below_plate: f64,
+    /// Maximum infeed as a multiple of T.
+    pub infeed: f64,
+    /// Maximum depth of a mark as a fraction of T.
+    pub mark_depth: f64,
+    /// The machine's largest feed in mm/min.
+    pub maximum_feed: Option<f64>,
+    /// Minimum difference in mm between the distances of a text from its element and from another one.
+    pub text_margin: f64,
+    /// Excess in mm over the cutter's diameter up to which a circle is suspected to be meant as a drilled hole.
+    pub hole_margin: f64,
+}
+
+impl Default for DoubtThresholds {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+impl DoubtThresholds {
+    /// The thresholds used if the configuration sets none.
+    pub const DEFAULT: Self = Self {
+        below_plate: 0.5,
+        infeed: 1.0,
+        mark_depth: 0.5,
+        maximum_feed: None,
+        text_margin: 0.1,
+        hole_margin: 0.05,
+    };
+
+    /// The finding about the feed in mm/min that applies to paths without F.
+    pub fn fallback_feed(&self, feed: f64) -> Option<Diagnostic> {
+        let maximum = self.maximum_feed.filter(|maximum| above(feed, *maximum))?;
+        let problem = Diagnostic::new(&messages::FALLBACK_FEED_ABOVE_MACHINE).with("value", feed);
+        Some(problem.with("limit", maximum))
+    }
+}
+
+impl Language {
+    /// Whether a layer holds clamps.
+    pub fn is_keep_out(&self, layer: &str) -> bool {
+        self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
+    }
+}

@@ -1,0 +1,191 @@
+//! Assigns each text of a path to its element. (book: language/parameter-texts)
+
+use std::mem::discriminant;
+use std::ops::Range;
+
+use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
+
+use crate::approx::near;
+use crate::element::{Element, shown};
+use crate::letter::Letters;
+use crate::matrix::Use;
+use crate::read::candidates::{
+    AssignedCandidate, Candidate, Owner, SearchBudget, find, find_taken, nearest_miss,
+};
+use crate::read::collect::PathCollector;
+use crate::read::entities::{FoundText, TextCircle};
+use crate::read::texts::{LayerTexts, MOST_ASKED, MOST_EXAMINED, Texts};
+use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
+
+/// Maximum number of layers to list on which a text would find an element.
+const MOST_NAMED: usize = 3;
+
+/// Further elements examined for hints about texts without an element.
+const MOST_EXAMINED_FOR_HINTS: usize = 1_000_000;
+
+impl Texts<'_> {
+    /// Assigns each text to its element; PB107 if there is none. `margin`: minimum difference in mm between the distances from this element
+    /// and from another one; PB116 if it is less.
+    pub(crate) fn assign(&mut self, path: &mut PathCollector<'_>, margin: f64) {
+        let budget = SearchBudget::new(MOST_EXAMINED);
+        for layer in &mut self.layers {
+            if let Some(problem) = layer.assign(path, margin, &budget) {
+                // The elements of the remaining texts are unknown.
+                path.diagnostics.push(problem);
+                path.faults.stray_letters = Letters::ALL;
+                return;
+            }
+        }
+        if self.layers.iter().all(|layer| layer.texts.is_empty()) {
+            return;
+        }
+        self.prepare();
+        let budget = SearchBudget::new(MOST_EXAMINED_FOR_HINTS);
+        for (number, layer) in self.layers.iter().enumerate() {
+            for text in &layer.texts {
+                let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
+                let problem = layer.without_element(text, others.map(|(_, other)| other), &budget);
+                let problem = path.with_left_out(problem);
+                path.diagnostics.push(problem);
+                let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+                let letters = texts.first().map(ParameterText::meant_letters);
+                path.faults.stray_letters = path.faults.stray_letters.and(letters.unwrap_or_default());
+            }
+        }
+    }
+}
+
+impl<'d> LayerTexts<'d> {
+    /// Assigns each text to its element. Texts without an element stay in `texts`. PB005 if the budget is exhausted.
+    fn assign(
+        &mut self,
+        path: &mut PathCollector<'_>,
+        margin: f64,
+        budget: &SearchBudget,
+    ) -> Option<Diagnostic> {
+        let last = self.each_match(budget, |layer, text, _, owners, found| {
+            let has_owner = !owners.is_empty();
+            path.diagnostics.extend(found.and_then(|found| layer.doubt(text, found, margin, &path.elements)));
+            if has_owner {
+                let text = path.given.push_drawn(text.string());
+                layer.give(text, owners, path);
+            }
+            has_owner
+        });
+        let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MOST_EXAMINED);
+        last.map(|last| self.origin(last.source, last.anchor()).at(problem))
+    }
+
+    fn give(&self, text: TextId, owners: Range<usize>, path: &mut PathCollector<'_>) {
+        for owner in &self.candidates[owners] {
+            let owner = match owner.owner {
+                Owner::Start => path.start.as_mut().map(|start| &mut start.text),
+                Owner::Probe(probe) => Some(&mut path.probes[probe].text),
+                Owner::Element(element) => Some(&mut path.elements[element].text),
+                Owner::Faulty => None,
+            };
+            if let Some(owner) = owner {
+                *owner = Some(text);
+            }
+        }
+    }
+
+    /// PB116 if another element of the same kind is about as near, or one of another kind is nearer. Not if the text would be an error
+    /// there: between markers and elements, and if the other element does not know one of its letters.
+    fn doubt(
+        &self,
+        text: &FoundText<'_>,
+        found: AssignedCandidate,
+        margin: f64,
+        elements: &[Element],
+    ) -> Option<Diagnostic> {
+        if found.rival.is_none() && found.nearer.is_none() {
+            return None;
+        }
+        let rival = found.rival.filter(|(_, farther)| *farther < margin || near(*farther, 0.0));
+        let rival = rival.map(|(rival, farther)| {
+            let is_equal = near(farther, 0.0);
+            let message = if is_equal { &messages::FIRST_OF_EQUALS } else { &messages::NEARLY_OTHER_ELEMENT };
+            (message, rival, farther)
+        });
+        let nearer = found.nearer.map(|(other, nearer)| (&messages::NEARER_OF_OTHER_KIND, other, nearer));
+        let doubts = rival.into_iter().chain(nearer);
+        let element = &self.candidates[found.candidate];
+        let string = without_percent_codes(text.string());
+        let texts = ParameterTexts::from(&*string);
+        let is_possible = |other: &Candidate| {
+            let refuses = |text: ParameterText<'_>| refuses(other.owner, text, elements);
+            discriminant(&element.owner) == discriminant(&other.owner) && !texts.first().is_some_and(refuses)
+        };
+        let (message, other, farther) = doubts
+            .map(|(message, other, farther)| (message, &self.candidates[other], farther))
+            .find(|(_, other, _)| is_possible(other))?;
+        let mut doubt = Diagnostic::new(message)
+            .quoting("text", string.replace('\n', " "))
+            .with("element", element.word())
+            .with("point", shown(element.shape.point()))
+            .with("other", other.word())
+            .with("other_point", shown(other.shape.point()))
+            .with("margin", farther);
+        doubt.text = texts.first().map(ParameterText::whole);
+        Some(self.origin(text.source, text.anchor()).at(doubt))
+    }
+
+    fn without_element<'a>(
+        &self,
+        text: &FoundText<'_>,
+        elsewhere: impl Iterator<Item = &'a Self>,
+        budget: &SearchBudget,
+    ) -> Diagnostic
+    where
+        'd: 'a,
+    {
+        let (string, circle) = (without_percent_codes(text.string()), text.circle());
+        let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
+            .quoting("text", string.replace('\n', " "))
+            .with("centre", shown(circle.centre))
+            .with("diameter", 2.0 * circle.radius);
+        diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole);
+        let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
+        if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
+            diagnostic = diagnostic.note(
+                &messages::HAS_A_TEXT,
+                vec![("element", taken.word().into()), ("point", shown(taken.shape.point()).into())],
+            );
+        } else if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {
+            let candidate = &self.candidates[miss.candidate];
+            diagnostic = diagnostic.note(
+                &messages::NEAREST_ELEMENT,
+                vec![
+                    ("element", candidate.word().into()),
+                    ("point", shown(candidate.shape.point()).into()),
+                    ("distance", miss.distance.into()),
+                ],
+            );
+        }
+        let takers = elsewhere.take(MOST_ASKED).filter_map(|layer| layer.would_take(&circle, budget));
+        let note = |diagnostic: Diagnostic, taker| diagnostic.note(&messages::ELEMENT_ON_OTHER_LAYER, taker);
+        let diagnostic = takers.take(MOST_NAMED).fold(diagnostic, note);
+        self.origin(text.source, text.anchor()).at(diagnostic)
+    }
+
+    /// The element that a text with this circle would belong to on this layer.
+    fn would_take(&self, circle: &TextCircle, budget: &SearchBudget) -> Option<Vec<(&'static str, Value)>> {
+        let found = find(circle, &self.candidates, &self.boxes, budget)?;
+        let candidate = &self.candidates[found.candidate];
+        Some(vec![
+            ("layer", Value::quoted(&self.name)),
+            ("element", candidate.word().into()),
+            ("point", shown(candidate.shape.point()).into()),
+        ])
+    }
+}
+
+/// Whether a letter of a text is unknown to an element (PB202).
+fn refuses(owner: Owner, text: ParameterText<'_>, elements: &[Element]) -> bool {
+    let Owner::Element(element) = owner else { return false };
+    let class = elements[element].class(None);
+    let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
+    letters.any(|letter| matches!(class.use_of(letter), Use::Unknown | Use::PathOnly))
+}

@@ -1,0 +1,464 @@
+//! Matches parameter texts with elements. (book: language/parameter-texts)
+
+use std::cell::Cell;
+
+use pathbuild_diagnostic::{ElementId, Text, words};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+use wide::f32x4;
+
+use crate::approx::above;
+use crate::element::Shape;
+use crate::geometry::{Curve, Xy};
+use crate::read::entities::TextCircle;
+
+/// An element that a text may belong to.
+pub(crate) struct Candidate {
+    /// Its number in the source map.
+    pub(crate) id: ElementId,
+    /// The drawn shape.
+    pub(crate) shape: Shape,
+    /// Number of the polyline that it is part of. The parts of a polyline share a text.
+    pub(crate) group: Option<u32>,
+    /// The owner of its text.
+    pub(crate) owner: Owner,
+    /// Whether an earlier text belongs to it.
+    pub(crate) is_taken: bool,
+}
+
+/// The owner of a text that belongs to a candidate.
+#[derive(Clone, Copy)]
+pub(crate) enum Owner {
+    Start,
+    Probe(usize),
+    /// An element of the path, by its index.
+    Element(usize),
+    /// An element with errors of its own.
+    Faulty,
+}
+
+impl Candidate {
+    /// The name of the element for messages.
+    pub(super) fn word(&self) -> &'static Text {
+        match self.owner {
+            Owner::Start => &words::PATH_START,
+            Owner::Probe(_) => &words::PROBE,
+            Owner::Element(_) | Owner::Faulty => self.shape.word(),
+        }
+    }
+}
+
+/// A candidate that a text does not reach, with the distance between them.
+pub(crate) struct NearMiss {
+    pub(crate) candidate: usize,
+    pub(crate) distance: f64,
+}
+
+/// The kind of shape that a text overlaps, in order of priority.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum OverlapKind {
+    Circle,
+    Arc,
+    Line,
+}
+
+/// The candidate that a text belongs to.
+#[derive(Clone, Copy)]
+pub(crate) struct AssignedCandidate {
+    pub(crate) candidate: usize,
+    /// The second best candidate of the same kind, and how much farther away it is in mm.
+    pub(crate) rival: Option<(usize, f64)>,
+    /// A candidate of another kind that is nearer, and by how much in mm.
+    pub(crate) nearer: Option<(usize, f64)>,
+}
+
+/// Budget for examining candidates. It bounds the quadratic work if thousands of texts overlap thousands of elements.
+pub(crate) struct SearchBudget(Cell<usize>);
+
+impl SearchBudget {
+    pub(crate) fn new(most: usize) -> Self {
+        Self(Cell::new(most))
+    }
+
+    /// Whether the budget was exceeded, so that results since then are unreliable.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.0.get() == 0
+    }
+
+    /// Uses up one unit, if that does not exhaust the budget.
+    fn take(&self) -> bool {
+        self.0.set(self.0.get().saturating_sub(1));
+        !self.is_exhausted()
+    }
+}
+
+/// The candidate that a text with this circle belongs to: the nearest overlapped circle, or else arc, or else line; the first of several at
+/// the same distance. `None` if the budget is exhausted.
+pub(crate) fn find(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+) -> Option<AssignedCandidate> {
+    if budget.is_exhausted() {
+        return None;
+    }
+    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
+    let mut second: Option<(OverlapKind, f64, usize)> = None;
+    let mut closest: Option<(f64, usize)> = None;
+    let is_same_group = |one: Option<(OverlapKind, f64, usize)>, other: usize| {
+        let group = candidates[other].group;
+        group.is_some() && one.is_some_and(|(.., one)| candidates[one].group == group)
+    };
+    boxes.each_touched(circle, |index| {
+        let candidate = &candidates[index];
+        if !budget.take() || candidate.is_taken {
+            return;
+        }
+        let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
+        let found = (kind, distance, index);
+        if closest.is_none_or(|closest| (distance, index) < closest) {
+            closest = Some((distance, index));
+        }
+        if nearest.is_none_or(|nearest| found < nearest) {
+            if !is_same_group(nearest, index) {
+                second = nearest;
+            }
+            nearest = Some(found);
+        } else if !is_same_group(nearest, index) && second.is_none_or(|second| found < second) {
+            second = Some(found);
+        }
+    });
+    nearest.filter(|_| !budget.is_exhausted()).map(|(kind, distance, candidate)| AssignedCandidate {
+        candidate,
+        rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
+        nearer: closest
+            .filter(|(closest, other)| above(distance, *closest) && !is_same_group(nearest, *other))
+            .map(|(closest, other)| (other, distance - closest)),
+    })
+}
+
+/// The nearest candidate that a text overlaps and that has a text already.
+pub(crate) fn find_taken(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+) -> Option<usize> {
+    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
+    boxes.each_touched(circle, |index| {
+        let candidate = &candidates[index];
+        if budget.take()
+            && candidate.is_taken
+            && let Some((kind, distance)) = overlap(circle, &candidate.shape)
+            && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
+        {
+            nearest = Some((kind, distance, index));
+        }
+    });
+    nearest.map(|(.., index)| index)
+}
+
+/// The nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.
+pub(crate) fn nearest_miss(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+) -> Option<NearMiss> {
+    // A tree examines more nodes initially than it yields candidates.
+    if candidates.len() > FEW && budget.is_exhausted() {
+        return None;
+    }
+    let mut nearest: Option<NearMiss> = None;
+    for (number, (candidate, at_least)) in boxes.nearest(circle.centre).enumerate() {
+        if nearest.as_ref().is_some_and(|nearest| nearest.distance < at_least - circle.radius) {
+            break;
+        }
+        // The first few candidates are free for each text.
+        if number >= FEW && !budget.take() {
+            return None;
+        }
+        if candidates[candidate].is_taken {
+            continue;
+        }
+        let distance = gap(circle, &candidates[candidate].shape);
+        if nearest.as_ref().is_none_or(|best| (distance, candidate) < (best.distance, best.candidate)) {
+            nearest = Some(NearMiss { candidate, distance });
+        }
+    }
+    nearest
+}
+
+/// The kind of overlap and the distance if a text overlaps a shape.
+fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
+    match shape {
+        Shape::Circle { centre, radius } => {
+            let distance = text.distance_to_centre(*centre);
+            (distance < text.radius + radius).then_some((OverlapKind::Circle, distance))
+        }
+        Shape::Curve(Curve::Arc(arc)) => {
+            // A cheap test first, which rules out most of the nearby arcs.
+            if text.distance_to_circle(arc.centre, arc.radius) > text.radius {
+                return None;
+            }
+            text.distance_to_arc(arc).map(|distance| (OverlapKind::Arc, distance))
+        }
+        Shape::Curve(Curve::Line(line)) => {
+            let distance = text.distance_to_line(line)?;
+            (distance < text.radius).then_some((OverlapKind::Line, distance))
+        }
+    }
+}
+
+fn gap(text: &TextCircle, shape: &Shape) -> f64 {
+    match shape {
+        Shape::Curve(curve) => text.gap_to(curve),
+        Shape::Circle { centre, radius } => {
+            (text.distance_to_centre(*centre) - text.radius - radius).max(0.0)
+        }
+    }
+}
+
+/// A spatial index of the candidates of a layer.
+pub(crate) enum CandidateIndex {
+    /// For a few candidates: scanning all of them is faster than building a tree.
+    List(List),
+    Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
+}
+
+/// The bounding boxes of a few candidates.
+pub(crate) struct List {
+    fours: Vec<BoxGroup>,
+    count: usize,
+}
+
+/// The left, lower, right and upper sides of four boxes, the last two negated, so that all four boxes are compared at once. Rounded
+/// outwards.
+struct BoxGroup([f32x4; 4]);
+
+/// The sides of one box, in the same order.
+type Sides = [f32; 4];
+
+/// Maximum number of candidates in a list.
+const FEW: usize = 128;
+
+/// Number of boxes compared before those that are touched are processed.
+const BITS: usize = u64::BITS as usize;
+
+/// Margin in mm around each box, so that rounding does not decide which candidates a text touches.
+const SLACK: f64 = 1e-6;
+
+impl Default for CandidateIndex {
+    fn default() -> Self {
+        Self::new(&[])
+    }
+}
+
+impl CandidateIndex {
+    pub(crate) fn new(candidates: &[Candidate]) -> Self {
+        let boxes = candidates.iter().map(|candidate| around(&candidate.shape));
+        if candidates.len() <= FEW {
+            return Self::List(List::new(boxes));
+        }
+        let numbered = boxes.zip(0..).map(|(box_, index)| GeomWithData::new(box_.into(), index));
+        Self::Tree(RTree::bulk_load(numbered.collect()))
+    }
+
+    /// Calls `take` for each candidate whose box touches a circle, in any order. A list also yields some near misses.
+    fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
+        let searched = square(circle.centre, circle.radius);
+        match self {
+            Self::List(list) => list.each_within(limits(&searched), take),
+            Self::Tree(tree) => {
+                tree.locate_in_envelope_intersecting(searched).for_each(|found| take(found.data));
+            }
+        }
+    }
+
+    /// The candidates, each with a lower bound for its distance in mm from a point, in ascending order.
+    pub(super) fn nearest(&self, point: Xy) -> Box<dyn Iterator<Item = (usize, f64)> + '_> {
+        let at_least = |squared: f64| libm::sqrt(squared) - SLACK;
+        match self {
+            // Sorting a few candidates is not worth the effort.
+            Self::List(list) => Box::new((0..list.count).map(|index| (index, f64::NEG_INFINITY))),
+            Self::Tree(tree) => {
+                let found = tree.nearest_neighbor_iter_with_distance_2([point.x, point.y]);
+                Box::new(found.map(move |(found, squared)| (found.data, at_least(squared))))
+            }
+        }
+    }
+}
+
+impl List {
+    fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
+        let (mut fours, mut count) = (Vec::new(), 0);
+        let mut sides = boxes.map(|box_| sides(&box_));
+        while let Some(first) = sides.next() {
+            // Missing boxes of the last group never match, even if the limits are infinite.
+            let mut four = [first, [f32::NAN; 4], [f32::NAN; 4], [f32::NAN; 4]];
+            count += 1;
+            for (place, next) in four[1..].iter_mut().zip(&mut sides) {
+                *place = next;
+                count += 1;
+            }
+            fours.push(BoxGroup(std::array::from_fn(|side| f32x4::from(four.map(|sides| sides[side])))));
+        }
+        Self { fours, count }
+    }
+
+    fn each_within(&self, limits: Sides, mut take: impl FnMut(usize)) {
+        let limits = limits.map(f32x4::splat);
+        let mut first = 0;
+        for fours in self.fours.chunks(BITS / 4) {
+            // First all matches are collected as bits, then processed, since matches are rare and unpredictable for the branch predictor.
+            let found = |BoxGroup(sides): &BoxGroup| {
+                let [left, low, right, high] = std::array::from_fn(|side| sides[side].simd_le(limits[side]));
+                ((left & low) & (right & high)).to_bitmask()
+            };
+            let mut all = fours.iter().rev().fold(0, |all, four| all << 4 | u64::from(found(four)));
+            while all != 0 {
+                take(first + all.trailing_zeros() as usize);
+                all &= all - 1;
+            }
+            first += BITS;
+        }
+    }
+}
+
+fn sides(box_: &AABB<[f64; 2]>) -> Sides {
+    let ([left, low], [right, high]) = (box_.lower(), box_.upper());
+    [left, low, -right, -high].map(|side| rounded(side, -ROUNDING))
+}
+
+/// Upper limits for the sides of boxes that touch this one.
+fn limits(box_: &AABB<[f64; 2]>) -> Sides {
+    let ([left, low], [right, high]) = (box_.lower(), box_.upper());
+    [right, high, -left, -low].map(|side| rounded(side, ROUNDING))
+}
+
+/// Relative error bound for the conversion of a number to `f32`.
+const ROUNDING: f64 = 1e-7;
+
+#[expect(clippy::cast_possible_truncation, reason = "what is lost is made up for before")]
+fn rounded(side: f64, by: f64) -> f32 {
+    (side + by * side.abs()) as f32
+}
+
+/// The bounding box of a shape; an arc gets that of its whole circle.
+fn around(shape: &Shape) -> AABB<[f64; 2]> {
+    match shape {
+        Shape::Circle { centre, radius } => square(*centre, *radius),
+        Shape::Curve(Curve::Arc(arc)) => square(arc.centre, arc.radius),
+        Shape::Curve(Curve::Line(line)) => {
+            AABB::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
+        }
+    }
+}
+
+fn square(centre: Xy, half: f64) -> AABB<[f64; 2]> {
+    let half = half + SLACK;
+    AABB::from_corners([centre.x - half, centre.y - half], [centre.x + half, centre.y + half])
+}
+
+#[cfg(test)]
+mod tests {
+    //! Searching near a text gives the same results as comparing everything.
+
+    use pathbuild_diagnostic::ElementId;
+    use proptest::prelude::*;
+
+    use crate::element::Shape;
+    use crate::geometry::{Arc, Curve, Line, Xy};
+    use crate::read::candidates::Owner;
+    use crate::read::candidates::{
+        Candidate, CandidateIndex, SearchBudget, find, gap, nearest_miss, overlap,
+    };
+    use crate::read::entities::TextCircle;
+
+    fn point() -> impl Strategy<Value = Xy> {
+        // Some points are far away, where an f32 cannot represent thousandths, and many are at round numbers, where boxes touch.
+        let coordinate = || prop_oneof![-20.0..20.0, (-20..20).prop_map(f64::from), 99_990.0..100_010.0];
+        (coordinate(), coordinate()).prop_map(|(x, y)| Xy::new(x, y))
+    }
+
+    fn shape() -> impl Strategy<Value = Shape> {
+        prop_oneof![
+            (point(), point()).prop_map(|(start, end)| Shape::Curve(Curve::Line(Line { start, end }))),
+            (point(), 0.1..9.0).prop_map(|(centre, radius)| Shape::Circle { centre, radius }),
+            (point(), 0.1..9.0, 0.0..360.0, 0.0..360.0).prop_map(|(centre, radius, from, to)| {
+                Shape::Curve(Curve::Arc(Arc::from_angles(centre, radius, from, to, false)))
+            }),
+        ]
+    }
+
+    fn candidate((shape, is_taken): (Shape, bool)) -> Candidate {
+        Candidate { id: ElementId(0), shape, group: None, owner: Owner::Faulty, is_taken }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// For lists and for trees.
+        #[test]
+        fn boxes_hide_nothing(
+            shapes in prop_oneof![
+                prop::collection::vec((shape(), prop::bool::weighted(0.1)), 0..60),
+                prop::collection::vec((shape(), prop::bool::weighted(0.1)), 129..200),
+            ],
+            centre in point(),
+            radius in 0.1..6.0,
+        ) {
+            let (circle, candidates) = (TextCircle { centre, radius }, shapes.into_iter().map(candidate).collect::<Vec<_>>());
+            let boxes = CandidateIndex::new(&candidates);
+            let free = || candidates.iter().enumerate().filter(|(_, candidate)| !candidate.is_taken);
+            let overlapped = free().filter_map(|(index, candidate)| overlap(&circle, &candidate.shape).map(|(kind, distance)| (kind, distance, index)));
+            let mut overlapped: Vec<_> = overlapped.collect();
+            overlapped.sort_by(|one, other| one.partial_cmp(other).expect("distances are numbers"));
+            let expected = overlapped.first().map(|(kind, distance, index)| {
+                let rival = overlapped.get(1).filter(|rival| rival.0 == *kind);
+                (*index, rival.map(|(_, other, index)| (*index, other - distance)))
+            });
+            let found = find(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|found| (found.candidate, found.rival));
+            prop_assert_eq!(found, expected);
+            let gaps = free().map(|(index, candidate)| (gap(&circle, &candidate.shape), index));
+            let least = gaps.reduce(|best, other| if other < best { other } else { best });
+            prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|miss| (miss.distance, miss.candidate)), least);
+        }
+    }
+
+    /// A number of lines through one point.
+    fn bundle(count: usize) -> Vec<Candidate> {
+        let line = Shape::Curve(Curve::Line(Line { start: Xy::new(-1.0, 0.0), end: Xy::new(1.0, 0.0) }));
+        (0..count).map(|_| candidate((line, false))).collect()
+    }
+
+    /// One unit for each candidate, with one left over.
+    #[test]
+    fn what_is_found_when_the_looks_are_over_is_not_trusted() {
+        for count in [10, 200] {
+            let (circle, candidates) = (TextCircle { centre: Xy::origin(), radius: 0.5 }, bundle(count));
+            let boxes = CandidateIndex::new(&candidates);
+            let finds = |most: usize| {
+                let budget = SearchBudget::new(most);
+                (find(&circle, &candidates, &boxes, &budget).is_some(), budget.is_exhausted())
+            };
+            assert_eq!(
+                (finds(count + 1), finds(count), finds(0)),
+                ((true, false), (false, true), (false, true))
+            );
+        }
+    }
+
+    /// The first few of 200 candidates are free for each text.
+    #[test]
+    fn the_hint_of_the_nearest_is_given_up_when_the_looks_are_over() {
+        let (circle, candidates) = (TextCircle { centre: Xy::new(0.0, 9.0), radius: 0.5 }, bundle(200));
+        let boxes = CandidateIndex::new(&candidates);
+        let misses =
+            |most: usize| nearest_miss(&circle, &candidates, &boxes, &SearchBudget::new(most)).is_some();
+        assert_eq!((misses(200 - 128 + 1), misses(200 - 128)), (true, false));
+        let few = bundle(128);
+        assert!(nearest_miss(&circle, &few, &CandidateIndex::new(&few), &SearchBudget::new(0)).is_some());
+    }
+}
