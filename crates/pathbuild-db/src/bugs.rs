@@ -1,14 +1,16 @@
-//! Catches panics, so that a bug that one drawing triggers does not keep the others from being compiled.
+//! Ends of queries other than a result: bugs, time limits, and drawings that change during a run.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::Duration;
 
+use pathbuild_diagnostic::limits::{TIME_OF_PATH, exceeded, seconds};
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use salsa::Cancelled;
 
-use crate::guard::too_slow;
+use crate::db::Db;
+use crate::inputs::SourceFile;
 
 /// Panic payload of work that exceeded this time limit.
 pub(crate) struct TimeoutPanic(pub(crate) Duration);
@@ -38,4 +40,19 @@ pub(crate) fn internal_error(payload: &(dyn Any + Send)) -> Diagnostic {
 /// PB006 with this reason, without a place.
 pub fn bug(reason: &str) -> Diagnostic {
     Diagnostic::new(&messages::INTERNAL).with("reason", Value::foreign(reason))
+}
+
+/// Panic payload of a query that read other bytes than those the drawing was indexed by. No result may mix the two.
+pub(crate) struct DriftPanic;
+
+/// Records that a drawing has changed and abandons the query.
+pub(crate) fn abandon_query(db: &dyn Db, file: SourceFile) -> ! {
+    db.note_changed(file);
+    // Bypasses the panic hook: this is not a bug.
+    resume_unwind(Box::new(DriftPanic))
+}
+
+/// PB005 for work beyond this time limit, without a place.
+pub fn too_slow(limit: Duration) -> Diagnostic {
+    exceeded(&TIME_OF_PATH, seconds(limit), "seconds-per-path")
 }

@@ -1,17 +1,23 @@
-//! The database: results of all queries, the system, and the inputs that stand for files.
+//! The database: results of all queries, the system, and the inputs that stand for files. Work on one target is guarded by a time limit and a
+//! panic handler, so that one target cannot stop the others.
 
 use std::borrow::Cow;
 use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::reasons::CHANGES_WHILE_READ;
 use rustc_hash::{FxHashMap, FxHashSet};
-use salsa::Setter;
+use salsa::{CancellationToken, Cancelled, Database as _, Setter};
 
-use crate::db::Db;
+use crate::bugs::{DriftPanic, TimeoutPanic, internal_error, too_slow};
+use crate::db::{Db, ScratchPool};
 use crate::inputs::{Directory, Role, SourceFile, Target};
 use crate::listing::{Listings, PendingListing};
-use crate::scratch::ScratchPool;
 use crate::system::{Names, System};
 
 /// The results of all queries. Clones share them; each thread needs its own clone.
@@ -204,5 +210,64 @@ impl Db for Database {
 impl fmt::Debug for Database {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Database").field("system", &self.shared.system).finish_non_exhaustive()
+    }
+}
+
+/// Work in progress on one handle of the database.
+#[derive(Debug)]
+pub struct WorkInProgress {
+    /// Start time; `None` without a clock.
+    begun: Option<Instant>,
+    token: CancellationToken,
+}
+
+impl WorkInProgress {
+    /// Cancels the work if it exceeds this time limit.
+    pub fn stop_after(&self, limit: Duration) {
+        if self.begun.is_some_and(|begun| begun.elapsed() > limit) {
+            self.token.cancel();
+        }
+    }
+}
+
+impl Database {
+    /// Clears a cancellation whose work has ended, so that it does not cancel the next query.
+    pub fn clear_cancellation(&self) {
+        // Salsa clears it at the end of every query that was not called by another.
+        self.attach(|_| ());
+    }
+
+    /// Cancels the current work, between two queries, if it exceeds its time limit.
+    pub fn check_time_limit(&self) {
+        self.unwind_if_revision_cancelled();
+    }
+
+    /// Starts the clock for work on this handle.
+    pub fn underway(&self) -> WorkInProgress {
+        WorkInProgress { begun: self.system().now(), token: self.cancellation_token() }
+    }
+
+    /// Runs work on this handle.
+    ///
+    /// # Errors
+    /// PB005 if it exceeded the time limit, PB001 if a drawing changed meanwhile, PB006 if it panicked; all without a place.
+    pub fn guarded<R>(&self, limit: Duration, work: impl Fn() -> R) -> Result<R, Box<Diagnostic>> {
+        loop {
+            let payload = match catch_unwind(AssertUnwindSafe(&work)) {
+                Ok(result) => return Ok(result),
+                Err(payload) => payload,
+            };
+            let problem = match payload.downcast_ref::<Cancelled>() {
+                // The query panicked on another thread. Running it here gives the reason, if it panics again.
+                Some(Cancelled::PropagatedPanic) => continue,
+                Some(_) => too_slow(limit),
+                None if payload.is::<DriftPanic>() => {
+                    Diagnostic::new(&messages::UNREADABLE).with("reason", &CHANGES_WHILE_READ)
+                }
+                None if payload.is::<TimeoutPanic>() => too_slow(limit),
+                None => internal_error(&*payload),
+            };
+            return Err(Box::new(problem));
+        }
     }
 }

@@ -12,19 +12,14 @@
 mod bugs;
 mod database;
 mod db;
-mod drift;
-mod guard;
 mod inputs;
 mod listing;
 mod queries;
-mod scratch;
-mod settings;
 
-pub use bugs::{bug, catch_bugs};
-pub use database::Database;
-pub use db::Db;
-pub use guard::{WorkInProgress, too_slow};
-pub use inputs::{Directory, Role, SourceFile, Target};
+pub use bugs::{bug, catch_bugs, too_slow};
+pub use database::{Database, WorkInProgress};
+pub use db::{Db, ScratchPool};
+pub use inputs::{Directory, Limits, Reading, Role, Settings, SourceFile, Target};
 pub use listing::PendingListing;
 pub use pathbuild_files as system;
 pub use pathbuild_files::System;
@@ -37,5 +32,3 @@ pub use queries::{
     placed_keep_outs, prefetch, program, q_project, q_project_findings, raw_file, resolve_path, search_path,
     summary, trace, traced_program, unlistable, unlisted,
 };
-pub use scratch::ScratchPool;
-pub use settings::{Limits, Reading, Settings};

@@ -5,21 +5,20 @@ use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::slice;
 
+use camino::Utf8PathBuf;
 use pathbuild_diagnostic::messages::{files, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
+use pathbuild_diagnostic::{Code, Diagnostic, Point, TraceStep};
 use pathbuild_path::{Bindings, PathName, PathOptions, PathRole, PathSignature, SubpathCall};
 use pathbuild_toolpath::memory;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::embedding::{Embedding, Outcome, embeds};
-use super::index::{NameKey, path_index};
-use super::instance::{Instance, path, summary};
-use super::keep_outs::keep_out_problems;
-use super::raw::raw_path;
-use super::summary::PathSummary;
 use crate::db::Db;
-use crate::inputs::{Role, SourceFile, Target};
-use crate::settings::{Limits, Settings};
+use crate::inputs::{Limits, Role, Settings, SourceFile, Target};
+use crate::queries::embedding::{Embedding, Outcome, embeds};
+use crate::queries::index::{NameKey, PathSummary, keep_out_problems, path_index};
+use crate::queries::instance::{Instance, path, summary};
+use crate::queries::lookup::{find_path, own_directory, search_path};
+use crate::queries::raw::raw_path;
 
 /// The paths that a target reaches, including its own.
 #[derive(Clone, Debug, Default, PartialEq, salsa::SalsaValue)]
@@ -458,4 +457,109 @@ fn hash(value: &impl Hash) -> u64 {
     let mut hasher = DefaultHasher::new();
     value.hash(&mut hasher);
     hasher.finish()
+}
+
+/// A subpath segment of a path in a closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge<'db> {
+    /// The embedding path.
+    pub from: Instance<'db>,
+    /// The start of its subpath segment, in its drawing.
+    pub point: Point,
+    /// The embedded path.
+    pub to: Destination<'db>,
+}
+
+/// The target of a subpath segment.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Destination<'db> {
+    /// A path with its values.
+    Path(Instance<'db>),
+    /// None; only the first reason is kept.
+    Nowhere {
+        /// The name it refers to, if any.
+        name: Option<PathName>,
+        /// The reason.
+        code: Code,
+    },
+}
+
+impl<'db> Closure<'db> {
+    /// All embeddings, path by path in the order in which paths are reached, segment by segment.
+    pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
+        let of_path =
+            |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));
+        self.reached.iter().flat_map(|reached| of_path(reached.instance)).collect()
+    }
+}
+
+fn edge<'db>(from: Instance<'db>, embedding: &Embedding<'db>) -> Edge<'db> {
+    let nowhere = |code| Destination::Nowhere { name: embedding.name.as_deref().cloned(), code };
+    let to = match &embedding.outcome {
+        Outcome::Found { child, .. } => Destination::Path(*child),
+        Outcome::Refused(problem) | Outcome::NotFound(problem) => nowhere(problem.code()),
+        Outcome::Unlisted(_) => nowhere(Code::UnreadableFile),
+        // An unbound segment has at least one problem.
+        Outcome::Unbound(problems) => {
+            nowhere(problems.first().map_or(Code::MissingVariableValue, Diagnostic::code))
+        }
+    };
+    Edge { from, point: embedding.origin.point, to }
+}
+
+/// Everything outside of the settings that a target depends on.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// The drawings that were read, starting with its own, including those that were searched without a match.
+    pub files: Vec<SourceFile>,
+    /// The names that were looked up, with the searched directories.
+    pub lookups: Vec<NameLookup>,
+}
+
+/// A name that was looked up.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct NameLookup {
+    /// The path.
+    pub name: PathName,
+    /// The directories.
+    pub directories: Vec<Utf8PathBuf>,
+}
+
+/// The trace of a target. An edit outside of it cannot change the target's results.
+#[salsa::tracked]
+pub fn trace(db: &dyn Db, target: Target) -> Trace {
+    let (mut files, mut lookups) = (UniqueList::default(), UniqueList::default());
+    files.push(target.file(db));
+    for reached in &closure(db, target).reached {
+        let from = reached.instance.file(db);
+        files.push(from);
+        for name in embeds(db, reached.instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
+            let Some(resolved) = find_path(db, from, NameKey::of(db, name)) else { continue };
+            resolved.searched.iter().for_each(|file| files.push(*file));
+            let directories =
+                search_path(db, own_directory(db, from)).iter().map(|directory| directory.path(db).clone());
+            lookups.push(NameLookup { name: (**name).clone(), directories: directories.collect() });
+        }
+    }
+    Trace { files: files.all, lookups: lookups.all }
+}
+
+/// A list without duplicates.
+struct UniqueList<T> {
+    all: Vec<T>,
+    seen: FxHashSet<T>,
+}
+
+impl<T: Clone + Eq + Hash> UniqueList<T> {
+    fn push(&mut self, one: T) {
+        if self.seen.insert(one.clone()) {
+            self.all.push(one);
+        }
+    }
+}
+
+impl<T> Default for UniqueList<T> {
+    fn default() -> Self {
+        Self { all: Vec::new(), seen: FxHashSet::default() }
+    }
 }

@@ -4,12 +4,11 @@
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{Judge, Origin, PathName, PathSignature, SpeltName, SubpathCall, SubpathName};
 
-use super::index::{NameKey, file_index, path_index};
-use super::instance::{Instance, summary};
-use super::lookup::{ResolvedPath, find_path, own_directory, search_path};
 use crate::db::Db;
-use crate::inputs::SourceFile;
-use crate::settings::Settings;
+use crate::inputs::{Settings, SourceFile};
+use crate::queries::index::{NameKey, file_index, path_index};
+use crate::queries::instance::{Instance, summary};
+use crate::queries::lookup::{ResolvedPath, find_path, own_directory, search_path};
 
 /// A subpath segment and the result of resolving it.
 #[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]

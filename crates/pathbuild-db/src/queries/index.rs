@@ -1,23 +1,24 @@
 //! A compact index of a drawing: the names of its paths, and what other paths and a check need of each.
 
 use std::cell::{Cell, RefCell};
+use std::panic::resume_unwind;
 use std::sync::Arc;
 
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::drawing as messages;
+use pathbuild_diagnostic::{Code, Diagnostic, Note, Point};
 use pathbuild_files::Stamp;
 use pathbuild_path::{
-    Bindings, KeepOuts, Language, NearNames, PathHeader, PathName, RawFile, RawPath, judge_file_name,
-    stray_findings,
+    Bindings, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Path, PathHeader, PathName,
+    PathSignature, RawFile, RawPath, WalkedPath, Xy, judge_file_name, stray_findings,
 };
+use pathbuild_toolpath::own_moves;
 use smol_str::SmolStr;
 
-use super::nearby_ends::LayerEnds;
-use super::reading::{Fingerprint, entities, read, read_entities};
-use super::summary::PathSummary;
-use crate::bugs::catch_bugs;
+use crate::bugs::{TimeoutPanic, catch_bugs};
 use crate::db::Db;
-use crate::inputs::SourceFile;
-use crate::settings::{Reading, Settings};
+use crate::inputs::{Reading, Settings, SourceFile};
+use crate::queries::nearby_ends::LayerEnds;
+use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
 /// The index of a drawing. It contains no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
 #[derive(Clone, Debug, Default)]
@@ -84,7 +85,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
                 let all = entities(bytes, reading, &|_| true);
                 raw.diagnostics.extend(stray_findings(&all, language));
             }
-            (raw, has_keep_outs.get().then(|| keep_outs(bytes, reading, language)))
+            (raw, has_keep_outs.get().then(|| read_keep_outs(bytes, reading, language)))
         });
         let content = Content::of(bytes, stamp, reading);
         match read {
@@ -113,7 +114,7 @@ fn has_near_layer(raw: &RawFile, others: &[SmolStr]) -> bool {
 }
 
 /// Reads clamps. Unsupported curves among them are reported even in compatible mode, where paths skip them.
-fn keep_outs(bytes: &[u8], reading: &Reading, language: &Language) -> KeepOuts {
+fn read_keep_outs(bytes: &[u8], reading: &Reading, language: &Language) -> KeepOuts {
     let reading = Reading { compatible: false, ..reading.clone() };
     pathbuild_path::keep_outs(&entities(bytes, &reading, &|layer| language.is_keep_out(layer)), language)
 }
@@ -137,6 +138,28 @@ pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
 /// The hash of the indexed bytes, with their stamp.
 pub fn content(db: &dyn Db, file: SourceFile) -> Option<([u8; 32], Stamp)> {
     file_index(db, file).content.hash
+}
+
+/// The clamps of a drawing.
+pub fn keep_outs(db: &dyn Db, file: SourceFile) -> &[KeepOut] {
+    keep_outs_of_file(db, file).map_or(&[], |found| &found.all)
+}
+
+/// Findings about the clamps of a drawing. While one is an error, none of its paths becomes a program.
+pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
+    keep_outs_of_file(db, file).map_or(&[], |found| &found.problems)
+}
+
+fn keep_outs_of_file(db: &dyn Db, file: SourceFile) -> Option<&KeepOuts> {
+    // Most libraries have no clamps; no query is needed then.
+    Settings::get(db).language(db).keep_out.as_ref()?;
+    indexed_keep_outs(db, file).as_deref()
+}
+
+/// The clamps in a drawing's index, unaffected by edits of its paths.
+#[salsa::tracked]
+fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
+    file_index(db, file).keep_outs.clone()
 }
 
 impl FileIndex {
@@ -194,11 +217,6 @@ impl FileIndex {
         &self.diagnostics
     }
 
-    /// Its clamps, if any layer has some.
-    pub(super) fn keep_outs(&self) -> Option<&Arc<KeepOuts>> {
-        self.keep_outs.as_ref()
-    }
-
     /// The fingerprint of the bytes it was built from, if there were any.
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
@@ -241,4 +259,128 @@ impl<'db> NameKey<'db> {
     pub(super) fn name(self, db: &dyn Db) -> PathName {
         PathName::new(self.folded(db))
     }
+}
+
+/// The summary of a path with bound variables.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathSummary {
+    /// Findings about its drawing or values.
+    pub problems: Vec<Diagnostic>,
+    /// The path as seen by others, unless a finding is an error.
+    pub signature: Option<PathSignature>,
+    /// The known part of the signature of a path with errors, used to judge what it embeds. `None` if nothing is drawn.
+    pub faulty_signature: Option<Box<PathSignature>>,
+    /// Findings about the sweep height it gets when embedded or checked. Empty if the path has errors.
+    pub sweep_problems: Vec<Diagnostic>,
+    /// Findings about the walk.
+    pub walk_problems: Vec<Diagnostic>,
+    /// Estimated number of moves, without embedded paths.
+    pub moves: u64,
+}
+
+impl PathSummary {
+    /// Binds and walks a path.
+    pub(super) fn new(db: &dyn Db, raw: &RawPath, bindings: &Bindings, ends: &LayerEnds<'_>) -> Self {
+        let language = Settings::get(db).language(db);
+        let with_hint = |found: Diagnostic| ends.with_hint(&raw.name, language, found);
+        let BoundPath { path, diagnostics } = examine(raw, bindings, language);
+        let mut problems: Vec<Diagnostic> = diagnostics.into_iter().map(with_hint).collect();
+        let Some(path) = path else { return Self { problems, ..Self::default() } };
+        let walked = walk(db, &path, language);
+        if let Some(end) = walked.open_end {
+            add_path_end(&mut problems, end);
+        }
+        let signature = PathSignature::of(&path);
+        let moves = if path.has_faults() { 0 } else { own_moves(&path, &walked) };
+        let walk_problems = walked.diagnostics.into_iter().map(with_hint).collect();
+        if path.has_faults() {
+            let faulty_signature = Some(Box::new(signature));
+            return Self { problems, faulty_signature, walk_problems, ..Self::default() };
+        }
+        Self {
+            problems,
+            sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height()),
+            walk_problems,
+            moves,
+            signature: Some(signature),
+            faulty_signature: None,
+        }
+    }
+
+    /// The signature as far as it is known, with or without errors.
+    pub(super) fn known_signature(&self) -> Option<&PathSignature> {
+        self.signature.as_ref().or(self.faulty_signature.as_deref())
+    }
+
+    /// Whether the path itself has no findings.
+    pub(super) fn is_clean(&self) -> bool {
+        let Self { problems, sweep_problems, walk_problems, .. } = self;
+        self.signature.is_some()
+            && problems.is_empty()
+            && sweep_problems.is_empty()
+            && walk_problems.is_empty()
+    }
+
+    /// Whether the path embeds others.
+    pub(super) fn has_subpaths(&self) -> bool {
+        self.known_signature().is_some_and(|signature| !signature.subpaths.is_empty())
+    }
+}
+
+/// Adds to PB102 where the path ends.
+fn add_path_end(problems: &mut [Diagnostic], end: Xy) {
+    for problem in problems.iter_mut().filter(|problem| problem.code() == Code::MissingEnd) {
+        let note = Note {
+            message: &messages::ENDS_HERE,
+            arguments: vec![("point", Point::new(end.x, end.y).into())],
+        };
+        problem.notes.push(note);
+    }
+}
+
+/// A bound path and its diagnostics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundPath {
+    /// The path, unless a diagnostic is an error.
+    pub path: Option<Path>,
+    /// Diagnostics of the drawing and of the values.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Binds and checks the parameters of a path for its program.
+pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
+    let BoundPath { path, diagnostics } = examine(raw, bindings, language);
+    BoundPath { path: path.filter(|path| !path.has_faults()), diagnostics }
+}
+
+/// Binds a path as far as it is known, even if it has errors, so that its other errors are found as well.
+fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
+    let mut diagnostics = raw.diagnostics.clone();
+    let examined = catch_bugs(|| pathbuild_path::examine(raw, bindings, language));
+    let ExaminedPath { path, problems } = examined
+        .unwrap_or_else(|bug| ExaminedPath { path: None, problems: vec![bug.in_path(raw.name.as_str())] });
+    diagnostics.extend(problems);
+    BoundPath { path, diagnostics }
+}
+
+/// Walks a path. The time limit is enforced here as PB005, not only by the driver, because indexes are built before any target is queried.
+pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath {
+    catch_bugs(|| walk_within_limit(db, path, language)).unwrap_or_else(|problem| {
+        // The machine may be less busy next time, so the result is not memoized beyond this revision.
+        db.report_untracked_read();
+        WalkedPath::failed(problem.in_path(path.name.as_str()))
+    })
+}
+
+/// Walks a path whose findings are known already. Unwinds at the time limit, which could not be reported here.
+pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath {
+    let limit = Settings::get(db).reading(db).walk_time;
+    let begun = db.system().now();
+    let checkpoint = || {
+        db.unwind_if_revision_cancelled();
+        if begun.is_some_and(|begun| begun.elapsed() > limit) {
+            resume_unwind(Box::new(TimeoutPanic(limit)));
+        }
+    };
+    pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint)
 }

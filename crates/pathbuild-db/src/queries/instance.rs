@@ -2,15 +2,11 @@
 
 use pathbuild_path::{Bindings, WalkedPath};
 
-use super::binding::{BoundPath, bind, walk_within_limit};
-use super::index::{NameKey, path_index};
-use super::nearby_ends::LayerEnds;
-use super::raw::raw_path;
-use super::rereading::read_layers;
-use super::summary::PathSummary;
 use crate::db::Db;
-use crate::inputs::SourceFile;
-use crate::settings::Settings;
+use crate::inputs::{Settings, SourceFile};
+use crate::queries::index::{BoundPath, NameKey, PathSummary, bind, path_index, walk_within_limit};
+use crate::queries::nearby_ends::LayerEnds;
+use crate::queries::raw::{raw_path, read_layers};
 
 /// A path of a file with values for its variables. Created inside queries only.
 #[salsa::interned(debug)]

@@ -1,20 +1,18 @@
 //! Clamps: those of a drawing, their places in a program, and the moves that hit them. (book: language/keep-outs)
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, TraceStep};
-use pathbuild_path::{Curve, KeepOut, KeepOutMap, KeepOuts};
+use pathbuild_path::{Curve, KeepOut, KeepOutMap};
 use pathbuild_toolpath::{StepOrigin, kind_of_move, way};
 use rustc_hash::FxHashSet;
 
-use super::closures::closure;
-use super::index::file_index;
-use super::views::{TracedProgram, traced_program};
 use crate::db::Db;
-use crate::inputs::{SourceFile, Target};
-use crate::settings::Settings;
+use crate::inputs::{Settings, Target};
+use crate::queries::closures::closure;
+use crate::queries::index::keep_outs;
+use crate::queries::programs::{TracedProgram, traced_program};
 
 /// A clamp as placed in a program.
 #[derive(Clone, Debug)]
@@ -25,28 +23,6 @@ pub struct PlacedKeepOut {
     pub drawn: KeepOut,
     /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of the path whose drawing brings it.
     pub occurrence: u32,
-}
-
-/// The clamps of a drawing.
-pub fn keep_outs(db: &dyn Db, file: SourceFile) -> &[KeepOut] {
-    of_file(db, file).map_or(&[], |found| &found.all)
-}
-
-/// Findings about the clamps of a drawing. While one is an error, none of its paths becomes a program.
-pub(super) fn keep_out_problems(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
-    of_file(db, file).map_or(&[], |found| &found.problems)
-}
-
-fn of_file(db: &dyn Db, file: SourceFile) -> Option<&KeepOuts> {
-    // Most libraries have no clamps; no query is needed then.
-    Settings::get(db).language(db).keep_out.as_ref()?;
-    indexed_keep_outs(db, file).as_deref()
-}
-
-/// The clamps in a drawing's index, unaffected by edits of its paths.
-#[salsa::tracked]
-fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
-    file_index(db, file).keep_outs().cloned()
 }
 
 /// The clamps around the program of a target, from all its drawings. Duplicates at the same place count once. Empty without a program.

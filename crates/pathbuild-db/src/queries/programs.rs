@@ -1,31 +1,117 @@
-//! The finished program of a target.
+//! Queries for displays: programs with the origins of their moves, the drawn paths, and the rest of a drawing.
 
 use std::sync::Arc;
 
-use pathbuild_path::{Path, WalkedPath};
-use pathbuild_toolpath::{Parts, Program, fold};
+use pathbuild_dxf::Drawing;
+use pathbuild_path::{
+    Bindings, ElementParameters, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath,
+    parameters_in_force,
+};
+use pathbuild_toolpath::{Occurrence, Parts, Program, Trace, fold_traced};
+use rustc_hash::FxHashMap;
 
-use super::closures::closure;
-use super::embedding::{Outcome, embeds};
-use super::instance::{Instance, chains, path};
-use super::keep_outs::entered_keep_outs;
 use crate::db::Db;
-use crate::inputs::Target;
-use crate::settings::Settings;
+use crate::inputs::{Role, Settings, SourceFile, Target};
+use crate::queries::closures::closure;
+use crate::queries::embedding::{Outcome, embeds};
+use crate::queries::instance::{Instance, chains, path};
+use crate::queries::raw::{raw_file, read_layers};
 
-/// Folds a path and everything it embeds into a program. `None` if one of them has errors, an option is missing or the tool hits a clamp.
-/// Programs are large and used once, so only the last few are kept.
-#[salsa::tracked(lru = 16)]
-pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
+/// A program with the origin of each step.
+#[derive(Debug)]
+pub struct TracedProgram {
+    /// The same program as that of [`program`](crate::queries::program) for emitted targets. Checked targets use the sweep height of a check.
+    pub program: Program,
+    /// Its paths are indices into [`TracedProgram::parts`].
+    pub trace: Trace<usize>,
+    /// The paths in the program with their values, each once.
+    pub parts: Vec<Part>,
+}
+
+/// A path with values for its variables.
+#[derive(Debug)]
+pub struct Part {
+    /// The drawing that defines it.
+    pub file: SourceFile,
+    /// The path with all parameters bound.
+    pub path: Path,
+    /// The values.
+    pub bindings: Bindings,
+}
+
+/// A path as it is drawn, with its positions in the file.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnPath<'db> {
+    /// The drawn elements.
+    pub raw: &'db RawPath,
+    /// Their positions in the file.
+    pub positions: &'db SourceMap,
+}
+
+/// The program of a target with the origins of its steps; `None` if there is no program. Only the last one is kept.
+#[salsa::tracked(no_eq, lru = 1)]
+pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>> {
     let closure = closure(db, target);
-    let is_right = !closure.has_errors() && closure.missing_options.is_empty();
-    if !is_right || !entered_keep_outs(db, target).is_empty() {
+    if closure.has_errors() || !closure.missing_options.is_empty() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
-    let program =
-        fold(&ClosurePaths { db }, closure.root?, drawing, Settings::get(db).fold(db), closure.moves);
-    Some(Arc::new(program))
+    let root = closure.root?;
+    let mut options = Settings::get(db).fold(db);
+    let is_only_embedded = !root.bindings(db).is_empty();
+    if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
+        // The sweep height of a check.
+        options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
+    }
+    let (program, trace) = fold_traced(&ClosurePaths { db }, root, drawing, options);
+    let mut instances: Vec<Instance<'_>> = Vec::new();
+    let mut numbers: FxHashMap<Instance<'_>, usize> = FxHashMap::default();
+    let occurrences = trace.occurrences.into_iter().map(|occurrence| {
+        let id = *numbers.entry(occurrence.id).or_insert_with(|| {
+            instances.push(occurrence.id);
+            instances.len() - 1
+        });
+        let Occurrence { parent, placement, raised, sweep_height, .. } = occurrence;
+        Occurrence { id, parent, placement, raised, sweep_height }
+    });
+    let trace = Trace { occurrences: occurrences.collect(), steps: trace.steps };
+    let part = |instance: Instance<'_>| {
+        let path = path(db, instance).path.clone()?;
+        Some(Part { file: instance.file(db), path, bindings: instance.bindings(db).clone() })
+    };
+    let parts = instances.into_iter().map(part).collect::<Option<Vec<_>>>()?;
+    Some(Arc::new(TracedProgram { program, trace, parts }))
+}
+
+/// A path as it is drawn; `None` if the drawing has no path of that name.
+pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<DrawnPath<'db>> {
+    let entry = raw_file(db, file).entry(name)?;
+    Some(DrawnPath { raw: &entry.raw, positions: &entry.map })
+}
+
+/// The effective parameters of each element of a path for these variable values. S is the same as in [`traced_program`]: a path that has
+/// variables or lacks an option counts as embedded.
+pub fn in_force(
+    db: &dyn Db,
+    file: SourceFile,
+    name: &PathName,
+    bindings: &Bindings,
+    is_emitted: bool,
+) -> Vec<ElementParameters> {
+    let settings = Settings::get(db);
+    let options = settings.fold(db);
+    let is_emitted = is_emitted && bindings.is_empty() && options.sweep_height.is_some();
+    let role = if is_emitted { PathRole::Emitted } else { PathRole::Embedded };
+    let of_path = |raw: &RawPath| parameters_in_force(raw, bindings, &options, role, settings.language(db));
+    raw_file(db, file).entry(name).map(|entry| of_path(&entry.raw)).unwrap_or_default()
+}
+
+/// The contents of a drawing's layers that hold neither paths nor clamps. The drawing is read again for this; only the last one is kept.
+#[salsa::tracked(no_eq, lru = 1)]
+pub fn other_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
+    let language = Settings::get(db).language(db);
+    let is_other = |layer: &str| !language.path_pattern.is_layer(layer) && !language.is_keep_out(layer);
+    Arc::new(read_layers(db, file, &is_other))
 }
 
 /// Gives the fold access to the paths of a closure without errors.

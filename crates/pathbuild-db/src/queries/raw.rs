@@ -1,17 +1,39 @@
-//! Raw paths of files and their places.
+//! Reads indexed drawings again for what the index lacks: raw paths, the elements of texts, and places.
 
 use std::sync::Arc;
 
-use pathbuild_diagnostic::{Diagnostic, Point};
-use pathbuild_path::{PathName, Position, RawPath, SourceMap, SpeltName};
+use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, Point, Severity};
+use pathbuild_dxf::Drawing;
+use pathbuild_path::{
+    AssignedText, Bindings, Combinations, PathName, Position, RawPath, SourceMap, SpeltName,
+};
 
-use super::index::NameKey;
-use super::reading::read_entities;
-use super::rereading::read_again;
-use crate::bugs::catch_bugs;
+use crate::bugs::{abandon_query, catch_bugs};
 use crate::db::Db;
-use crate::inputs::SourceFile;
-use crate::settings::Settings;
+use crate::inputs::{Settings, SourceFile};
+use crate::queries::index::{NameKey, file_index};
+use crate::queries::reading::{Fingerprint, entities, read, read_entities};
+
+/// Calls `work` with the bytes of an indexed drawing. If they no longer match the index, the drawing is marked as changed and the query
+/// abandoned. `None` if it cannot be read, which the index reports.
+fn read_again<R>(db: &dyn Db, file: SourceFile, work: impl FnOnce(&[u8], &mut Drawing) -> R) -> Option<R> {
+    let indexed = file_index(db, file).fingerprint();
+    let result = read(db, file, |bytes, _, drawing| {
+        (Some(Fingerprint::of(bytes)) == indexed).then(|| work(bytes, drawing))
+    });
+    match result {
+        Ok(Some(result)) => Some(result),
+        Err(_) if indexed.is_none() => None,
+        Ok(None) | Err(_) => abandon_query(db, file),
+    }
+}
+
+/// The entities of an indexed drawing on some of its layers. Empty if it cannot be read.
+pub(super) fn read_layers(db: &dyn Db, file: SourceFile, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
+    let reading = Settings::get(db).reading(db);
+    read_again(db, file, |bytes, _| entities(bytes, reading, keep_layer)).unwrap_or_default()
+}
 
 /// The raw paths of a file.
 #[derive(Clone, Debug, Default)]
@@ -68,7 +90,7 @@ pub(super) fn raw_path<'db>(db: &'db dyn Db, file: SourceFile, name: NameKey<'db
 }
 
 /// A raw path, for clients outside of queries. It takes a plain name, since a name interned outside a query is never reclaimed.
-pub(super) fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<&'db RawPath> {
+fn raw_by_name<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Option<&'db RawPath> {
     raw_file(db, file).entry(name).map(|entry| &*entry.raw)
 }
 
@@ -109,4 +131,39 @@ impl FileContents {
         let found = self.by_name.binary_search_by(|path| self.paths[*path].raw.name.cmp(name));
         found.ok().map(|place| &self.paths[self.by_name[place]])
     }
+}
+
+/// The texts of a drawing's paths with the element of each. The drawing is read again for that.
+#[salsa::tracked]
+pub fn assigned_texts(db: &dyn Db, file: SourceFile) -> Vec<AssignedText> {
+    let language = Settings::get(db).language(db);
+    let drawing = read_layers(db, file, &|layer| language.path_pattern.is_layer(layer));
+    pathbuild_path::assigned_texts(&drawing, language)
+}
+
+/// The combinations of a path's variable values, with a warning if there are more than `limit`. `None` for a path without variables or with
+/// errors.
+pub fn combinations(
+    db: &dyn Db,
+    file: SourceFile,
+    name: &PathName,
+    limit: usize,
+) -> Option<(Vec<Bindings>, Option<Diagnostic>)> {
+    let raw = raw_by_name(db, file, name).filter(|raw| raw.is_sound() && !raw.definitions.is_empty())?;
+    let Combinations { chosen, all } = Combinations::new(&raw.definitions, limit);
+    let is_cut = (chosen.len() as u64) < all;
+    let warning = || {
+        let mut warning = Diagnostic::new(&messages::COMBINATIONS_CUT)
+            .with("checked", chosen.len())
+            .with("all", all)
+            .in_path(raw.name.as_str())
+            .in_file(file.path(db));
+        warning.severity = Severity::Warning;
+        match &raw.start {
+            Some(start) => start.origin.at(warning),
+            None => warning,
+        }
+    };
+    let warning = is_cut.then(warning);
+    Some((chosen, warning))
 }

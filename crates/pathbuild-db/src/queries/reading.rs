@@ -11,8 +11,7 @@ use rustc_hash::FxHasher;
 
 use crate::bugs::catch_bugs;
 use crate::db::Db;
-use crate::inputs::SourceFile;
-use crate::settings::{Reading, Settings};
+use crate::inputs::{Reading, Settings, SourceFile};
 use crate::system::ReadError;
 
 /// Identifies the bytes that a result was computed from.

@@ -1,0 +1,91 @@
+//! What is reported and written of a target: its program, its findings, and Q-projects. (book: language/q-projects)
+
+use std::sync::Arc;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::{
+    Bindings, Component, Path, PathName, ProxyLine, QProject, judge_q_project, plan_q_project,
+};
+use pathbuild_toolpath::{Program, fold};
+
+use crate::db::Db;
+use crate::inputs::{Settings, SourceFile, Target};
+use crate::queries::closures::closure;
+use crate::queries::index::{bind, file_index};
+use crate::queries::keep_outs::entered_keep_outs;
+use crate::queries::programs::ClosurePaths;
+use crate::queries::raw::{locate_in, raw_file, read_layers};
+
+/// Folds a path and everything it embeds into a program. `None` if one of them has errors, an option is missing or the tool hits a clamp.
+/// Programs are large and used once, so only the last few are kept.
+#[salsa::tracked(lru = 16)]
+pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
+    let closure = closure(db, target);
+    let is_right = !closure.has_errors() && closure.missing_options.is_empty();
+    if !is_right || !entered_keep_outs(db, target).is_empty() {
+        return None;
+    }
+    let drawing = target.file(db).path(db).file_name().unwrap_or_default();
+    let program =
+        fold(&ClosurePaths { db }, closure.root?, drawing, Settings::get(db).fold(db), closure.moves);
+    Some(Arc::new(program))
+}
+
+/// Findings about a file as a whole. Its paths are targets of their own.
+pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
+    file_index(db, file).diagnostics()
+}
+
+/// Findings about a path, everything it embeds, and clamps in its way. They are not located yet.
+pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
+    closure(db, target).diagnostics.iter().chain(entered_keep_outs(db, target))
+}
+
+/// Fills in line and handle of the element that a diagnostic is about. Called last, so that no query depends on lines.
+pub fn locate(db: &dyn Db, mut diagnostic: Diagnostic) -> Diagnostic {
+    if let (Some(file), Some(path), Some(_)) = (&diagnostic.file, &diagnostic.path, diagnostic.place.element)
+    {
+        let (file, path) = (db.file(file), PathName::new(path));
+        locate_in(db, file, &path, &mut diagnostic);
+    }
+    diagnostic.place.element = None;
+    diagnostic
+}
+
+/// The Q-project of a drawing.
+#[salsa::tracked]
+pub fn q_project(db: &dyn Db, drawing: SourceFile) -> Vec<QProject> {
+    plan_q_project(&component(db, drawing))
+}
+
+/// Disagreements between the proxy lines of a drawing and its Q-project.
+#[salsa::tracked]
+pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
+    let paths = sound_paths(db, q_project);
+    let name = drawing.path(db).file_name().unwrap_or_default();
+    let found = judge_q_project(&component(db, drawing), name, paths.as_deref());
+    let in_component = found.in_component.into_iter().map(|problem| problem.in_file(drawing.path(db)));
+    let in_q_project = found.in_q_project.into_iter().map(|problem| problem.in_file(q_project.path(db)));
+    in_component.chain(in_q_project).collect()
+}
+
+fn component(db: &dyn Db, drawing: SourceFile) -> Component<'_> {
+    let language = Settings::get(db).language(db);
+    Component::new(raw_file(db, drawing).paths(), proxy_lines(db, drawing), language)
+}
+
+/// The proxy lines of a drawing, which is read again with all its layers.
+#[salsa::tracked]
+fn proxy_lines(db: &dyn Db, file: SourceFile) -> Vec<ProxyLine> {
+    let drawing = read_layers(db, file, &|_| true);
+    pathbuild_path::proxy_lines(&drawing, Settings::get(db).language(db))
+}
+
+/// The paths of a Q-project with example values. `None` if one of them has errors.
+fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<Path>> {
+    let language = Settings::get(db).language(db);
+    let is_readable = !check_file(db, file).iter().any(Diagnostic::is_error);
+    let paths = raw_file(db, file).paths();
+    let sound = |raw| bind(raw, &Bindings::check_values(&raw.definitions), language).path;
+    is_readable.then(|| paths.map(sound).collect())?
+}
