@@ -90,6 +90,32 @@ fn the_configured_definition_reads_programs_without_a_header() {
     assert!(run.stderr.contains("read as own.toml"), "{run}");
 }
 
+#[test]
+fn a_program_of_an_unchecked_definition_is_not_called_as_drawn() {
+    let place = Place::of(&LIBRARY.replace(r#"line = "G01 X{+~X1~} "#, r#"line = "G01 X{+~PrevX~} "#));
+    let configure = |unchecked: &str| {
+        let configuration = place.read("pathbuild.toml");
+        let rest = configuration.split_once("library").unwrap().1;
+        let post = format!("post = {{ name = \"own.toml\", unchecked = {unchecked} }}\nlibrary{rest}");
+        fs::write(place.path().join("pathbuild.toml"), post).unwrap();
+    };
+    configure("true");
+    let run = place.run("emit 1234.1P");
+    assert_eq!(run.status, Some(0), "{run}");
+    let run = verify(&place, "--against 1234.1P");
+    assert!(!run.stderr.contains("moves as in path"), "{run}");
+    assert!(run.stderr.contains("the moves were not compared with path 1234.1P"), "{run}");
+    assert!(run.stderr.contains("errors: 0, warnings: 1"), "{run}");
+    let text = place.read(PROGRAM);
+    fs::write(place.path().join(PROGRAM), text.replacen("Y+30", "Y+31", 1)).unwrap();
+    let run = verify(&place, "--against 1234.1P");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(!run.stderr.contains("moves as in path"), "{run}");
+    configure("false");
+    let run = place.run("emit 1234.1P --out-dir elsewhere");
+    assert_eq!(run.status, Some(1), "it moves elsewhere than the drawing\n{run}");
+}
+
 /// Lines of the program, what becomes of them, and whether that is a finding.
 const CHANGES: [(&str, &str, bool); 14] = [
     ("G00 Z+5 M03", "G00 Z+5", true),

@@ -341,7 +341,7 @@ fn what_is_accepted_and_not_followed_is_an_error() {
         "G5 X1 Y1 I1 J1 P1 Q1",
         "G76 P1 Z-1 I1 J1 R1 K1",
         "M98 P100",
-        "o1 sub",
+        "o1 call",
         "M101 P1 Q2",
         "G10 L1 P1 Z1",
     ] {
@@ -827,6 +827,130 @@ fn skips_are_probes_that_need_no_answer() {
         );
     }
     assert_eq!(wrong(LinuxCnc, "G31 Z0 F40")[0], "2 unknown-word");
+}
+
+#[test]
+fn a_motion_word_without_coordinates_is_doubtful_where_it_does_nothing() {
+    let found = |dialect, line: &str| wrong(dialect, line).contains(&"2 missing-word".to_owned());
+    for dialect in [Marlin, Xpertmill] {
+        assert!(found(dialect, "G1"), "{dialect}");
+        assert!(!found(dialect, "G1 X1 F100"), "{dialect}");
+    }
+    assert!(!found(Marlin, "G1 F100") && found(Xpertmill, "G1 F100 !X1"));
+    assert!(!found(LinuxCnc, "G1") && !found(Fanuc, "G1"));
+}
+
+#[test]
+fn a_code_has_at_most_one_decimal() {
+    for word in ["G1.0", "G01.", "G1.00"] {
+        assert_eq!(
+            run(LinuxCnc, &format!("G0 X0 Y0 Z5\n{word} X1 F100"))[1],
+            "3 feed 100 to 1 0 5",
+            "{word}"
+        );
+    }
+    for word in ["G0.9999", "G1.01", "G0.999999"] {
+        assert_eq!(wrong(LinuxCnc, &format!("G0 X0 Y0 Z5\n{word} X1 F100"))[0], "3 unknown-word", "{word}");
+    }
+}
+
+#[test]
+fn a_stop_switches_the_spindle_off_where_it_does() {
+    let spindle =
+        |dialect| run(dialect, "M3 S100\nM0").iter().filter(|step| step.contains("spindle")).count();
+    assert_eq!([Haas, Fanuc, LinuxCnc, Grbl].map(spindle), [2, 1, 1, 1]);
+}
+
+#[test]
+fn percent_begins_a_program_for_xpertmill_and_stands_nowhere_else() {
+    let found = |program: &str| faults(Xpertmill, program).contains(&"3 doubtful-spelling".to_owned());
+    assert!(!found("// a\n\n% // b\nG71\nG00 X1 Y1 Z1\nM30\n"));
+    assert!(found("%\nG71\n%\nG00 X1 Y1 Z1\nM30\n"));
+}
+
+/// The problems of a program with its own end, after a line.
+fn wrong_of(dialect: Dialect, program: &str) -> Vec<String> {
+    faults(dialect, &format!("G17 G21 G90\n{program}\n"))
+}
+
+/// Where a program moves in X, without what precedes and follows the calls.
+fn places(dialect: Dialect, program: &str) -> String {
+    let text = format!("G21 G90\nG0 X0. Y0. Z5.\n{program}\n");
+    let moves = interpret(text.as_bytes(), dialect, &Options::default()).moves();
+    moves[1..].iter().map(|(_, it)| it.to.x().to_string()).collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn subprograms_run_where_they_are_called() {
+    for (dialect, program, expected) in [
+        (LinuxCnc, "o1 sub\nG0 X1\no1 endsub\nG0 X2\no1 call\nG0 X3\no01 call\nM2", "2 1 3 1"),
+        (
+            LinuxCnc,
+            "O<Slot> sub\nG0 X[#1+#2]\nO<slot> endsub\no<slot> call [1] [2]\no<SLOT> call [4]\nM2",
+            "3 4",
+        ),
+        // The definition may follow the end.
+        (LinuxCnc, "o1 call\nG0 X2\nM2\no1 sub\nG0 X1\no1 endsub", "1 2"),
+        (
+            LinuxCnc,
+            "o1 sub\no2 call\nG0 X1\no1 endsub\no2 sub\nG0 X2\no2 return\nG0 X9\no2 endsub\no1 call\nM2",
+            "2 1",
+        ),
+        (LinuxCnc, "#1=7\n#<a>=8\no1 sub\n#1=2\n#<a>=3\no1 endsub\no1 call\nG0 X#1\nX#<a>\nM2", "7 8"),
+        (LinuxCnc, "o1 repeat [3]\n#5=[#5+1]\nG0 X#5\no1 endrepeat\nG0 X9\nM2", "1 2 3 9"),
+        (LinuxCnc, "o1 repeat [0]\nG0 X1\no1 endrepeat\nG0 X9\nM2", "9"),
+        (
+            LinuxCnc,
+            "o1 sub\no2 repeat [5]\nG0 X1\no1 return\no2 endrepeat\no1 endsub\no1 call\nG0 X9\nM2",
+            "1 9",
+        ),
+        (Fanuc, "M98 P2000 L2\nG0 X9.\nM30\nO2000\nG0 X1.\nM99", "1 1 9"),
+        (Fanuc, "M98 P32000\nG0 X9.\nM30\nO2000 G0 X1.\nM99", "1 1 1 9"),
+        (Haas, "M97 P7 L2\nG0 X9.\nM30\nN7 G0 X1.\nM99", "1 1 9"),
+        (Mach3, "M98 P5\nG0 X9\nM30\nO5\nG0 X1\nM98 P6 L2\nM99\nO6\nG0 X2\nM99", "1 2 2 9"),
+        (Mach3, "M98 P5 L0\nG0 X9\nM30\nO5\nG0 X1\nM99", "9"),
+    ] {
+        assert_eq!(places(dialect, program), expected, "{dialect}\n{program}");
+        assert_eq!(wrong_of(dialect, program), FINE, "{dialect}\n{program}");
+    }
+}
+
+#[test]
+fn calls_that_cannot_be_followed_are_reported() {
+    let sub = |name: u32, body: &str| format!("o{name} sub\n{body}\no{name} endsub\n");
+    let nested = |depth: u32| {
+        let all: String = (1..depth).map(|name| sub(name, &format!("o{} call", name + 1))).collect();
+        format!("{all}{}o1 call\nM2", sub(depth, "G0 X1"))
+    };
+    let unfollowed = |dialect, program: &str| {
+        wrong_of(dialect, program).iter().filter(|it| it.ends_with("word-not-followed")).count()
+    };
+    assert_eq!([10, 11].map(|depth| unfollowed(LinuxCnc, &nested(depth))), [0, 1]);
+    for program in [
+        "o1 call\nM2",
+        "o1 sub\no1 call\no1 endsub\no1 call\nM2",
+        "o1 sub\nG0 X1\nM2",
+        "o1 repeat [3]\nG0 X1\nM2",
+        "G0 X1\no1 endsub\nM2",
+        "G0 X1\no1 endrepeat\nM2",
+        "o1 repeat [-1]\nG0 X1\nM2",
+        "o[1] call\nM2",
+        "o1 repeat [1000]\no2 repeat [1001]\n(a)\no2 endrepeat\no1 endrepeat\nM2",
+    ] {
+        assert_eq!(unfollowed(LinuxCnc, program), 1, "{program}");
+    }
+    for program in ["M98 P5\nM30", "G0 X1\nM99", "M98 P5\nM30\nO5\nG0 X1", "M98 P5\nM30\nO5\nM99 P3\nM99"] {
+        assert_eq!(unfollowed(Mach3, program), 1, "{program}");
+    }
+    assert_eq!(unfollowed(Fanuc, "O7\nG0 X1.\nM98 P7\nM30"), 1, "the main program");
+    // A subprogram that nobody calls is text behind the end.
+    assert_eq!(wrong_of(Mach3, "M30\nO5\nG0 X1\nM99").len(), 1);
+}
+
+#[test]
+fn a_line_that_is_executed_repeatedly_has_its_problem_once() {
+    let found = wrong_of(LinuxCnc, "o1 repeat [50]\nG0 X1 R1\no1 endrepeat\nM2");
+    assert_eq!(found, ["3 unused-word"]);
 }
 
 #[test]

@@ -304,7 +304,7 @@ fn brackets_are_nested_so_deep() {
 fn o_words_take_the_rest_of_their_line() {
     let mut reader = BlockReader::new(b"o100 call [1] [2]\nG0 X1\n", LinuxCnc.rules());
     let block = reader.next_block().expect("a block");
-    assert_eq!(block.text_of(block.o_word.expect("an O word")), "o100 call [1] [2]");
+    assert_eq!(block.text_of(block.o_word.expect("an O word").span), "o100 call [1] [2]");
     assert_eq!(words(LinuxCnc, "o100 call [1] [2]\nG0 X1\n"), ["1:", "2: G0 X1"]);
 }
 

@@ -68,7 +68,7 @@ pub enum Action {
 /// A G or M word other than a motion. Its effects, if any, are in other steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StatedWord {
-    /// `G` or `M`.
+    /// `G` or `M`; `O` for a call of a subroutine.
     pub letter: char,
     /// The number times ten: `G38.2` is 382.
     pub code: u16,
@@ -87,6 +87,8 @@ pub enum WordEffect {
     System,
     /// It goes to a machine position or refers to machine zero, which no program contains.
     Place,
+    /// It runs a subprogram of the file, whose steps come next.
+    Call,
     /// It is not followed.
     NotFollowed,
 }

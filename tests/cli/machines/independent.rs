@@ -95,12 +95,13 @@ fn without_way_up(text: &str) -> String {
     text.lines().filter(|line| !is_own(line)).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Whether a line does nothing but go straight up to a place of the machine.
+/// Whether a line does nothing but go straight up to a place of the machine. Stopping there changes nothing.
 fn is_way_up(line: &str) -> bool {
     let mut found: Vec<(u8, f64)> = words(line)
         .into_iter()
         .filter_map(|(begin, end)| Some((line.as_bytes()[begin], line[begin + 1..end].parse().ok()?)))
         .collect();
+    found.retain(|word| !matches!(*word, (b'M', 0.0 | 1.0)));
     found.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
     let ways: [&[(u8, f64)]; 4] = [
         &[(b'G', 0.0), (b'G', 53.0), (b'Z', 0.0)],

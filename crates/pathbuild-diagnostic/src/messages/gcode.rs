@@ -286,6 +286,13 @@ messages! {
         help_en: "remove the line, unless your sender does it",
         help_de: "die Zeile entfernen, wenn das nicht das Sendeprogramm tut",
     }
+    /// `%` in mid-program, for XpertMILL.
+    SECOND_PERCENT: DoubtfulSpelling {
+        en: "`%` begins a program; what {dialect} makes of it further down is not known",
+        de: "`%` beginnt ein Programm; was {dialect} weiter unten damit macht, ist nicht bekannt",
+        help_en: "remove the line",
+        help_de: "die Zeile entfernen",
+    }
     /// A drilling cycle in a dialect without drilling cycles.
     UNKNOWN_CYCLE: UnknownWord {
         en: "{dialect} does not take the drilling cycle {word}: what it does is missing from the result",
@@ -295,10 +302,52 @@ messages! {
     }
     /// Subroutines and branches.
     O_WORD: WordNotFollowed {
-        en: "subroutines and branches (O words) are not followed; the lines below are read once, in the order of the file",
-        de: "Unterprogramme und Verzweigungen (O-Wörter) werden nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
+        en: "branches and calculated O words are not followed; the lines below are read once, in the order of the file",
+        de: "Verzweigungen und berechnete O-Wörter werden nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
         help_en: "write the moves out, or check the program at the control",
         help_de: "die Bewegungen ausschreiben oder das Programm an der Steuerung prüfen",
+    }
+    /// A call of a subprogram that the file lacks.
+    CALLED_ELSEWHERE: WordNotFollowed {
+        en: "the subprogram {name} is not in this file: its moves are not known",
+        de: "das Unterprogramm {name} steht nicht in dieser Datei: seine Bewegungen sind unbekannt",
+        help_en: "put it behind the program in the same file, or check the program at the control",
+        help_de: "es in derselben Datei hinter das Programm schreiben oder das Programm an der Steuerung prüfen",
+    }
+    /// Recursion.
+    CALLED_BY_ITSELF: WordNotFollowed {
+        en: "the subprogram {name} calls itself: it is not followed again",
+        de: "das Unterprogramm {name} ruft sich selbst auf: es wird nicht noch einmal verfolgt",
+        help_en: "write a loop with a number of repetitions instead",
+        help_de: "stattdessen eine Schleife mit einer Anzahl von Wiederholungen schreiben",
+    }
+    /// A subprogram or loop without its last line.
+    CALLED_WITHOUT_END: WordNotFollowed {
+        en: "{name} has no end in this file",
+        de: "{name} hat in dieser Datei kein Ende",
+        help_en: "end subprograms with M99 or endsub, and loops with endrepeat",
+        help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat",
+    }
+    /// The end of a subprogram in the main program.
+    END_WITHOUT_CALL: WordNotFollowed {
+        en: "a subprogram ends here, but none was called: some controls begin the program again",
+        de: "hier endet ein Unterprogramm, es wurde aber keines aufgerufen: manche Steuerungen beginnen das Programm von vorn",
+        help_en: "end the main program with M30",
+        help_de: "das Hauptprogramm mit M30 beenden",
+    }
+    /// Calls within calls.
+    CALLS_TOO_DEEP: WordNotFollowed {
+        en: "subprograms and loops are nested more than {most} deep: this one is not followed",
+        de: "Unterprogramme und Schleifen sind mehr als {most}fach geschachtelt: hier wird nicht weiter verfolgt",
+        help_en: "write the innermost moves out",
+        help_de: "die innersten Bewegungen ausschreiben",
+    }
+    /// Too many lines are executed by calls.
+    CALLS_TOO_LONG: WordNotFollowed {
+        en: "subprograms and loops execute more than {most} lines: the rest of the program is not read",
+        de: "Unterprogramme und Schleifen führen mehr als {most} Zeilen aus: der Rest des Programms wird nicht gelesen",
+        help_en: "check the numbers of repetitions",
+        help_de: "die Anzahlen der Wiederholungen prüfen",
     }
     /// A command that is not interpreted.
     NOT_FOLLOWED: WordNotFollowed {

@@ -92,6 +92,13 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
+    /// `verify --against`, of a program whose definition is unchecked.
+    MOVES_NOT_COMPARED: DoubtfulPost {
+        en: "the moves were not compared with path {path}: with unchecked = true, nothing tells whether what {post} writes mills the drawing",
+        de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true sagt nichts, ob das, was {post} schreibt, die Zeichnung fräst",
+        help_en: "remove `unchecked` in pathbuild.toml and emit the program again, or check its moves by hand",
+        help_de: "`unchecked` in der pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
+    }
     /// `verify --against`: O.
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, for the drawing it is O{expected}: on the control it may be another program's",

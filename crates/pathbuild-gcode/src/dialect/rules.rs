@@ -33,6 +33,8 @@ pub struct Rules {
     pub one_command: bool,
     /// Whether a line may have only one G and one M word.
     pub one_word_each: bool,
+    /// Whether M0 and M1 also switch spindle and coolant off, which then stay off.
+    pub stop_is_complete: bool,
     /// Whether M5 and M9 take effect after the move in the same line.
     pub stops_last: bool,
     /// Whether rapid moves have the feed F like all other moves.
@@ -162,6 +164,7 @@ const BASE: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"" },
     one_command: false,
     one_word_each: false,
+    stop_is_complete: false,
     stops_last: false,
     rapids_at_feed: false,
     program_numbers: false,
@@ -303,6 +306,8 @@ pub(super) static HAAS: Rules = Rules {
     dialect: Dialect::Haas,
     words: &codes::HAAS,
     dwell: DwellRules { p: DwellUnit::ByPoint, seconds: b"" },
+    // Haas Mill Operator's Manual, M00: "It stops the axes, spindle, and turns off the coolant".
+    stop_is_complete: true,
     ..ISO
 };
 

@@ -209,6 +209,7 @@ pub(super) fn is_cycle(code: u16) -> bool {
 /// What a G or M code, ten times its number, is called: `G1`, `G38.2`.
 pub fn name(letter: char, code: u16) -> String {
     match code % 10 {
+        0 if letter == 'O' => letter.to_string(),
         0 => format!("{letter}{}", code / 10),
         tenth => format!("{letter}{}.{tenth}", code / 10),
     }

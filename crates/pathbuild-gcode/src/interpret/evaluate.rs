@@ -23,6 +23,15 @@ pub(super) struct Parameters {
     pub(super) machine_values: Vec<u32>,
 }
 
+/// Parameters that each subroutine has for itself: `#1` to `#30`, and names that do not begin with `_`.
+pub(super) struct LocalParameters {
+    numbered: BTreeMap<u32, f64>,
+    named: BTreeMap<Box<str>, f64>,
+}
+
+/// The last numbered parameter of a subroutine.
+const LOCAL: u32 = 30;
+
 impl Parameters {
     pub(super) fn set(&mut self, number: u32, value: f64) {
         self.numbered.insert(number, value);
@@ -30,6 +39,25 @@ impl Parameters {
 
     pub(super) fn set_named(&mut self, name: Box<str>, value: f64) {
         self.named.insert(name, value);
+    }
+
+    /// Sets the parameters that belong to a subroutine, and returns those of the caller.
+    pub(super) fn enter(&mut self, values: &[f64]) -> LocalParameters {
+        let own = (1..=LOCAL).zip(values.iter().copied().chain(std::iter::repeat(0.0)));
+        let numbered = own.filter_map(|(number, value)| Some((number, self.numbered.insert(number, value)?)));
+        let numbered = numbered.collect();
+        let (global, named) =
+            std::mem::take(&mut self.named).into_iter().partition(|(name, _)| name.starts_with('_'));
+        self.named = global;
+        LocalParameters { numbered, named }
+    }
+
+    /// Restores the parameters of the caller.
+    pub(super) fn leave(&mut self, of_caller: LocalParameters) {
+        self.numbered.retain(|number, _| *number > LOCAL);
+        self.named.retain(|name, _| name.starts_with('_'));
+        self.numbered.extend(of_caller.numbered);
+        self.named.extend(of_caller.named);
     }
 
     /// Evaluates an expression of a block. Parameters are numbered from 1 to `most`.

@@ -4,6 +4,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 use pathbuild_motion::{Action, Axes, Change, Move, Pace, Step};
 
+use super::calls::Jump;
 use super::codes;
 use super::evaluate::Parameters;
 use super::formulas::StatedProbes;
@@ -25,6 +26,12 @@ pub(super) struct Interpreter<'i> {
     /// The steps of the last block.
     pub(super) out: Vec<Step>,
     pub(super) ended: bool,
+    /// Where the program goes on after the last block, unless in the next line.
+    pub(super) jump: Option<Jump>,
+    /// Whether the next block is the first one of a subprogram.
+    pub(super) begins_subprogram: bool,
+    /// O, the number of the program.
+    pub(super) main_number: Option<u32>,
 }
 
 impl<'i> Interpreter<'i> {
@@ -39,6 +46,9 @@ impl<'i> Interpreter<'i> {
             stated: StatedProbes::default(),
             out: Vec::new(),
             ended: false,
+            jump: None,
+            begins_subprogram: false,
+            main_number: None,
         }
     }
 
@@ -68,12 +78,10 @@ impl<'i> Interpreter<'i> {
             self.take_stated(block, comment.text);
             self.step(block, Action::Comment(block.text_of(comment.text).into()));
         }
-        if let Some(o_word) = block.o_word {
-            self.report(block, &say::O_WORD, o_word, |d| d);
-        }
         self.begin_words(block);
         self.words.clear();
-        if let Err((fault, span)) = self.gather(block) {
+        let o_word = block.o_word.map_or(Ok(()), |word| self.o_word(block, word));
+        if let Err((fault, span)) = o_word.and_then(|()| self.gather(block)) {
             self.report(block, &say::NO_VALUE, span, |d| d.with("reason", fault.0));
             return;
         }
@@ -158,6 +166,8 @@ impl<'i> Interpreter<'i> {
             self.check_stop_before_motion(block);
         }
         self.stop(block);
+        self.subprogram(block);
+        self.begins_subprogram = false;
     }
 
     /// Converts a height or coordinate to mm.

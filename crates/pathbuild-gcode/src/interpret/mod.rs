@@ -5,6 +5,7 @@
 //! cannot be understood are omitted; later steps may be wrong in consequence.
 
 mod arc;
+mod calls;
 mod codes;
 mod conflicts;
 mod cycle;
@@ -152,14 +153,9 @@ fn interpret_parts_until(
             None => BlockReader::new(text, rules),
             Some(reader) => reader.go_on(text),
         };
-        while let Some(block) = reader.next_block() {
-            has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
-            interpreter.block(&block);
-            // After the last step that is wanted, the rest is not interpreted.
-            if interpreter.out.drain(..).try_for_each(&mut *each).is_break() || interpreter.has_ended() {
-                reader.end_program();
-            }
-        }
+        let mut runner = calls::Runner::new(&mut interpreter, &mut *each);
+        runner.run_file(&mut reader);
+        has_words |= runner.has_words;
         before = Some(reader.go_on(&[]));
     }
     let reader = before.unwrap_or_else(|| BlockReader::new(&[], rules));

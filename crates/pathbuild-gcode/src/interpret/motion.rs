@@ -1,6 +1,7 @@
 //! Moves: straight lines, probing, named positions, and commands that use coordinates without moving.
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Axes, Group, Move, Named, Pace, Path, Position};
 
 use super::codes::{self, Command, Motion};
@@ -23,6 +24,9 @@ impl Interpreter<'_> {
         }
         let moves_without = stated.is_some() && matches!(motion, Motion::Arc { .. } | Motion::Cycle(_));
         if !has_coordinates && !moves_without {
+            if let Some((_, code, span)) = stated {
+                self.check_does_something(block, motion, code, span);
+            }
             return false;
         }
         self.check_stated(block, stated.is_some(), motion);
@@ -57,6 +61,18 @@ impl Interpreter<'_> {
         }
         self.state.motion = motion;
         self.state.motion_code = code;
+    }
+
+    /// Warns about a motion word that neither moves nor sets F. It does not count for later lines either, where those state their motion.
+    fn check_does_something(&mut self, block: &Block<'_>, motion: Motion, code: u16, span: Span) {
+        let sets_feed = self.words.values.has(b'F') && !self.rules.layers;
+        let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);
+        if self.rules.motion_is_stated && is_straight && !sets_feed {
+            self.report(block, &say::NEEDS, span, |d| {
+                let d = d.quoting("word", codes::name('G', code)).quoting("missing", "X, Y, Z");
+                Diagnostic { severity: Severity::Warning, ..d }
+            });
+        }
     }
 
     fn check_machine_coordinates(&mut self, block: &Block<'_>, motion: Motion, span: Span) {

@@ -17,6 +17,8 @@ pub(super) const TOOL: &[u16] = &[60, 610];
 pub(super) const COOLANT: &[u16] = &[70, 80, 90];
 /// M codes that change which line is executed next, or the meaning of G words.
 const M_NOT_FOLLOWED: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
+/// M codes that call and end subprograms.
+pub(super) const CALLS: &[u16] = &[970, 980, 990];
 
 impl Interpreter<'_> {
     pub(super) fn tool(&mut self, block: &Block<'_>) {
@@ -103,9 +105,14 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Whether an M code calls or ends a subprogram in this dialect.
+    pub(super) fn calls(&self, m_code: u16) -> bool {
+        self.rules.program_numbers && CALLS.contains(&m_code)
+    }
+
     fn is_unfollowed(&self, m_code: u16) -> bool {
         let is_own = self.rules.words.own_m_codes && (1000..2000).contains(&m_code);
-        is_jump(m_code) || is_own
+        is_jump(m_code) && !self.calls(m_code) || is_own
     }
 
     pub(super) fn dwell(&mut self, block: &Block<'_>) {
@@ -138,9 +145,13 @@ impl Interpreter<'_> {
         let Some(number) = whole(slot.value).filter(|number| *number > 0) else {
             return self.out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
         };
+        if self.begins_subprogram {
+            return;
+        }
         if std::mem::replace(&mut self.state.stated.program_number, true) {
             return self.report(block, &say::NOT_FOLLOWED, slot.span, |d| d.quoting("word", "O"));
         }
+        self.main_number = Some(number);
         self.step(block, Action::ProgramNumber(number));
     }
 
@@ -227,8 +238,22 @@ impl Interpreter<'_> {
                     self.words.values.take(b'P');
                 }
                 self.step(block, Action::Stop { optional: code == 10 });
+                if self.rules.stop_is_complete {
+                    self.switch_off(block);
+                }
             }
             None => {}
+        }
+    }
+
+    /// Switches spindle and coolant off, as far as they are on.
+    fn switch_off(&mut self, block: &Block<'_>) {
+        if self.state.spindle.turning.is_on() {
+            self.state.spindle.turning = Turning::Off;
+            self.step(block, Action::Spindle(self.state.spindle));
+        }
+        if std::mem::take(&mut self.state.coolant) != Coolant::default() {
+            self.step(block, Action::Coolant(self.state.coolant));
         }
     }
 

@@ -55,7 +55,12 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    fn value(&mut self, block: &Block<'_>, value: Value, span: Span) -> Result<(f64, u8), ValueFault> {
+    pub(super) fn value(
+        &mut self,
+        block: &Block<'_>,
+        value: Value,
+        span: Span,
+    ) -> Result<(f64, u8), ValueFault> {
         let code = match value {
             Value::Number(number) => return Ok((number.value, number.decimals)),
             Value::Expression(code) => code,
@@ -218,7 +223,11 @@ impl Interpreter<'_> {
         }
         for index in 0..self.words.m_codes.len() {
             let (code, _) = self.words.m_codes[index];
-            let effect = if is_followed_m(code) { WordEffect::Followed } else { WordEffect::NotFollowed };
+            let effect = match code {
+                _ if self.calls(code) => WordEffect::Call,
+                _ if is_followed_m(code) => WordEffect::Followed,
+                _ => WordEffect::NotFollowed,
+            };
             self.step(block, Action::Word(StatedWord { letter: 'M', code, group: None, effect }));
         }
     }
@@ -233,11 +242,11 @@ impl Interpreter<'_> {
     }
 }
 
-/// A G or M number times ten, if it has at most one decimal.
+/// A G or M number times ten, if it has at most one decimal. Controls disagree whether `G0.9999` is G0 or G1.
 fn code_of(value: f64) -> Option<u16> {
     let tenths = value * 10.0;
     let nearest = libm::round(tenths);
-    let fits = libm::fabs(tenths - nearest) < 0.001 && (0.0..f64::from(u16::MAX)).contains(&nearest);
+    let fits = libm::fabs(tenths - nearest) < 1e-6 && (0.0..f64::from(u16::MAX)).contains(&nearest);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and within a u16")]
     fits.then_some(nearest as u16)
 }

@@ -112,6 +112,31 @@ pub struct Formula {
     pub span: Span,
 }
 
+/// An O word: it defines or calls a subroutine, or controls which line is next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OWord {
+    /// Range from the letter to its last value.
+    pub span: Span,
+    /// Range of its number, or of its name without `<` and `>`.
+    pub name: Span,
+    /// What it does.
+    pub kind: OWordKind,
+}
+
+/// The keyword of an O word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the keywords say it")]
+pub enum OWordKind {
+    Sub,
+    EndSub,
+    Return,
+    Call,
+    Repeat,
+    EndRepeat,
+    /// A branch, another loop, or a name that is calculated. Its values are not read.
+    Other,
+}
+
 /// A line that could be read and is not blank.
 #[derive(Clone, Copy, Debug)]
 pub struct Block<'a> {
@@ -131,8 +156,10 @@ pub struct Block<'a> {
     pub comments: &'a [Comment],
     /// Formulas in the order of the text.
     pub formulas: &'a [Formula],
-    /// An O word and everything after it.
-    pub o_word: Option<Span>,
+    /// The O word, if the line has one.
+    pub o_word: Option<OWord>,
+    /// The values in brackets after the O word.
+    pub arguments: &'a [Code],
     pub(super) code: &'a [Op],
 }
 

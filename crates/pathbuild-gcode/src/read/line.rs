@@ -3,8 +3,8 @@
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 
-use super::block::{Comment, Formula, Number, Setting, Span, Value, Word};
-use super::expression::Op;
+use super::block::{Comment, Formula, Number, OWord, Setting, Span, Value, Word};
+use super::expression::{Code, Op};
 use super::number::{self};
 use super::problems::{At, Problems};
 use super::text::decode;
@@ -23,7 +23,8 @@ pub(super) struct Parts {
     pub(super) settings: Vec<Setting>,
     pub(super) comments: Vec<Comment>,
     pub(super) formulas: Vec<Formula>,
-    pub(super) o_word: Option<Span>,
+    pub(super) o_word: Option<OWord>,
+    pub(super) arguments: Vec<Code>,
     pub(super) code: Vec<Op>,
 }
 
@@ -36,6 +37,7 @@ impl Parts {
         self.comments.clear();
         self.formulas.clear();
         self.o_word = None;
+        self.arguments.clear();
         self.code.clear();
     }
 

@@ -15,8 +15,11 @@ mod real_time;
 mod text;
 mod word;
 
-pub use block::{Block, Comment, CommentStyle, Formula, Number, Setting, Span, Target, Value, Word};
+pub use block::{
+    Block, Comment, CommentStyle, Formula, Number, OWord, OWordKind, Setting, Span, Target, Value, Word,
+};
 pub use expression::{Binary, Code, Function, Op};
 pub use problems::{At, Problems};
+pub(crate) use reader::Place;
 pub use reader::{BlockReader, LONGEST_LINE};
 pub use text::quote;

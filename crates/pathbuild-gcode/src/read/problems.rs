@@ -75,11 +75,13 @@ impl Problems {
 
     /// Adds the problems of another stage.
     pub fn append(&mut self, other: Self) {
-        for (key, (count, last)) in other.counts {
-            let known = self.counts.entry(key).or_default();
-            *known = (known.0 + count, self.found.len() + last);
+        for diagnostic in other.found {
+            let message = diagnostic.message;
+            self.push(message, || diagnostic);
         }
-        self.found.extend(other.found);
+        for (key, (count, _)) in other.counts {
+            self.counts.entry(key).or_default().0 += count.saturating_sub(SHOWN);
+        }
     }
 
     /// Returns the diagnostics in the order of lines. The last one of a limited message tells how many more there were.
@@ -97,10 +99,15 @@ impl Problems {
 
     fn push(&mut self, message: &'static Message, diagnostic: impl FnOnce() -> Diagnostic) {
         let (count, last) = self.counts.entry(message.key).or_default();
-        *count += 1;
-        if *count <= SHOWN {
+        if *count < SHOWN {
+            let diagnostic = diagnostic();
+            // A line that is executed repeatedly has its problem once.
+            if self.found.contains(&diagnostic) {
+                return;
+            }
             *last = self.found.len();
-            self.found.push(diagnostic());
+            self.found.push(diagnostic);
         }
+        *count += 1;
     }
 }

@@ -35,6 +35,17 @@ pub struct BlockReader<'t> {
     state: State,
     parts: Parts,
     problems: Problems,
+    /// Whether subprograms may follow the end of the program.
+    has_subprograms: bool,
+}
+
+/// A place between two lines of a file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// Offset of the next line.
+    at: usize,
+    /// The line before, counted from 1.
+    line: u32,
 }
 
 /// The progress within the program.
@@ -60,13 +71,40 @@ impl<'t> BlockReader<'t> {
             state: State::Leader,
             parts: Parts::default(),
             problems: Problems::default(),
+            has_subprograms: false,
         }
+    }
+
+    /// The place after the line last read.
+    pub(crate) fn place(&self) -> Place {
+        Place { at: self.at, line: self.line }
+    }
+
+    /// Another reader of the same file, from a place within its program.
+    pub(crate) fn again_from(&self, Place { at, line }: Place) -> Self {
+        Self { at, line, state: State::Program, ..Self::new(self.text, self.rules) }
+    }
+
+    /// Another reader of the same file, from its beginning.
+    pub(crate) fn again(&self) -> Self {
+        Self::new(self.text, self.rules)
+    }
+
+    /// Whether a place lies ahead.
+    pub(crate) fn is_before(&self, place: Place) -> bool {
+        self.at <= place.at
+    }
+
+    /// Lets subprograms follow the end of the program.
+    pub(crate) fn allow_subprograms(&mut self) {
+        self.has_subprograms = true;
     }
 
     /// Continues the same file with further bytes. The bytes before must have ended with a line break.
     pub(crate) fn go_on(self, text: &[u8]) -> BlockReader<'_> {
-        let Self { rules, line, state, parts, problems, .. } = self;
-        BlockReader { text, rules, end_of_line: end_of_line(text), at: 0, line, state, parts, problems }
+        let Self { rules, line, state, parts, problems, has_subprograms, .. } = self;
+        let end_of_line = end_of_line(text);
+        BlockReader { text, rules, end_of_line, at: 0, line, state, parts, problems, has_subprograms }
     }
 
     /// Returns the next line that is not blank and can be read.
@@ -91,6 +129,7 @@ impl<'t> BlockReader<'t> {
             comments: &self.parts.comments,
             formulas: &self.parts.formulas,
             o_word: self.parts.o_word,
+            arguments: &self.parts.arguments,
             code: &self.parts.code,
         })
     }
@@ -132,7 +171,9 @@ impl<'t> BlockReader<'t> {
                 if line == b"%" {
                     continue;
                 }
-                self.report(&say::AFTER_END, line, |d| d.with("line", u64::from(end)));
+                if !self.has_subprograms {
+                    self.report(&say::AFTER_END, line, |d| d.with("line", u64::from(end)));
+                }
                 self.at = self.text.len();
                 return None;
             }
@@ -238,7 +279,11 @@ impl<'t> BlockReader<'t> {
         }
         let behind = blanks + 1;
         match self.rules.spelling.percent {
-            Percent::Start => Beginning::Passed(behind),
+            Percent::Start if self.state == State::Leader => Beginning::Passed(behind),
+            Percent::Start => {
+                self.report(&say::SECOND_PERCENT, &line[..behind], |d| d);
+                Beginning::Passed(behind)
+            }
             Percent::Refused => {
                 self.report(&say::UNKNOWN_PERCENT, &line[..behind], |d| d);
                 Beginning::Passed(behind)

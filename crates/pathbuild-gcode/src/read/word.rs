@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 
-use super::block::{Number, Setting, Span, Target, Value, Word};
+use super::block::{Number, OWord, OWordKind, Setting, Span, Target, Value, Word};
 use super::comment::comment_sign;
 use super::expression::Syntax;
 use super::line::{Broken, Line};
@@ -14,9 +14,7 @@ impl Line<'_> {
     pub(super) fn word(&mut self, letter: u8) -> Result<(), Broken> {
         let start = self.at;
         if letter == b'O' && self.spelling().grammar.as_ref().is_some_and(|grammar| grammar.o_words) {
-            self.out.o_word = Some(Span::new(start, self.bytes.len()));
-            self.at = self.bytes.len();
-            return Ok(());
+            return self.o_word();
         }
         self.at += 1;
         if matches!(self.peek(), Some(b' ' | b'\t')) {
@@ -174,6 +172,60 @@ impl Line<'_> {
         let value = Value::Expression(self.compiled_value(syntax)?);
         self.out.settings.push(Setting { target, value, span: Span::new(start, self.at) });
         Ok(())
+    }
+}
+
+/// The O words that are followed, in lower case.
+const O_WORDS: [(&[u8], OWordKind); 6] = [
+    (b"sub", OWordKind::Sub),
+    (b"endsub", OWordKind::EndSub),
+    (b"return", OWordKind::Return),
+    (b"call", OWordKind::Call),
+    (b"repeat", OWordKind::Repeat),
+    (b"endrepeat", OWordKind::EndRepeat),
+];
+
+impl Line<'_> {
+    /// Reads `o100 call [1] [2]`. Of an O word that is not followed, the rest of the line is passed over.
+    fn o_word(&mut self) -> Result<(), Broken> {
+        let start = self.at;
+        self.at += 1;
+        self.skip_blanks();
+        let name =
+            if self.peek() == Some(b'<') { self.name()? } else { self.run(|byte| byte.is_ascii_digit()) };
+        self.skip_blanks();
+        let keyword = self.run(|byte| byte.is_ascii_alphabetic()).range();
+        let known = O_WORDS.iter().find(|(known, _)| self.bytes[keyword.clone()].eq_ignore_ascii_case(known));
+        let kind = known.filter(|_| !name.range().is_empty()).map_or(OWordKind::Other, |(_, kind)| *kind);
+        if kind == OWordKind::Other {
+            self.at = self.bytes.len();
+        }
+        if let Some(grammar) = self.spelling().grammar.as_ref() {
+            self.arguments(syntax_of(grammar))?;
+        }
+        self.out.o_word = Some(OWord { span: Span::new(start, self.at), name, kind });
+        Ok(())
+    }
+
+    fn run(&mut self, belongs: impl Fn(u8) -> bool) -> Span {
+        let start = self.at;
+        while self.peek().is_some_and(&belongs) {
+            self.at += 1;
+        }
+        Span::new(start, self.at)
+    }
+
+    fn arguments(&mut self, syntax: Syntax) -> Result<(), Broken> {
+        loop {
+            let end = self.at;
+            self.skip_blanks();
+            if self.peek() != Some(b'[') {
+                self.at = end;
+                return Ok(());
+            }
+            let argument = self.compiled_value(syntax)?;
+            self.out.arguments.push(argument);
+        }
     }
 }
 

@@ -284,7 +284,7 @@ impl<'w> WordRules<'w> {
             || match word.effect {
                 WordEffect::Followed => true,
                 WordEffect::System => !self.is_strict && self.words.has_systems(),
-                WordEffect::Place => !self.is_strict,
+                WordEffect::Place | WordEffect::Call => !self.is_strict,
                 WordEffect::NotFollowed => false,
             }
     }

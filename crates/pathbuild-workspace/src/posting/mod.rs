@@ -254,6 +254,11 @@ impl PostProcessor {
         self.reader().is_none() || self.post.has_own_axes()
     }
 
+    /// Whether its programs are written without being compared with the drawing.
+    pub fn is_unchecked(&self) -> bool {
+        self.manner.unchecked
+    }
+
     /// The name of the definition's file.
     pub fn name(&self) -> String {
         self.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default().to_owned()

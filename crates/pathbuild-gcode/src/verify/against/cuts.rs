@@ -9,7 +9,7 @@ use super::chain::{Chain, Way};
 use crate::dialect::Dialect;
 use crate::verify::compare::{Difference, DifferenceKind, Ends, Tolerance, check_pace, check_shape, meet};
 use crate::verify::is_near;
-use crate::verify::walk::Stretch;
+use crate::verify::walk::{Stretch, are_alike};
 
 /// Two roundings to the third decimal, and the unit by which an arc may be extended to keep it from becoming a full circle.
 pub(super) const PLACE: f64 = 0.0015 * (1.0 + 1e-6);
@@ -20,9 +20,9 @@ const FEED: f64 = 0.001 * (1.0 + 1e-6);
 /// A centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
 const CENTRE: f64 = 3.0 * PLACE;
 
-/// How far chords may leave their arc, in mm, for a control that takes no helices: a little more than the post for it allows. Where one chord
-/// is missing, the next one leaves the arc four times as far.
-pub(super) const CHORD: f64 = 0.0125;
+/// How far chords may leave their arc, in mm, for a control that takes no helices: as far as the post for it allows. The post writes as few
+/// chords as that takes, so where one is missing, the next one leaves the arc further.
+pub(super) const CHORD: f64 = 0.01;
 
 #[derive(Debug)]
 pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
@@ -34,6 +34,8 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     chain: Chain,
     clearance: f64,
     tolerance: Tolerance,
+    /// Whether the control takes helices; otherwise chords replace them.
+    takes_helices: bool,
     difference: Option<Difference>,
     /// Number of expected moves found so far.
     equal: usize,
@@ -45,14 +47,14 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
 
 impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
     pub(super) fn new(expected: M, start: Position, clearance: f64, dialect: Dialect) -> Self {
-        let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD };
         Self {
             expected: expected.peekable(),
             done: 0.0,
             at: start,
             chain: Chain::new(),
             clearance,
-            tolerance: Tolerance { place: PLACE, feed: FEED, chord, ends: Ends::All },
+            tolerance: Tolerance { place: PLACE, feed: FEED, chord: 0.0, ends: Ends::All },
+            takes_helices: dialect.rules().arcs.helix,
             difference: None,
             equal: 0,
             may_split: dialect == Dialect::Native,
@@ -178,7 +180,9 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 begin: self.done,
                 length: expected.length() * (1.0 - self.done),
             };
-            if ours.end_together(&theirs, slack) {
+            let is_helix = theirs.is_arc() && expected.from.z() != expected.to.z();
+            let is_chord = is_helix && !self.takes_helices && !ours.is_arc();
+            if ours.end_together(&theirs, slack) && !is_chord {
                 check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
                 check_shape(&ours, 1.0, &theirs, 1.0, &self.tolerance).map_err(differs)?;
                 check_centres(movement, &expected).map_err(differs)?;
@@ -192,10 +196,18 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
                 self.pass(&expected);
                 continue;
             }
-            // The parts of a move are of the same kind, except for chords of a helix. An arc that continues in a line is a different one.
-            let is_helix = theirs.is_arc() && expected.from.z() != expected.to.z();
-            let is_chord = is_helix && self.tolerance.chord > 0.0 && !ours.is_arc();
-            if ours.is_arc() != theirs.is_arc() && !is_chord {
+            if is_chord {
+                check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
+                let end = check_chord(&ours, &theirs).map_err(differs)?;
+                if end < 1.0 {
+                    self.done = end;
+                } else {
+                    self.pass(&expected);
+                }
+                return Ok(());
+            }
+            // The parts of a move are of the same kind. An arc that continues in a line is a different one.
+            if ours.is_arc() != theirs.is_arc() {
                 return Err(differs(DifferenceKind::Place));
             }
             check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
@@ -219,6 +231,29 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
         self.equal += 1;
         self.at = expected.to;
         self.done = 0.0;
+    }
+}
+
+/// The fraction of a helix at which a chord of the rest of it ends.
+fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
+    let (end, Some(course)) = (chord.end(), rest.movement.course()) else {
+        return Err(DifferenceKind::Shape);
+    };
+    let is_last = is_near(&end, &rest.end(), PLACE) && are_alike(chord.length, rest.length, PLACE);
+    let share = if is_last { 1.0 } else { rest.nearest(&end, chord.length).ok_or(DifferenceKind::Place)? };
+    let [x, y, z] = rest.point(share);
+    let height = 2.0 * PLACE * (1.0 + rest.steepness());
+    if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], PLACE) || libm::fabs(z - end[2]) > height {
+        return Err(DifferenceKind::Place);
+    }
+    let sweep = course.sweep() * (share - rest.begin);
+    let sagitta = course.radius() * (1.0 - libm::cos(sweep / 2.0));
+    // The ends are rounded, and the further apart they are, the more that counts.
+    let rounding = PLACE * libm::sqrt(CHORD / (2.0 * course.radius()));
+    if sweep < std::f64::consts::PI && sagitta <= CHORD + rounding {
+        Ok(share)
+    } else {
+        Err(DifferenceKind::Shape)
     }
 }
 

@@ -105,6 +105,7 @@ impl<'w> Setup<'w> {
         match &step.action {
             Action::Move(movement) => self.moves(line, movement, problems),
             Action::Dwell(seconds) => self.dwell(line, *seconds, problems),
+            Action::Stop { .. } if self.is_low() => extra(line, "M0, M1".to_owned(), problems),
             Action::Word(StatedWord { group: Some(group), .. }) => _ = self.missing.remove(group),
             Action::SelectTool(number) => self.select(line, *number, problems),
             Action::ChangeTool(number) => {
@@ -211,9 +212,14 @@ impl<'w> Setup<'w> {
 
     fn dwell(&mut self, line: u32, seconds: f64, problems: &mut Problems) {
         self.running += seconds;
-        if self.at.known.has(Axes::Z) && self.at.z() < self.clearance - SAME_HEIGHT {
+        if self.is_low() {
             extra(line, "G4".to_owned(), problems);
         }
+    }
+
+    /// Whether the tool is below S0, where it may be in the material.
+    fn is_low(&self) -> bool {
+        self.at.known.has(Axes::Z) && self.at.z() < self.clearance - SAME_HEIGHT
     }
 
     fn moves(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
@@ -246,13 +252,12 @@ impl<'w> Setup<'w> {
 
     /// Checks that the selected tool or layer is that of the drawing.
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
-        let chosen = self.inserted.or(self.selected);
-        let is_chosen = if self.dialect.rules().layers {
-            // Moves before M6 belong to the first layer.
-            self.expected.number.is_none_or(|expected| expected == chosen.unwrap_or(1))
-        } else {
-            chosen.is_some()
-        };
+        // Where the post inserts its tool by M6, T alone only says which one is next.
+        let chosen = self.inserted.or(self.selected.filter(|_| !self.words.has('M', 60)));
+        // A layer is its tool. Elsewhere, a wrong tool has been reported where it was selected.
+        let fits =
+            |chosen| !self.dialect.rules().layers || self.expected.number.is_none_or(|it| it == chosen);
+        let is_chosen = chosen.is_some_and(fits);
         if !is_chosen && self.words.chooses_tools() && !std::mem::replace(&mut self.reported.tool, true) {
             let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));
             problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.quoting("expected", expected));

@@ -43,6 +43,8 @@ pub(super) struct Rewritten {
     start: Option<Position>,
     /// The moves from there on.
     moves: Vec<(u32, Move)>,
+    /// Whether writing it compared its moves with the drawing.
+    is_read_back: bool,
 }
 
 impl Rewritten {
@@ -118,7 +120,8 @@ impl ReferenceProgram {
         verify::Against::new(drawn, dialect, words)
     }
 
-    /// Reports what was compared, and returns the differences. None counts if the program has the lines that its definition writes.
+    /// Reports what was compared, and returns the differences. None counts if the program has the lines that its definition writes. What an
+    /// unchecked definition writes is the measure of its programs, but says nothing about the drawing.
     pub(super) fn conclude(
         &self,
         context: &Context,
@@ -131,12 +134,17 @@ impl ReferenceProgram {
             self.say(context, program, agreement.equal, drawn);
             return agreement.differences;
         };
-        let Some((line, expected)) = &rewritten.other_line else {
-            self.say(context, program, drawn, drawn);
-            return Vec::new();
+        let (mut differences, equal, moves) = match &rewritten.other_line {
+            None => (Vec::new(), drawn, drawn),
+            Some(_) => (agreement.differences, agreement.equal, rewritten.moves.len()),
         };
-        self.say(context, program, agreement.equal, rewritten.moves.len());
-        let mut differences = agreement.differences;
+        if rewritten.is_read_back {
+            self.say(context, program, equal, moves);
+        } else {
+            let unread = Diagnostic::new(&say::MOVES_NOT_COMPARED).quoting("path", &*self.drawn.path);
+            differences.push(unread.quoting("post", program.read_as(context)));
+        }
+        let Some((line, expected)) = &rewritten.other_line else { return differences };
         // If words are left out, only the text tells whether they are right.
         if program.words_left_out().next().is_some() {
             let problem = Diagnostic::new(&say::LINE_NOT_WRITTEN).quoting("expected", expected.as_str());
@@ -201,7 +209,7 @@ impl ReferenceProgram {
         let start = begins.map(|index| all[index].1.to);
         let moves = all.into_iter().skip(begins.map_or(0, |index| index + 1)).collect();
         let other_line = writer.first_other_line(&program.text, &text);
-        Ok(Rewritten { other_line, start, moves })
+        Ok(Rewritten { other_line, start, moves, is_read_back: !writer.is_unchecked() })
     }
 
     /// Whether the path has probes, and hence a probing run.

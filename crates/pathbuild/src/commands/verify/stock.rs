@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{Stock, StockSpan};
-use pathbuild_motion::{Action, Step};
+use pathbuild_motion::{Action, Step, WordEffect};
 
 use super::StockOptions;
 use super::against::ReferenceProgram;
@@ -18,6 +18,8 @@ use pathbuild_workspace::posting::tool_table;
 pub(super) struct Tools {
     selected: Vec<(u32, u32)>,
     inserted: Vec<(u32, u32)>,
+    /// Whether lines are executed out of order.
+    has_calls: bool,
 }
 
 impl Tools {
@@ -26,6 +28,7 @@ impl Tools {
         match step.action {
             Action::ChangeTool(number) => self.inserted.push((step.line, number.unwrap_or(0))),
             Action::SelectTool(number) => self.selected.push((step.line, number)),
+            Action::Word(word) => self.has_calls |= word.effect == WordEffect::Call,
             _ => {}
         }
     }
@@ -62,7 +65,9 @@ impl Tools {
         };
         let cutters: Option<Vec<(u32, f64)>> =
             self.used().iter().map(|(line, number)| Some((*line, diameter(*number)?))).collect();
-        cutters.filter(|cutters| !cutters.is_empty())
+        // The tool of a subprogram's lines depends on who calls it.
+        let is_one = |cutters: &Vec<(u32, f64)>| cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
+        cutters.filter(|cutters| !cutters.is_empty() && (!self.has_calls || is_one(cutters)))
     }
 }
 

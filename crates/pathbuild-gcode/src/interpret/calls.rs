@@ -1,0 +1,343 @@
+//! Subprograms, which run wherever they are called, and loops with a number of repetitions. (book: program/reading, "Subprograms")
+//!
+//! Only what stands in the same file can be followed: `o100 sub` or `O100`, and for M97 the lines behind a block number.
+
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+
+use pathbuild_diagnostic::Message;
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_motion::{Action, StatedWord, Step, WordEffect};
+
+use super::codes;
+use super::evaluate::name_of;
+use super::execute::{Interpreter, whole};
+use super::gather::ValueFault;
+use super::limits;
+use super::switches::CALLS;
+use crate::read::{Block, BlockReader, OWord, OWordKind, Place, Value};
+
+/// Maximum depth of calls and loops, as in LinuxCNC.
+const DEEPEST: usize = 10;
+
+/// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
+const MOST_LINES: u32 = 1_000_000;
+
+/// How a control names a subprogram.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Name {
+    /// `o100 sub`, `o<name> sub`.
+    Subroutine(Box<str>),
+    /// `O100`.
+    Program(u32),
+    /// `N100`.
+    Line(u32),
+}
+
+/// Which line is executed after a block, unless it is the next one.
+#[derive(Debug)]
+pub(super) enum Jump {
+    /// Runs a subprogram several times, with values for its parameters.
+    Call(Name, u32, Vec<f64>),
+    /// Runs the lines up to the end of the loop several times.
+    Repeat(Box<str>, u32),
+    /// Passes over the definition of a subroutine.
+    Pass(Box<str>),
+    /// Ends the subprogram.
+    Return,
+    /// Ends a pass through the loop.
+    EndRepeat,
+}
+
+/// Why lines are no longer executed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Returned,
+    Repeated,
+    /// There are no more lines.
+    NoLines,
+    /// The program has ended, or nobody wants more steps, or too much has been executed.
+    Ended,
+}
+
+/// Executes the lines of a file, with the subprograms that they call.
+pub(super) struct Runner<'r, 'i> {
+    interpreter: &'r mut Interpreter<'i>,
+    each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,
+    /// Where the subprograms of the file begin; searched for at the first call.
+    definitions: Option<HashMap<Name, Place>>,
+    /// The subprograms that are being executed.
+    active: Vec<Name>,
+    /// The number of calls and loops that are being executed.
+    depth: usize,
+    /// Lines executed by calls and loops.
+    lines: u32,
+    /// Whether any line contained a word.
+    pub(super) has_words: bool,
+}
+
+impl<'r, 'i> Runner<'r, 'i> {
+    pub(super) fn new(
+        interpreter: &'r mut Interpreter<'i>,
+        each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,
+    ) -> Self {
+        Self {
+            interpreter,
+            each,
+            definitions: None,
+            active: Vec::new(),
+            depth: 0,
+            lines: 0,
+            has_words: false,
+        }
+    }
+
+    /// Executes a file to its end.
+    pub(super) fn run_file(&mut self, reader: &mut BlockReader<'_>) {
+        while self.run(reader) == Outcome::Ended {
+            reader.end_program();
+        }
+    }
+
+    fn run(&mut self, reader: &mut BlockReader<'_>) -> Outcome {
+        while let Some(block) = reader.next_block() {
+            self.has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
+            self.interpreter.block(&block);
+            let line = block.line;
+            let is_unwanted = self.interpreter.out.drain(..).try_for_each(&mut *self.each).is_break();
+            if is_unwanted || self.interpreter.has_ended() {
+                return Outcome::Ended;
+            }
+            if self.depth > 0 {
+                self.lines += 1;
+                if self.lines > MOST_LINES {
+                    self.report(&say::CALLS_TOO_LONG, line, "", u64::from(MOST_LINES));
+                    return Outcome::Ended;
+                }
+            }
+            let outcome = match self.interpreter.jump.take() {
+                None => continue,
+                Some(Jump::Return | Jump::EndRepeat) if self.depth == 0 => {
+                    self.report(&say::END_WITHOUT_CALL, line, "", 0);
+                    continue;
+                }
+                Some(Jump::Return) => return Outcome::Returned,
+                Some(Jump::EndRepeat) => return Outcome::Repeated,
+                Some(Jump::Pass(name)) => self.pass(reader, &name, OWordKind::EndSub, line),
+                Some(Jump::Call(name, times, values)) => self.call(reader, name, times, &values, line),
+                Some(Jump::Repeat(name, times)) => self.repeat(reader, &name, times, line),
+            };
+            if outcome != Outcome::Repeated {
+                return outcome;
+            }
+        }
+        Outcome::NoLines
+    }
+
+    /// Runs a subprogram. `Repeated` means that the lines after the call are next.
+    fn call(
+        &mut self,
+        reader: &mut BlockReader<'_>,
+        name: Name,
+        times: u32,
+        values: &[f64],
+        line: u32,
+    ) -> Outcome {
+        let shown = name.shown();
+        let Some((name, place, times)) = self.definition(reader, name, times) else {
+            self.report(&say::CALLED_ELSEWHERE, line, &shown, 0);
+            return Outcome::Repeated;
+        };
+        let is_main = matches!(name, Name::Program(number) if self.interpreter.main_number == Some(number));
+        if is_main || self.active.contains(&name) {
+            self.report(&say::CALLED_BY_ITSELF, line, &shown, 0);
+            return Outcome::Repeated;
+        }
+        if !self.enter(line) {
+            return Outcome::Repeated;
+        }
+        if reader.is_before(place) {
+            reader.allow_subprograms();
+        }
+        let is_local = matches!(name, Name::Subroutine(_));
+        self.active.push(name);
+        let saved = is_local.then(|| self.interpreter.parameters.enter(values));
+        let mut outcome = Outcome::Returned;
+        for _ in 0..times {
+            self.interpreter.begins_subprogram = true;
+            outcome = self.body(reader, place);
+            if outcome != Outcome::Returned {
+                break;
+            }
+        }
+        if let Some(saved) = saved {
+            self.interpreter.parameters.leave(saved);
+        }
+        self.active.pop();
+        self.depth -= 1;
+        match outcome {
+            Outcome::Ended => Outcome::Ended,
+            Outcome::Returned => Outcome::Repeated,
+            Outcome::NoLines | Outcome::Repeated => {
+                self.report(&say::CALLED_WITHOUT_END, line, &shown, 0);
+                Outcome::Repeated
+            }
+        }
+    }
+
+    fn repeat(&mut self, reader: &mut BlockReader<'_>, name: &str, times: u32, line: u32) -> Outcome {
+        let start = reader.place();
+        let outcome = self.pass(reader, name, OWordKind::EndRepeat, line);
+        if outcome != Outcome::Repeated || !self.enter(line) {
+            return outcome;
+        }
+        let mut outcome = Outcome::Repeated;
+        for _ in 0..times {
+            outcome = self.body(reader, start);
+            if outcome != Outcome::Repeated {
+                break;
+            }
+        }
+        self.depth -= 1;
+        outcome
+    }
+
+    /// Executes the lines from a place on.
+    fn body(&mut self, reader: &BlockReader<'_>, place: Place) -> Outcome {
+        let mut body = reader.again_from(place);
+        let outcome = self.run(&mut body);
+        self.interpreter.problems.append(body.into_problems());
+        outcome
+    }
+
+    /// Passes over the lines to the end of a subroutine or a loop.
+    fn pass(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Outcome {
+        while let Some(block) = reader.next_block() {
+            let is_end = |word: OWord| word.kind == end && &*name_of_o_word(&block, word) == name;
+            if block.o_word.is_some_and(is_end) {
+                return Outcome::Repeated;
+            }
+        }
+        self.report(&say::CALLED_WITHOUT_END, line, &format!("o{name}"), 0);
+        Outcome::NoLines
+    }
+
+    /// Begins a call or a loop, unless too many are being executed.
+    fn enter(&mut self, line: u32) -> bool {
+        if self.depth >= DEEPEST {
+            self.report(&say::CALLS_TOO_DEEP, line, "", DEEPEST as u64);
+            return false;
+        }
+        self.depth += 1;
+        true
+    }
+
+    /// The definition of a subprogram. `P30100` may mean three times O100.
+    fn definition(&mut self, reader: &BlockReader<'_>, name: Name, times: u32) -> Option<(Name, Place, u32)> {
+        let definitions = self.definitions.get_or_insert_with(|| definitions(reader.again()));
+        if let Some(place) = definitions.get(&name) {
+            return Some((name, *place, times));
+        }
+        let Name::Program(packed) = name else { return None };
+        let name = Name::Program(packed % 10_000);
+        let place = definitions.get(&name).filter(|_| packed >= 10_000 && times == 1)?;
+        Some((name, *place, packed / 10_000))
+    }
+
+    fn report(&mut self, message: &'static Message, line: u32, name: &str, most: u64) {
+        self.interpreter.problems.add_at_line(message, line, |d| match most {
+            0 => d.quoting("name", name),
+            most => d.with("most", most),
+        });
+    }
+}
+
+impl Name {
+    fn shown(&self) -> String {
+        match self {
+            Self::Subroutine(name) if name.bytes().all(|byte| byte.is_ascii_digit()) => format!("o{name}"),
+            Self::Subroutine(name) => format!("o<{name}>"),
+            Self::Program(number) => format!("O{number}"),
+            Self::Line(number) => format!("N{number}"),
+        }
+    }
+}
+
+/// The name of an O word, or its number without leading zeros.
+fn name_of_o_word(block: &Block<'_>, word: OWord) -> Box<str> {
+    name_of(block, word.name).trim_start_matches('0').into()
+}
+
+fn definitions(mut reader: BlockReader<'_>) -> HashMap<Name, Place> {
+    let mut found = HashMap::new();
+    loop {
+        let before = reader.place();
+        let Some(block) = reader.next_block() else { return found };
+        if let Some(word) = block.o_word.filter(|word| word.kind == OWordKind::Sub) {
+            let name = Name::Subroutine(name_of_o_word(&block, word));
+            found.entry(name).or_insert(reader.place());
+            continue;
+        }
+        let first = block.words.first().filter(|word| word.letter == b'O');
+        let program = first.and_then(|word| match word.value {
+            Value::Number(number) => whole(number.value).map(Name::Program),
+            Value::Expression(_) => None,
+        });
+        let line = block.number.and_then(|number| whole(number.value)).map(Name::Line);
+        for name in program.into_iter().chain(line) {
+            found.entry(name).or_insert(before);
+        }
+    }
+}
+
+impl Interpreter<'_> {
+    /// Follows an O word, or reports that it is not followed.
+    pub(super) fn o_word(&mut self, block: &Block<'_>, word: OWord) -> Result<(), ValueFault> {
+        let mut values = Vec::with_capacity(block.arguments.len());
+        for argument in block.arguments {
+            values.push(self.value(block, Value::Expression(*argument), word.span)?.0);
+        }
+        let call = StatedWord { letter: 'O', code: 0, group: None, effect: WordEffect::Call };
+        self.step(block, Action::Word(call));
+        let name = name_of_o_word(block, word);
+        let times = values.first().copied().and_then(whole);
+        self.jump = match (word.kind, times) {
+            (OWordKind::Sub, _) => Some(Jump::Pass(name)),
+            (OWordKind::Call, _) => Some(Jump::Call(Name::Subroutine(name), 1, values)),
+            (OWordKind::Return | OWordKind::EndSub, _) => Some(Jump::Return),
+            (OWordKind::Repeat, Some(times)) => Some(Jump::Repeat(name, times)),
+            (OWordKind::EndRepeat, _) => Some(Jump::EndRepeat),
+            (OWordKind::Repeat | OWordKind::Other, _) => {
+                self.report(block, &say::O_WORD, word.span, |d| d);
+                None
+            }
+        };
+        Ok(())
+    }
+
+    /// Follows M97, M98 and M99.
+    pub(super) fn subprogram(&mut self, block: &Block<'_>) {
+        let Some((code, span)) = self.words.m_code(CALLS).filter(|(code, _)| self.calls(*code)) else {
+            return;
+        };
+        let place = self.words.values.take_slot(b'P');
+        match (code, place) {
+            (990, None) => self.jump = Some(Jump::Return),
+            (990, Some(_)) => self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "M99 P")),
+            (_, None) => self.report(block, &say::NEEDS, span, |d| {
+                d.quoting("word", codes::name('M', code)).quoting("missing", "P")
+            }),
+            (_, Some(place)) => {
+                let repeats = self.words.values.take_slot(b'L');
+                match (whole(place.value), repeats.map_or(Some(1), |slot| whole(slot.value))) {
+                    (Some(number), Some(times)) => {
+                        let name = if code == 970 { Name::Line(number) } else { Name::Program(number) };
+                        self.jump = Some(Jump::Call(name, times, Vec::new()));
+                    }
+                    (None, _) => self.out_of_range(block, "P", place, &limits::COUNT),
+                    (_, None) => self.out_of_range(block, "L", repeats.unwrap_or(place), &limits::COUNT),
+                }
+            }
+        }
+    }
+}
