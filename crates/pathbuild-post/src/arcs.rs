@@ -5,8 +5,6 @@ use std::f64::consts::PI;
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 use pathbuild_motion::{Course, Move, Path, WrittenArc, widest_chord};
 
-use super::job::Units;
-
 /// Maximum number of chords per arc.
 pub(crate) const MOST_CHORDS: u32 = 100_000;
 
@@ -64,7 +62,7 @@ impl Rounding<'_> {
     }
 
     /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::fit`].
-    pub(crate) fn fitted(&self, movement: &Move, units: Units) -> Result<Move, Box<Diagnostic>> {
+    pub(crate) fn fitted(&self, movement: &Move, unit: f64) -> Result<Move, Box<Diagnostic>> {
         let Path::Arc(mut arc) = movement.path else { return Ok(*movement) };
         let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
         let origin = if self.is_absolute { [0.0; 2] } else { from };
@@ -74,7 +72,7 @@ impl Rounding<'_> {
             centre: [arc.centre[0] - origin[0], arc.centre[1] - origin[1]],
             length: self.length,
             is_absolute: self.is_absolute,
-            unit: units.millimetres(),
+            unit,
         };
         let by = written.fit().map_err(|radii| not_round(movement, radii))?;
         arc.centre = [arc.centre[0] + by[0], arc.centre[1] + by[1]];

@@ -4,6 +4,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
 
 use super::definition::Post;
+use crate::Language;
 
 /// A post included in pathbuild.
 #[derive(Clone, Copy, Debug)]
@@ -16,37 +17,6 @@ pub struct BuiltIn {
     pub description: &'static str,
     /// Text of the definition, or for the native program a description of it.
     pub text: &'static str,
-}
-
-/// The language in which a post is defined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Language {
-    /// A CamBam definition (.cbpp).
-    CamBam,
-    /// Control texts (.toml).
-    Cad6,
-    /// The native writer itself. Its drillings without F, correction formulas and statistics cannot be expressed in a definition.
-    Native,
-}
-
-impl Language {
-    /// The name shown in listings.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::CamBam => "CamBam",
-            Self::Cad6 => "control texts",
-            Self::Native => "built in",
-        }
-    }
-
-    /// File extension of a definition, without the dot.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::CamBam => "cbpp",
-            Self::Cad6 => "toml",
-            Self::Native => "txt",
-        }
-    }
 }
 
 /// All posts included in pathbuild, in listing order.

@@ -4,21 +4,21 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, messages::posts, nearest};
-
-use super::built_in::Language;
-use super::job::{Job, Operation, Units};
-use super::options::{PostMacro, PostOptions};
-use super::origin::LineOrigin;
-use super::read_back::{self, Expected};
-use super::shadow::TranslatedText;
-use super::target::{self, Target};
-use super::words::{CommentMarks, first_other_line};
-use super::{cad6, cambam};
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, nearest};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 use pathbuild_motion::{Coolant, Turning};
+
+use crate::PostMacro;
+use crate::PostOptions;
+use crate::findings::LineOrigin;
+use crate::job::{Job, Operation, Units};
+use crate::read_back::{self, Expected};
+use crate::shadow::{CommentMarks, TranslatedText, first_other_line};
+use crate::target::{self, Target};
+use crate::{cad6, cambam};
 
 /// A parsed definition, ready to write programs.
 #[derive(Clone, Debug)]
@@ -367,5 +367,36 @@ impl Output {
 
     fn note(&mut self, message: &'static Message, name: &'static str, value: &str) {
         self.notes.push(Note { message, arguments: vec![(name, Value::quoted(value))] });
+    }
+}
+
+/// The language in which a post is defined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// A CamBam definition (.cbpp).
+    CamBam,
+    /// Control texts (.toml).
+    Cad6,
+    /// The native writer itself. Its drillings without F, correction formulas and statistics cannot be expressed in a definition.
+    Native,
+}
+
+impl Language {
+    /// The name shown in listings.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CamBam => "CamBam",
+            Self::Cad6 => "control texts",
+            Self::Native => "built in",
+        }
+    }
+
+    /// File extension of a definition, without the dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::CamBam => "cbpp",
+            Self::Cad6 => "toml",
+            Self::Native => "txt",
+        }
     }
 }

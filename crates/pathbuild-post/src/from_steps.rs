@@ -1,17 +1,15 @@
 //! Converts a parsed program to a job, so that it can be written for another machine. (book: program/reading, `post FILE --post X`)
 
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
-use pathbuild_motion as motion;
-use pathbuild_motion::{
-    Action, Axes, Coolant, Move, Pace, Path, Plane, Position, Spindle, Turning, WorkSystem,
-};
-
-use super::job::{Entry, Job, Operation, Tool, describe};
-use super::recognise;
-use super::step::{Hole, Step};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
+use pathbuild_motion::{
+    Action, Axes, Coolant, Move, Pace, Path, Plane, Position, Spindle, Step, Turning, WorkSystem,
+};
+
+use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
 
 /// The meaning of a comment in the parsed program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +51,7 @@ impl Job {
     /// arcs of several turns.
     pub fn from_steps(
         name: &str,
-        steps: &[motion::Step],
+        steps: &[Step],
         dialect: Dialect,
         remark: &dyn Fn(&str) -> Remark<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
@@ -67,7 +65,7 @@ impl Job {
                 rest = after;
                 continue;
             }
-            let hole = if plain_line == Some(step.line) { None } else { recognise::hole(rest) };
+            let hole = if plain_line == Some(step.line) { None } else { hole(rest) };
             plain_line = hole.is_none().then_some(step.line);
             rest = match hole {
                 Some((hole, behind)) => {
@@ -122,12 +120,10 @@ struct Builder {
 }
 
 impl Builder {
-    fn new(name: &str, steps: &[motion::Step], dialect: Dialect) -> Self {
+    fn new(name: &str, steps: &[Step], dialect: Dialect) -> Self {
         let has_layers = dialect.rules().layers;
-        let rapids = steps
-            .iter()
-            .filter_map(motion::Step::as_move)
-            .filter(|(_, movement)| movement.pace == Pace::Rapid);
+        let rapids =
+            steps.iter().filter_map(Step::as_move).filter(|(_, movement)| movement.pace == Pace::Rapid);
         let heights = rapids
             .filter(|(_, movement)| movement.to.known.has(Axes::Z) && movement.named.is_none())
             .map(|(_, movement)| movement.to.z());
@@ -150,10 +146,10 @@ impl Builder {
         }
     }
 
-    fn step(&mut self, step: &motion::Step, remark: &dyn Fn(&str) -> Remark<'_>) {
+    fn step(&mut self, step: &Step, remark: &dyn Fn(&str) -> Remark<'_>) {
         match &step.action {
             Action::Move(movement) => self.go(step.line, movement),
-            Action::Dwell(seconds) => self.push(Step::Dwell { seconds: *seconds }),
+            Action::Dwell(seconds) => self.push(JobStep::Dwell { seconds: *seconds }),
             Action::SelectTool(tool) if !self.has_tool_changes => self.change_tool(step.line, Some(*tool)),
             Action::ChangeTool(tool) => self.change_tool(step.line, *tool),
             Action::Spindle(spindle) => self.set_spindle(spindle),
@@ -162,7 +158,7 @@ impl Builder {
                 self.refuse(step.line, &posts::JOB_SYSTEM);
             }
             Action::Comment(text) => match remark(text) {
-                Remark::Stays => self.push(Step::Comment(text.trim().into())),
+                Remark::Stays => self.push(JobStep::Comment(text.trim().into())),
                 Remark::Goes => {}
                 Remark::Operation(name) => {
                     self.names.push(name.into());
@@ -173,7 +169,7 @@ impl Builder {
                     self.has_ended = true;
                 }
             },
-            Action::Stop { .. } => self.push(Step::Stop),
+            Action::Stop { .. } => self.push(JobStep::Stop),
             Action::SelectTool(_)
             | Action::System(_)
             | Action::Word(_)
@@ -249,7 +245,7 @@ impl Builder {
         self.operation()
     }
 
-    fn push(&mut self, step: Step) {
+    fn push(&mut self, step: JobStep) {
         self.operation().steps.push(step);
     }
 
@@ -296,7 +292,7 @@ impl Builder {
     fn hole(&mut self, hole: Hole) {
         self.leave_change([Some(hole.at[0]), Some(hole.at[1])]);
         self.at = Position::known(hole.at[0], hole.at[1], hole.exit);
-        self.cutting().steps.push(Step::Hole(hole));
+        self.cutting().steps.push(JobStep::Hole(hole));
     }
 
     /// After a tool change the program continues above its next position, because the new tool does not return to where the old one
@@ -307,7 +303,7 @@ impl Builder {
         }
         let operation = self.operation();
         operation.entry = Entry::Clearance;
-        operation.steps.push(Step::rapid([x, y, None]));
+        operation.steps.push(JobStep::rapid([x, y, None]));
     }
 
     fn go(&mut self, line: u32, movement: &Move) {
@@ -322,7 +318,7 @@ impl Builder {
             }
             _ => return self.refuse(line, &posts::JOB_MOVE),
         }
-        let step = Step::Move(*movement);
+        let step = JobStep::Move(*movement);
         if movement.pace == Pace::Rapid {
             if movement.to.z() != movement.from.z() {
                 let [x, y, _] = movement.to.axes();
@@ -368,8 +364,8 @@ impl Job {
 }
 
 /// Whether a step is more than a rapid.
-fn is_no_way(step: &Step) -> bool {
-    !matches!(step, Step::Move(Move { pace: Pace::Rapid, .. }))
+fn is_no_way(step: &JobStep) -> bool {
+    !matches!(step, JobStep::Move(Move { pace: Pace::Rapid, .. }))
 }
 
 /// The tool with this number, or an unnamed one before the program names any.
@@ -380,4 +376,102 @@ fn numbered(tool: Option<u32>) -> Tool {
 /// Whether both ends of a cut are known.
 fn is_known(movement: &Move, has_probed: bool) -> bool {
     movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed)
+}
+
+// Recognises drilling cycles among the moves of a parsed program. The reader has expanded them to moves.
+
+/// Returns the hole that some steps begin with, and the remaining steps. All its moves must come from one line that has no others.
+pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
+    let [first, second, ..] = steps else { return None };
+    if first.line != second.line {
+        return None;
+    }
+    let mut moves = Moves { line: first.line, steps };
+    let mut level = None;
+    while let Some(way) = moves.take(|movement| movement.pace == Pace::Rapid) {
+        level = Some(if way.to.z() < way.from.z() && is_vertical(&way) { way.from.z() } else { way.to.z() });
+    }
+    let first = moves.take(is_drilling)?;
+    let (mut last, mut pecks) = (first, false);
+    while let Some(next) = moves.peck(first.from.z()) {
+        (last, pecks) = (next, true);
+    }
+    let dwell = moves.dwell();
+    let retract = first.from.z();
+    let exit = moves.take(|movement| {
+        movement.pace == Pace::Rapid && is_vertical(movement) && movement.to.z() >= retract
+    })?;
+    let kind = match (pecks, dwell) {
+        (false, None) => HoleKind::Plain,
+        (false, Some(seconds)) => HoleKind::Dwell { seconds },
+        (true, None) => HoleKind::Peck { depth: retract - first.to.z() },
+        (true, Some(_)) => return None,
+    };
+    let hole = Hole {
+        at: [first.to.x(), first.to.y()],
+        level: level.unwrap_or(retract),
+        retract,
+        bottom: last.to.z(),
+        exit: exit.to.z(),
+        feed: first.pace.feed().filter(|feed| *feed > 0.0),
+        kind,
+    };
+    Some((hole, moves.steps))
+}
+
+/// The remaining steps of a line.
+struct Moves<'a> {
+    line: u32,
+    steps: &'a [Step],
+}
+
+impl<'a> Moves<'a> {
+    /// Takes the next move, if it is straight, leads to a known position and satisfies the condition.
+    fn take(&mut self, is_wanted: impl Fn(&Move) -> bool) -> Option<Move> {
+        let (step, rest) = self.next()?;
+        let Action::Move(movement) = step.action else { return None };
+        let is_plain =
+            movement.path == Path::Line && movement.named.is_none() && movement.to.known == Axes::ALL;
+        (is_plain && is_wanted(&movement)).then(|| {
+            self.steps = rest;
+            movement
+        })
+    }
+
+    /// Takes the moves of a peck: out of the hole, back down, and deeper.
+    fn peck(&mut self, retract: f64) -> Option<Move> {
+        let before = self.steps;
+        let is_rapid = |movement: &Move| movement.pace == Pace::Rapid && is_vertical(movement);
+        let deeper = self.take(|movement| is_rapid(movement) && movement.to.z() == retract).and_then(|_| {
+            self.take(|movement| is_rapid(movement) && movement.to.z() <= retract);
+            self.take(is_drilling)
+        });
+        if deeper.is_none() {
+            self.steps = before;
+        }
+        deeper
+    }
+
+    /// The next step of the line, and those after it.
+    fn next(&self) -> Option<(&'a Step, &'a [Step])> {
+        self.steps.split_first().filter(|(step, _)| step.line == self.line)
+    }
+
+    fn dwell(&mut self) -> Option<f64> {
+        let (step, rest) = self.next()?;
+        let Action::Dwell(seconds) = step.action else { return None };
+        self.steps = rest;
+        Some(seconds)
+    }
+}
+
+fn is_vertical(movement: &Move) -> bool {
+    movement.from.at[..2] == movement.to.at[..2]
+}
+
+fn is_drilling(movement: &Move) -> bool {
+    matches!(movement.pace, Pace::Feed(_))
+        && is_vertical(movement)
+        && movement.to.z() < movement.from.z()
+        && movement.from.known == Axes::ALL
 }

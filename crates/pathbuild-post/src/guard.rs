@@ -3,8 +3,8 @@
 use pathbuild_gcode::dialect::{is_active_comment, within_comment};
 use pathbuild_gcode::native::Charset;
 
+use crate::shadow::{CommentMarks, words};
 use crate::target::Target;
-use crate::words::{CommentMarks, words};
 
 /// Knows how the lines of a post mark comments.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
 
-use super::step::{Hole, HoleKind, Step};
+use crate::job::{Hole, HoleKind, JobStep};
 
 /// Holes with more pecks than this are taken for errors.
 const MOST_PECKS: usize = 1_000;
@@ -10,26 +10,26 @@ const MOST_PECKS: usize = 1_000;
 const PECK_GAP: f64 = 0.254;
 
 /// The moves of a hole: to its position at the start level, down, and up to its exit level.
-pub(crate) fn moves(hole: &Hole) -> Result<Vec<Step>, Box<Diagnostic>> {
+pub(crate) fn moves(hole: &Hole) -> Result<Vec<JobStep>, Box<Diagnostic>> {
     let [x, y] = hole.at;
     let to = |z| [x, y, z];
-    let mut steps = vec![Step::rapid(to(hole.level))];
+    let mut steps = vec![JobStep::rapid(to(hole.level))];
     if hole.retract < hole.level {
-        steps.push(Step::rapid(to(hole.retract)));
+        steps.push(JobStep::rapid(to(hole.retract)));
     }
     let depths = depths(hole)?;
     for (index, &depth) in depths.iter().enumerate() {
         if index > 0 {
             let reached = depths[index - 1];
-            steps.push(Step::rapid(to(hole.retract)));
-            steps.push(Step::rapid(to((reached + PECK_GAP).min(hole.retract))));
+            steps.push(JobStep::rapid(to(hole.retract)));
+            steps.push(JobStep::rapid(to((reached + PECK_GAP).min(hole.retract))));
         }
-        steps.push(Step::feed(to(depth), hole.feed));
+        steps.push(JobStep::feed(to(depth), hole.feed));
     }
     if let HoleKind::Dwell { seconds } = hole.kind {
-        steps.push(Step::Dwell { seconds });
+        steps.push(JobStep::Dwell { seconds });
     }
-    steps.push(Step::rapid(to(hole.exit)));
+    steps.push(JobStep::rapid(to(hole.exit)));
     Ok(steps)
 }
 
@@ -63,8 +63,8 @@ mod tests {
     fn heights_from(level: f64, kind: HoleKind) -> Vec<f64> {
         let hole =
             Hole { at: [1.0, 2.0], level, retract: 10.0, bottom: 4.0, exit: 20.0, feed: Some(60.0), kind };
-        let z = |step: &Step| match step {
-            Step::Move(movement) => Some(movement.to.z()),
+        let z = |step: &JobStep| match step {
+            JobStep::Move(movement) => Some(movement.to.z()),
             _ => None,
         };
         moves(&hole).unwrap().iter().filter_map(z).collect()

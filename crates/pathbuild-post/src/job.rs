@@ -5,12 +5,11 @@
 
 use std::collections::HashSet;
 
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
-
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
 use pathbuild_motion::{Coolant, Move, Pace, Path, Plane, Position, Turning};
 
-use super::arcs;
-use super::step::{Hole, Step};
+use crate::arcs;
 
 /// A program to be written by a post.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -80,7 +79,7 @@ impl Job {
 
     /// The feeds of each operation. Operations without a feed get one from the others.
     pub(super) fn feeds(&self) -> Vec<Feeds> {
-        let own = |operation: &Operation| operation.steps.iter().find_map(Step::stated_feed);
+        let own = |operation: &Operation| operation.steps.iter().find_map(JobStep::stated_feed);
         let any = self.operations.iter().find_map(own);
         let feeds = |operation: &Operation| {
             let (plunge, cut) = (operation.plunge_feed, operation.cut_feed);
@@ -101,9 +100,9 @@ impl Job {
         for operation in &mut self.operations {
             for step in &mut operation.steps {
                 match step {
-                    Step::Move(movement) => movement.pace.set_missing_feed(feed),
-                    Step::Hole(hole) => _ = hole.feed.get_or_insert(feed),
-                    Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
+                    JobStep::Move(movement) => movement.pace.set_missing_feed(feed),
+                    JobStep::Hole(hole) => _ = hole.feed.get_or_insert(feed),
+                    JobStep::Dwell { .. } | JobStep::Stop | JobStep::Comment(_) => {}
                 }
             }
         }
@@ -113,7 +112,7 @@ impl Job {
     /// the tolerance for arcs in millimetres.
     pub fn centre_arcs(&mut self) {
         for step in self.operations.iter_mut().flat_map(|operation| &mut operation.steps) {
-            if let Step::Move(movement) = step {
+            if let JobStep::Move(movement) = step {
                 arcs::centre(movement);
             }
         }
@@ -211,7 +210,7 @@ pub struct Operation {
     /// Where the tool must be before the first step.
     pub entry: Entry,
     /// The moves and other actions.
-    pub steps: Vec<Step>,
+    pub steps: Vec<JobStep>,
 }
 
 impl Operation {
@@ -244,10 +243,10 @@ impl Operation {
 impl Operation {
     /// The first position reached by the moves. Each coordinate is that of the first move that specifies it, otherwise that of the entry.
     pub fn first_point(&self) -> Position {
-        let target = |step: &Step| match step {
-            Step::Move(movement) => Some(movement.to.axes()),
-            Step::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].map(Some)),
-            Step::Dwell { .. } | Step::Stop | Step::Comment(_) => None,
+        let target = |step: &JobStep| match step {
+            JobStep::Move(movement) => Some(movement.to.axes()),
+            JobStep::Hole(hole) => Some([hole.at[0], hole.at[1], hole.level].map(Some)),
+            JobStep::Dwell { .. } | JobStep::Stop | JobStep::Comment(_) => None,
         };
         let places = self.steps.iter().filter_map(target);
         let begin = match self.entry {
@@ -264,24 +263,27 @@ impl Operation {
         let heights = [self.clearance, self.retract, self.surface, self.tool.diameter, self.tool.radius];
         let known = [self.speed, self.cut_feed, self.plunge_feed, self.target_depth, self.depth_increment];
         heights.iter().chain(known.iter().flatten()).all(|number| number.is_finite())
-            && self.steps.iter().all(Step::is_finite)
+            && self.steps.iter().all(JobStep::is_finite)
     }
 
     /// Whether the operation cuts anything.
     pub fn cuts(&self) -> bool {
-        self.steps.iter().any(|step| matches!(step, Step::Hole(_)) || step.as_cut().is_some())
+        self.steps.iter().any(|step| matches!(step, JobStep::Hole(_)) || step.as_cut().is_some())
     }
 
     /// Whether the operation only probes. The tool touches the material, so the spindle must not turn.
     pub fn only_probes(&self) -> bool {
         !self.cuts()
-            && self.steps.iter().any(|step| matches!(step, Step::Move(Move { pace: Pace::Probe { .. }, .. })))
+            && self
+                .steps
+                .iter()
+                .any(|step| matches!(step, JobStep::Move(Move { pace: Pace::Probe { .. }, .. })))
     }
 
     /// The holes of the operation.
     pub fn holes(&self) -> impl Iterator<Item = &Hole> {
         self.steps.iter().filter_map(|step| match step {
-            Step::Hole(hole) => Some(hole),
+            JobStep::Hole(hole) => Some(hole),
             _ => None,
         })
     }
@@ -357,11 +359,11 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
         operation.surface = thickness;
     }
     operation.retract = operation.surface;
-    let depth_of = |step: &Step| match step {
-        Step::Hole(hole) => Some(hole.bottom),
+    let depth_of = |step: &JobStep| match step {
+        JobStep::Hole(hole) => Some(hole.bottom),
         _ => step.as_cut().and_then(|movement| movement.to.axes()[2]),
     };
-    let feed_where = |is_meant: &dyn Fn(&Step, &Step) -> bool| {
+    let feed_where = |is_meant: &dyn Fn(&JobStep, &JobStep) -> bool| {
         operation
             .steps
             .windows(2)
@@ -381,12 +383,128 @@ pub(super) fn describe(operation: &mut Operation, thickness: f64) {
 }
 
 /// Whether a step descends at feed at the position where the previous one ended.
-fn is_straight_down(before: &Step, step: &Step) -> bool {
-    let end_of = |step: &Step| match step {
-        Step::Move(movement) if !matches!(movement.pace, Pace::Probe { .. }) => movement.to.axes(),
+fn is_straight_down(before: &JobStep, step: &JobStep) -> bool {
+    let end_of = |step: &JobStep| match step {
+        JobStep::Move(movement) if !matches!(movement.pace, Pace::Probe { .. }) => movement.to.axes(),
         _ => [None; 3],
     };
     let (from, to) = (end_of(before), end_of(step));
     let is_line = step.as_cut().is_some_and(|movement| movement.path == Path::Line);
     is_line && from[..2] == to[..2] && to[2] < from[2]
+}
+
+// The moves of an operation. Lengths are in millimetres, feeds in mm/min.
+
+/// An action of the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JobStep {
+    /// A move of the tool. A straight move begins where the previous step ended; its `from` is ignored.
+    Move(Move),
+    /// A hole, regardless of how it is drilled.
+    Hole(Hole),
+    /// A dwell.
+    Dwell {
+        /// Duration.
+        seconds: f64,
+    },
+    /// Waits for the operator.
+    Stop,
+    /// A comment for the operator.
+    Comment(Box<str>),
+}
+
+/// A drilled hole. The tool moves to its position, down, and up again to `exit`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hole {
+    /// X and Y in mm.
+    pub at: [f64; 2],
+    /// Height in mm from which the tool descends, and at which it moves between holes.
+    pub level: f64,
+    /// Height down to which the tool moves by rapid, in mm.
+    pub retract: f64,
+    /// Z of the bottom, in mm.
+    pub bottom: f64,
+    /// Height to which the tool is retracted afterwards, in mm.
+    pub exit: f64,
+    /// In mm/min.
+    pub feed: Option<f64>,
+    /// How the bottom is reached.
+    pub kind: HoleKind,
+}
+
+/// How a hole is drilled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HoleKind {
+    /// In one go.
+    Plain,
+    /// In one go, followed by a dwell at the bottom.
+    Dwell {
+        /// Duration.
+        seconds: f64,
+    },
+    /// In several pecks, with the tool retracted from the hole after each.
+    Peck {
+        /// Depth of a peck in mm, greater than 0.
+        depth: f64,
+    },
+}
+
+impl JobStep {
+    /// A straight move at full speed.
+    pub fn rapid(to: impl Into<Position>) -> Self {
+        Self::straight(to, Pace::Rapid)
+    }
+
+    /// A straight cut. `feed` is `None` if the parsed program does not specify it.
+    pub fn feed(to: impl Into<Position>, feed: Option<f64>) -> Self {
+        Self::straight(to, Pace::Feed(feed.unwrap_or_default()))
+    }
+
+    /// A straight move until the probe makes contact.
+    pub fn probe(to: impl Into<Position>, feed: Option<f64>) -> Self {
+        Self::straight(to, Pace::Probe { feed: feed.unwrap_or_default(), toward: true, must_answer: true })
+    }
+
+    fn straight(to: impl Into<Position>, pace: Pace) -> Self {
+        let from = Position::default();
+        Self::Move(Move { from, to: to.into(), path: Path::Line, pace, named: None })
+    }
+
+    /// The move, if it cuts.
+    fn as_cut(&self) -> Option<&Move> {
+        match self {
+            Self::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Some(movement),
+            _ => None,
+        }
+    }
+
+    /// The feed in mm/min, if the step specifies one.
+    pub(super) fn stated_feed(&self) -> Option<f64> {
+        match self {
+            Self::Move(movement) => movement.pace.stated_feed(),
+            Self::Hole(hole) => hole.feed,
+            Self::Dwell { .. } | Self::Stop | Self::Comment(_) => None,
+        }
+    }
+
+    /// Whether all its numbers are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        match self {
+            Self::Move(movement) => movement.is_finite(),
+            Self::Hole(hole) => hole.is_finite(),
+            Self::Dwell { seconds } => seconds.is_finite(),
+            Self::Stop | Self::Comment(_) => true,
+        }
+    }
+}
+
+impl Hole {
+    fn is_finite(&self) -> bool {
+        let kind = match self.kind {
+            HoleKind::Plain => 0.0,
+            HoleKind::Dwell { seconds: number } | HoleKind::Peck { depth: number } => number,
+        };
+        let numbers = [self.at[0], self.at[1], self.level, self.retract, self.bottom, self.exit, kind];
+        numbers.into_iter().chain(self.feed).all(f64::is_finite)
+    }
 }

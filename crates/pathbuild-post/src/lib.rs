@@ -16,29 +16,25 @@ mod holes;
 mod job;
 mod number;
 mod options;
-mod origin;
 mod read_back;
-mod recognise;
 mod reference;
 mod samples;
 mod shadow;
 mod spindle;
-mod step;
 mod target;
-mod tools;
 mod ways;
-mod words;
 
-pub use built_in::{BUILT_IN, BuiltIn, Language, load};
-pub use definition::{Output, Post};
+pub use built_in::{BUILT_IN, BuiltIn, load};
+pub use definition::{Language, Output, Post};
+pub use from_program::{ToolEntry, ToolTable};
 pub use from_steps::{Remark, is_of_head, native_remark};
-pub use job::{Entry, Job, Operation, Stock, Texts, Tool, Units, VelocityMode, program_number};
+pub use job::{
+    Entry, Hole, HoleKind, Job, JobStep, Operation, Stock, Texts, Tool, Units, VelocityMode, program_number,
+};
 pub use options::{NoFiles, PostFiles, PostMacro, PostOptions};
 pub use reference::{Row, reference_table};
 pub use samples::samples;
 pub use shadow::{Doubt, DoubtfulWord, TranslatedText};
-pub use step::{Hole, HoleKind, Step};
-pub use tools::{ToolEntry, ToolTable};
 
 /// Extension of a file name, without the dot.
 fn extension(text: &str) -> Option<Box<str>> {

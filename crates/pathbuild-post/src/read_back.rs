@@ -5,13 +5,12 @@ use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Action, Axes, Change, Move, Named, Pace, Path, Position, ToolLength, WorkSystem};
 
-use super::holes;
 use super::job::{Entry, Job, Operation};
-use super::origin::LineOrigin;
 use super::shadow::{Doubt, TranslatedText};
-use super::step::Step;
 use super::target::Target;
-use super::{spindle, ways};
+use super::{holes, spindle, ways};
+use crate::findings::LineOrigin;
+use crate::job::JobStep;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
@@ -253,21 +252,21 @@ impl Mover {
         self.moves.push((self.number, Move { from, to: self.at, path, pace, named }));
     }
 
-    fn step(&mut self, step: &Step) -> Result<(), Box<Diagnostic>> {
+    fn step(&mut self, step: &JobStep) -> Result<(), Box<Diagnostic>> {
         match step {
-            Step::Move(movement) => {
+            JobStep::Move(movement) => {
                 self.go(movement.to.axes(), movement.path, movement.pace);
                 if matches!(movement.pace, Pace::Probe { .. }) {
                     // Only the machine knows where the probe stops.
                     self.at.known = Axes::NONE;
                 }
             }
-            Step::Hole(hole) => {
+            JobStep::Hole(hole) => {
                 for step in holes::moves(hole)? {
                     self.step(&step)?;
                 }
             }
-            Step::Dwell { .. } | Step::Stop | Step::Comment(_) => {}
+            JobStep::Dwell { .. } | JobStep::Stop | JobStep::Comment(_) => {}
         }
         Ok(())
     }

@@ -3,13 +3,13 @@
 use pathbuild_motion::{Arc, Coolant, Move, Pace, Path, Plane, Turning};
 
 use super::job::{Job, Operation, Tool};
-use super::step::{Hole, HoleKind, Step};
+use crate::job::{Hole, HoleKind, JobStep};
 
 /// Programs that reveal which words a post writes. The first one is the simplest. A post that has no text for a feature refuses the
 /// corresponding program.
 pub fn samples() -> Vec<Job> {
     let hole = |kind| {
-        Step::Hole(Hole {
+        JobStep::Hole(Hole {
             at: [0.0, 0.0],
             level: 5.0,
             retract: 1.0,
@@ -21,14 +21,14 @@ pub fn samples() -> Vec<Job> {
     };
     let down = || vec![line(0.0, -1.0), line(10.0, -1.0)];
     let circle = Arc { plane: Plane::Xy, centre: [5.0, 0.0], clockwise: true, extra_turns: 0 };
-    let arc = Step::Move(Move {
+    let arc = JobStep::Move(Move {
         from: [0.0, 0.0, -1.0].into(),
         to: [10.0, 0.0, -1.0].into(),
         path: Path::Arc(circle),
         pace: Pace::Feed(100.0),
         named: None,
     });
-    let probe = Step::probe([None, None, Some(0.0)], Some(40.0));
+    let probe = JobStep::probe([None, None, Some(0.0)], Some(40.0));
     let plain = || operation(1, Coolant::FLOOD, down());
     vec![
         job(vec![plain()]),
@@ -38,7 +38,7 @@ pub fn samples() -> Vec<Job> {
         job(vec![operation(1, Coolant::OFF, vec![hole(HoleKind::Plain)])]),
         job(vec![operation(1, Coolant::OFF, vec![hole(HoleKind::Peck { depth: 2.0 })])]),
         job(vec![operation(1, Coolant::OFF, vec![probe])]),
-        job(vec![operation(1, Coolant::OFF, [vec![Step::Dwell { seconds: 1.0 }], down()].concat())]),
+        job(vec![operation(1, Coolant::OFF, [vec![JobStep::Dwell { seconds: 1.0 }], down()].concat())]),
     ]
 }
 
@@ -47,15 +47,15 @@ fn job(operations: Vec<Operation>) -> Job {
 }
 
 /// Moves to the clearance plane, and along it to X.
-fn rapid(x: Option<f64>) -> Step {
-    Step::rapid([x, x, Some(5.0)])
+fn rapid(x: Option<f64>) -> JobStep {
+    JobStep::rapid([x, x, Some(5.0)])
 }
 
-fn line(x: f64, z: f64) -> Step {
-    Step::feed([x, 0.0, z], Some(100.0))
+fn line(x: f64, z: f64) -> JobStep {
+    JobStep::feed([x, 0.0, z], Some(100.0))
 }
 
-fn operation(tool: u32, coolant: Coolant, steps: Vec<Step>) -> Operation {
+fn operation(tool: u32, coolant: Coolant, steps: Vec<JobStep>) -> Operation {
     let operation = Operation::new("1.1P", Tool::new(tool, 3.0, "cutter"));
     Operation {
         part: "1.1P".into(),

@@ -4,18 +4,16 @@
 //! safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error; they are
 //! never dropped.
 
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
 use pathbuild_motion::{Course, Move, Pace, Plane, Position};
 use pathbuild_path::approx::at_least;
 
-use super::abilities::Abilities;
-use super::call::{Call, ContourPosition, Point, What};
 use super::control_text::ControlTextKind;
-use super::definition::Definition;
+use super::definition::{Abilities, Definition};
 use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
 use crate::holes;
-use crate::job::{Entry, Job, Operation, Units};
-use crate::step::{Hole, HoleKind, Step};
+use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Units};
 
 type Built = Result<(), Box<Diagnostic>>;
 
@@ -132,19 +130,19 @@ impl<'a> Builder<'a> {
         [to_x.unwrap_or(x), to_y.unwrap_or(y), to_z.unwrap_or(z)]
     }
 
-    fn step(&mut self, step: &'a Step) -> Built {
+    fn step(&mut self, step: &'a JobStep) -> Built {
         match step {
-            Step::Move(movement) => self.move_along(movement),
-            Step::Comment(text) => {
+            JobStep::Move(movement) => self.move_along(movement),
+            JobStep::Comment(text) => {
                 self.add_aside(What::Comment(text));
                 Ok(())
             }
-            Step::Hole(hole) => self.hole(hole),
-            Step::Dwell { seconds } => {
+            JobStep::Hole(hole) => self.hole(hole),
+            JobStep::Dwell { seconds } => {
                 self.add_aside(What::Dwell(*seconds));
                 Ok(())
             }
-            Step::Stop => {
+            JobStep::Stop => {
                 self.add_aside(What::Stop);
                 Ok(())
             }
@@ -197,8 +195,8 @@ impl<'a> Builder<'a> {
         if !self.abilities.hole || !can_say_it {
             for step in holes::moves(hole)? {
                 match step {
-                    Step::Move(movement) => self.move_along(&movement)?,
-                    Step::Dwell { seconds } => self.add_aside(What::Dwell(seconds)),
+                    JobStep::Move(movement) => self.move_along(&movement)?,
+                    JobStep::Dwell { seconds } => self.add_aside(What::Dwell(seconds)),
                     _ => {}
                 }
             }
@@ -291,7 +289,7 @@ impl<'a> Builder<'a> {
             return Ok(None);
         }
         if self.abilities.has_relative_centres || self.abilities.has_absolute_centres {
-            return rounding.fitted(movement, self.units).map(Some);
+            return rounding.fitted(movement, self.units.millimetres()).map(Some);
         }
         Ok(Some(*movement))
     }
@@ -415,4 +413,47 @@ impl<'a> Builder<'a> {
 
 fn same_plane(a: Point, b: Point) -> bool {
     a[..2] == b[..2]
+}
+
+// A call of a control text before its variables are set.
+
+/// X, Y, Z in mm.
+pub(super) type Point = [f64; 3];
+
+/// A call and the operation it belongs to.
+#[derive(Debug)]
+pub(super) struct Call<'a> {
+    pub(super) operation: usize,
+    pub(super) what: What<'a>,
+}
+
+/// What the called text has to write.
+#[derive(Debug)]
+pub(super) enum What<'a> {
+    /// Moves to the start of a contour at safety height, down to working height by rapid, and down to depth at feed.
+    Start { at: Point, clearance: f64, working: f64, feed: Option<f64> },
+    /// A straight element.
+    Line { to: Point, feed: Option<f64>, place: ContourPosition },
+    /// A circular element.
+    Arc { movement: Move, place: ContourPosition },
+    /// Retracts from the end of a contour.
+    End { clearance: f64 },
+    /// A hole.
+    Hole { hole: Hole, clearance: f64 },
+    /// A rapid move that does not lead to a contour.
+    Rapid { to: Point },
+    /// A dwell, in seconds.
+    Dwell(f64),
+    /// A stop that waits for the operator.
+    Stop,
+    /// A comment.
+    Comment(&'a str),
+}
+
+/// The position of an element within its contour.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ContourPosition {
+    /// Whether it is the first element, or the first one after a change of feed.
+    pub(super) is_first: bool,
+    pub(super) is_last: bool,
 }

@@ -1,6 +1,7 @@
 //! Reads a definition consisting of control texts, which is a TOML file. (book: program/posts)
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use camino::Utf8Path;
@@ -9,12 +10,15 @@ use pathbuild_diagnostic::{Diagnostic, Text, nearest};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::control_text::{ControlText, ControlTextKind};
-use super::lints;
+use super::control_text::locate;
+use super::expand::next_variable;
 use super::marks::is_private;
 use super::settings::{SETTINGS, Settings};
+use super::variables::{Variable, is_parameter};
 use crate::Units;
-use crate::findings::{Findings, LineStarts};
+use crate::cad6::control_text::ControlText;
+use crate::cad6::control_text::ControlTextKind;
+use crate::findings::{Findings, LineStarts, MOST_FINDINGS};
 use crate::number::FEWEST_DECIMALS;
 
 /// A definition as it is in its file.
@@ -50,7 +54,7 @@ impl Definition {
         let definition = reader.definition(table.get_ref());
         let mut findings = reader.findings;
         if !findings.has_error() {
-            for doubt in lints::of(&definition, file) {
+            for doubt in of(&definition, file) {
                 findings.add(doubt);
             }
         }
@@ -118,7 +122,7 @@ impl Definition {
     }
 
     /// The reason why no program calls a text, or `None` if one may.
-    pub(super) fn called_instead(&self, kind: ControlTextKind) -> Option<Uncalled> {
+    fn called_instead(&self, kind: ControlTextKind) -> Option<Uncalled> {
         let instead = |other| self.text(other).map(|_| Uncalled::Instead(other));
         match kind {
             ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd => {
@@ -290,8 +294,132 @@ impl ControlTextReader<'_> {
 
     fn lint_alias(&mut self, own: &Spanned<Cow<'_, str>>) {
         let name = own.get_ref().as_ref();
-        if super::variables::Variable::named(name).is_none() && !super::variables::is_parameter(name) {
+        if Variable::named(name).is_none() && !is_parameter(name) {
             self.report(Diagnostic::new(&posts::ALIAS_UNKNOWN).quoting("name", name), own.span());
         }
     }
+}
+
+// What the control texts of a definition are able to express.
+
+/// Which control texts a definition has, and what they contain.
+#[derive(Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "each is about a text of its own")]
+pub(super) struct Abilities {
+    /// Every rapid can be written exactly as it is.
+    pub(super) rapid: bool,
+    /// There is a text for holes.
+    pub(super) hole: bool,
+    /// The text for holes uses the peck depth.
+    pub(super) peck: bool,
+    /// The text for holes uses the dwell time at the bottom.
+    pub(super) dwell: bool,
+    pub(super) arc: bool,
+    /// The text for arcs uses centres relative to the start of the arc.
+    pub(super) has_relative_centres: bool,
+    /// The text for arcs uses absolute centres.
+    pub(super) has_absolute_centres: bool,
+    /// Decimals of rounded numbers.
+    pub(super) decimals: usize,
+    /// Lines may change Z.
+    pub(super) line_z: bool,
+    /// Arcs may change Z.
+    pub(super) arc_z: bool,
+    pub(super) lift_between_passes: bool,
+    /// Widest arc, in radians.
+    pub(super) arc_sweep: f64,
+    /// In mm.
+    pub(super) arc_tolerance: f64,
+}
+
+impl Abilities {
+    /// Determines the abilities of a definition.
+    pub(super) fn of(definition: &Definition) -> Self {
+        let has = |kind| definition.text(kind).is_some();
+        let hole = if has(ControlTextKind::Cycle) { ControlTextKind::Cycle } else { ControlTextKind::Point };
+        Self {
+            rapid: has(ControlTextKind::Rapid),
+            hole: has(hole),
+            peck: definition.names(hole, &["PeckDepth"]),
+            dwell: definition.names(hole, &["DwellTime"]),
+            has_absolute_centres: definition.names(ControlTextKind::Arc, &["XC", "YC"]),
+            has_relative_centres: definition.names(ControlTextKind::Arc, &["IRel", "JRel"]),
+            decimals: definition.settings.decimals,
+            arc: has(ControlTextKind::Arc),
+            line_z: definition.names(ControlTextKind::Line, &["Z1", "ZIncr"]),
+            arc_z: definition.names(ControlTextKind::Arc, &["Z1", "ZIncr"]),
+            lift_between_passes: definition.settings.lift_between_passes,
+            arc_sweep: definition.settings.arc_sweep.to_radians(),
+            arc_tolerance: definition.settings.arc_tolerance,
+        }
+    }
+}
+
+// Finds likely mistakes in control texts without running them.
+
+/// Reports likely mistakes in a definition, including texts that no program calls: what they switch would never be switched.
+pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
+    let uncalled = definition.texts().filter_map(|(kind, text)| {
+        let diagnostic = match definition.called_instead(kind)? {
+            Uncalled::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
+            Uncalled::Instead(other) => {
+                Diagnostic::new(&posts::TEXT_NOT_CALLED).quoting("other", other.name())
+            }
+        };
+        Some(locate(diagnostic, kind, text, 0..text.line_around(0).1.len(), file))
+    });
+    uncalled.chain(definition.texts().flat_map(|(kind, text)| of_text(kind, text, file))).collect()
+}
+
+fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    let mut statements = Statements::default();
+    let mut rest = text.text.as_str();
+    // Invalid texts are reported when they are run.
+    while let Ok(Some((before, name, after))) = next_variable(rest)
+        && diagnostics.len() < MOST_FINDINGS
+    {
+        let at = text.text.len() - rest.len() + before.len();
+        statements.pass(before);
+        let message = if statements.assigned.contains(name) {
+            Some(&posts::READ_AFTER_ASSIGNMENT)
+        } else {
+            (is_number(name) && statements.open.is_empty()).then_some(&posts::NUMBER_UNFORMATTED)
+        };
+        if let Some(message) = message {
+            let diagnostic = Diagnostic::new(message).quoting("name", name);
+            diagnostics.push(locate(diagnostic, kind, text, at..at + name.len() + 2, file));
+        }
+        rest = after;
+    }
+    diagnostics
+}
+
+fn is_number(name: &str) -> bool {
+    Variable::named(name).is_some_and(|variable| !variable.is_text)
+}
+
+/// The statements that are open at a position of a text, and the variables assigned by those before it.
+#[derive(Default)]
+struct Statements<'a> {
+    /// The variable assigned by each open statement, if it assigns one.
+    open: Vec<Option<&'a str>>,
+    assigned: BTreeSet<&'a str>,
+}
+
+impl<'a> Statements<'a> {
+    fn pass(&mut self, text: &'a str) {
+        for (at, brace) in text.match_indices(['{', '}']) {
+            if brace == "{" {
+                self.open.push(text[at + 1..].strip_prefix('=').map(leading_name));
+            } else if let Some(Some(name)) = self.open.pop() {
+                self.assigned.insert(name);
+            }
+        }
+    }
+}
+
+fn leading_name(text: &str) -> &str {
+    let length = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
+    &text[..length]
 }

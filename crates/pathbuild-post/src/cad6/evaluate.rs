@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
+use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::posts;
 
 use super::expand::{Expanded, is_name};
-use super::fault::{Evaluated, Fault};
 use super::marks::{UNDEFINED, char_of, is_mark};
 use super::numbers::{CForm, Form};
-use super::statements::{STATEMENTS, StatementKind};
 use super::term::{Doubt, evaluate};
+use super::term::{Evaluated, Fault};
 use super::variables::Variables;
 use crate::PostFiles;
 
@@ -124,7 +124,7 @@ impl<'a> Evaluator<'a> {
 
     fn escape(&mut self) -> Evaluated<()> {
         let rest = self.rest();
-        if let Some(after) = rest.strip_prefix(super::insert::INSERTION) {
+        if let Some(after) = rest.strip_prefix(super::expand::INSERTION) {
             return self.insertion(after);
         }
         if let Some(byte) = rest.strip_prefix(r"\\\~").and_then(hex_byte) {
@@ -152,7 +152,7 @@ impl<'a> Evaluator<'a> {
         if let Some(at) = after[..length].find(UNDEFINED) {
             return Err(self.undefined(start + 5 + at));
         }
-        let content = super::insert::read(&name, self.surroundings.files).map_err(|reason| {
+        let content = super::expand::read(&name, self.surroundings.files).map_err(|reason| {
             Fault::new(&posts::INSERTION_REFUSED, span).quoting("name", name.as_str()).with("reason", reason)
         })?;
         let line = self.line();
@@ -310,4 +310,174 @@ impl<'a> Evaluator<'a> {
 fn hex_byte(text: &str) -> Option<u8> {
     let digits = text.get(..2).filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))?;
     u8::from_str_radix(digits, 16).ok()
+}
+
+// Statements that can contain other statements: assignments, conditions, comparisons.
+
+/// Kind of a statement, identified by the character after its brace. Any other character starts a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StatementKind {
+    Assignment,
+    Condition,
+    Comparison,
+    NonExistence,
+    Text,
+    Remark,
+    VariableName,
+}
+
+/// A statement that is not a number.
+#[derive(Debug)]
+pub(super) struct StatementForm {
+    pub(super) sign: char,
+    pub(super) kind: StatementKind,
+    /// Notation, for the book.
+    pub(super) form: &'static str,
+    /// Result, for the book.
+    pub(super) about: Text,
+}
+
+/// All statements that are not numbers.
+pub(super) static STATEMENTS: &[StatementForm] = &[
+    StatementForm {
+        sign: '=',
+        kind: StatementKind::Assignment,
+        form: "{=Name {…}}",
+        about: Text {
+            en: "gives a variable the result of a statement; later calls see it",
+            de: "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es",
+        },
+    },
+    StatementForm {
+        sign: '?',
+        kind: StatementKind::Condition,
+        form: "{?Term {…}{…}}",
+        about: Text {
+            en: "the first statement if the term is not 0, else the second, which may be missing",
+            de: "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf",
+        },
+    },
+    StatementForm {
+        sign: '"',
+        kind: StatementKind::Comparison,
+        form: "{\"{…}{…} {…}{…}}",
+        about: Text {
+            en: "the third statement if the first two give the same text, else the fourth, which may be missing",
+            de: "die dritte Anweisung, wenn die ersten zwei denselben Text ergeben, sonst die vierte, die fehlen darf",
+        },
+    },
+    StatementForm {
+        sign: '!',
+        kind: StatementKind::NonExistence,
+        form: "{!Name {…}{…}}",
+        about: Text {
+            en: "the first statement if the variable has no value, else the second, which may be missing",
+            de: "die erste Anweisung, wenn die Variable keinen Wert hat, sonst die zweite, die fehlen darf",
+        },
+    },
+    StatementForm {
+        sign: '$',
+        kind: StatementKind::Text,
+        form: "{$…}",
+        about: Text { en: "the text, with statements in it", de: "der Text, mit Anweisungen darin" },
+    },
+    StatementForm {
+        sign: '*',
+        kind: StatementKind::Remark,
+        form: "{*…}",
+        about: Text { en: "nothing: a comment", de: "nichts: ein Kommentar" },
+    },
+    StatementForm {
+        sign: '§',
+        kind: StatementKind::VariableName,
+        form: "{§…}",
+        about: Text {
+            en: "refused: its meaning is not known",
+            de: "abgelehnt: Die Bedeutung ist nicht bekannt",
+        },
+    },
+];
+
+impl Evaluator<'_> {
+    pub(super) fn assignment(&mut self) -> Evaluated<()> {
+        let name = self.name()?;
+        self.blanks();
+        let text = self.result()?;
+        self.surroundings.variables.assign(name, &text);
+        Ok(())
+    }
+
+    fn non_existence(&mut self) -> Evaluated<()> {
+        let name = self.name()?;
+        let is_missing = self.surroundings.variables.get(name).is_none();
+        self.branches(is_missing)
+    }
+
+    fn conditional(&mut self) -> Evaluated<()> {
+        let length = self.rest().find('{').ok_or_else(|| self.fault(&posts::BRANCH_EXPECTED, 0))?;
+        let value = self.term(self.at..self.at + length)?;
+        self.at += length;
+        self.branches(value != 0.0)
+    }
+
+    fn comparison(&mut self) -> Evaluated<()> {
+        self.blanks();
+        let first = self.result()?;
+        self.blanks();
+        let second = self.result()?;
+        let variables = &self.surroundings.variables;
+        let is_same = variables.plain(&first) == variables.plain(&second);
+        self.branches(is_same)
+    }
+
+    /// Evaluates the next statement and returns its result without adding it to the output.
+    pub(super) fn result(&mut self) -> Evaluated<String> {
+        if !self.rest().starts_with('{') {
+            return Err(self.fault(&posts::BRANCH_EXPECTED, 0));
+        }
+        let lines = std::mem::take(&mut self.lines);
+        self.statement()?;
+        let result = std::mem::replace(&mut self.lines, lines);
+        Ok(result.into_iter().map(|line| line.text).collect::<Vec<_>>().join("\n"))
+    }
+
+    /// Evaluates the first or the second branch. The second branch is optional; the other branch has no effect at all.
+    fn branches(&mut self, takes_first: bool) -> Evaluated<()> {
+        self.blanks();
+        if !self.rest().starts_with('{') {
+            return Err(self.fault(&posts::BRANCH_EXPECTED, 0));
+        }
+        self.branch(takes_first)?;
+        self.blanks();
+        if self.rest().starts_with('{') {
+            self.branch(!takes_first)?;
+        }
+        Ok(())
+    }
+
+    fn branch(&mut self, is_taken: bool) -> Evaluated<()> {
+        if is_taken {
+            return self.statement();
+        }
+        self.at += 1;
+        self.at = self.closing_brace(self.at - 1)? + 1;
+        Ok(())
+    }
+
+    /// Position of the brace that closes the open statement.
+    fn closing_brace(&self, start: usize) -> Evaluated<usize> {
+        let mut depth = 0_usize;
+        let mut is_escaped = false;
+        for (at, c) in self.rest().char_indices() {
+            match c {
+                _ if is_escaped => is_escaped = false,
+                '\\' => is_escaped = true,
+                '{' => depth += 1,
+                '}' if depth == 0 => return Ok(self.at + at),
+                '}' => depth -= 1,
+                _ => {}
+            }
+        }
+        Err(Fault::new(&posts::OPEN_BRACE, start..start + 1))
+    }
 }

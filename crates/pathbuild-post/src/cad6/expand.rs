@@ -1,10 +1,14 @@
 //! The first phase of a call: replaces every variable of the control text by its value. (section 1.4)
 
+use camino::{Utf8Component, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::reasons::NOT_BELOW_POST;
 
-use super::fault::{Evaluated, Fault};
-use super::marks::{UNDEFINED, VARIABLE};
+use super::marks::{UNDEFINED, VARIABLE, is_mark};
+use super::term::{Evaluated, Fault};
 use super::variables::Variables;
+use crate::PostFiles;
 
 /// Maximum nesting depth of variables that refer to each other.
 const MOST_DEPTH: usize = 32;
@@ -148,4 +152,63 @@ fn is_name_character(c: char) -> bool {
 /// Whether a text is a valid name: a letter followed by letters, digits and underscores.
 pub(super) fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(is_name_character)
+}
+
+// Files inserted by control texts. Only files below the directory of the post are read.
+
+/// Introduces the name of an inserted file, which ends with a `*`.
+pub(super) const INSERTION: &str = r"\\\~*";
+
+/// Names of the files inserted by an expanded text.
+pub(super) fn names(text: &str) -> Vec<String> {
+    let names = text.split(INSERTION).skip(1).filter_map(|rest| Some(rest.split_once('*')?.0));
+    names
+        .filter(|name| !name.contains(UNDEFINED))
+        .map(|name| name.chars().filter(|c| !is_mark(*c)).collect())
+        .collect()
+}
+
+/// Returns the content of a file without its last line break, or the reason why it cannot be read.
+pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> {
+    let path = below(name).ok_or(Value::Prose(&NOT_BELOW_POST))?;
+    let mut content = files.read(&path)?;
+    for end in [b'\n', b'\r'] {
+        if content.last() == Some(&end) {
+            content.pop();
+        }
+    }
+    Ok(content)
+}
+
+/// Returns the path if it stays below the current directory. Backslashes are separators, as on Windows.
+pub(super) fn below(name: &str) -> Option<Utf8PathBuf> {
+    let path = Utf8PathBuf::from(name.replace('\\', "/"));
+    let is_drive = name.contains(':');
+    let is_down =
+        path.components().all(|part| matches!(part, Utf8Component::Normal(_) | Utf8Component::CurDir));
+    (is_down && !is_drive && path.file_name().is_some()).then_some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::below;
+
+    #[test]
+    fn only_ways_down_are_gone() {
+        for inside in ["head.nc", "sub/head.nc", r"sub\head.nc", "./head.nc"] {
+            assert!(below(inside).is_some(), "{inside}");
+        }
+        for outside in [
+            "",
+            ".",
+            "../head.nc",
+            r"sub\..\..\head.nc",
+            "/etc/passwd",
+            r"\\server\x",
+            r"C:\head.nc",
+            "C:head.nc",
+        ] {
+            assert!(below(outside).is_none(), "{outside}");
+        }
+    }
 }

@@ -4,25 +4,17 @@
 //! A [`Definition`] is read once. `calls` turns a job into calls, `program` sets the variables of each call, and a `Runner` executes it in
 //! two phases: it replaces variables by their values, then statements by their results.
 
-mod abilities;
-mod call;
 mod calls;
 mod control_text;
 mod definition;
 mod evaluate;
 mod expand;
-mod fault;
-mod functions;
-mod insert;
-mod lints;
 mod marks;
 mod numbers;
 mod program;
 pub(super) mod reference;
-mod report;
 mod runner;
 mod settings;
-mod statements;
 mod term;
 mod variables;
 
@@ -30,16 +22,16 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 
 pub(super) use definition::Definition;
-pub(super) use insert::foreseen;
+pub(super) use program::foreseen;
 use runner::Runner;
 
 use super::PostOptions;
 use super::guard::Guard;
 use super::job::{Job, Units};
-use super::origin::LineOrigin;
 use super::shadow::{Shadow, TranslatedText};
 use super::target::Target;
-use super::words::{CommentMarks, words};
+use crate::findings::LineOrigin;
+use crate::shadow::{CommentMarks, words};
 
 /// The output of the engine.
 pub(super) struct EngineOutput {

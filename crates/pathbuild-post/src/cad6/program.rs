@@ -1,16 +1,19 @@
 //! Writes a job through control texts: sets the variables of each call and executes it.
 
+use std::collections::BTreeSet;
+
+use camino::Utf8PathBuf;
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Move, Turning};
 
-use super::call::{Call, ContourPosition, Point, What};
-use super::calls::calls;
+use super::calls::{Call, ContourPosition, Point, What, calls};
 use super::control_text::ControlTextKind;
+use super::definition::Definition;
+use super::expand::{Expanded, below, names};
 use super::marks::is_private;
 use super::runner::{Called, Runner};
 use super::variables::Variables;
-use crate::job::{Feeds, Job, Operation, Units};
-use crate::step::{Hole, HoleKind};
+use crate::job::{Feeds, Hole, HoleKind, Job, Operation, Units};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
@@ -72,6 +75,15 @@ pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
     for own in macros {
         variables.assign(&own.name, &own.value.replace(is_private, "?"));
     }
+}
+
+/// Returns the files that control texts insert in every program: those whose names consist only of literal text and the user's macros.
+pub(crate) fn foreseen(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
+    let mut variables = Variables::new(definition.aliases.iter().map(|(other, own)| (&**other, &**own)));
+    assign_macros(&mut variables, macros);
+    // Texts that cannot be expanded cannot be part of a program.
+    let texts = definition.texts().filter_map(|(_, text)| Expanded::new(&text.text, &variables).ok());
+    texts.flat_map(|expanded| names(&expanded.text)).filter_map(|name| below(&name)).collect()
 }
 
 impl Caller<'_, '_> {

@@ -3,11 +3,10 @@
 use pathbuild_diagnostic::{Lang, Text};
 
 use super::control_text::ControlTextKind;
-use super::functions::{FUNCTIONS, Rule};
+use super::evaluate::STATEMENTS;
 use super::numbers::FORMS;
 use super::settings::SETTINGS;
-use super::statements::STATEMENTS;
-use super::term::LEVELS;
+use super::term::{FUNCTIONS, LEVELS, Rule};
 use super::variables::VARIABLES;
 use crate::reference::{Row, code};
 
@@ -58,7 +57,7 @@ pub(crate) fn functions(lang: Lang) -> Vec<Row> {
         Rule::Two(_) => "x, y",
         Rule::Any(_) => "x, ...",
     };
-    let row = |entry: &super::functions::Function| {
+    let row = |entry: &super::term::Function| {
         vec![
             code(&format!("{}({})", entry.name, arguments(entry.rule))),
             entry.about.in_lang(lang).to_owned(),

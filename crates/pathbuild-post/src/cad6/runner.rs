@@ -3,21 +3,22 @@
 use std::ops::Range;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, messages::posts, nearest};
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Message, nearest};
 use pathbuild_gcode::native::too_large;
 
 use super::control_text::{ControlText, ControlTextKind};
 use super::definition::Definition;
 use super::evaluate::{Outcome, ResultLine, Surroundings, run};
 use super::expand::Expanded;
-use super::fault::Fault;
 use super::marks::byte_of;
-use super::report::locate;
 use super::term::Doubt;
 use super::variables::{VARIABLES, Variables, reason};
 use crate::PostFiles;
+use crate::cad6::control_text::locate;
+use crate::cad6::term::Fault;
+use crate::findings::LineOrigin;
 use crate::guard::Guard;
-use crate::origin::LineOrigin;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type Called = Result<(), Box<Diagnostic>>;
@@ -240,7 +241,7 @@ fn in_text(expanded: &Expanded, span: &Range<usize>, length: usize) -> Range<usi
     start..(end + 1).max(start)
 }
 
-fn message(doubt: Doubt) -> &'static pathbuild_diagnostic::Message {
+fn message(doubt: Doubt) -> &'static Message {
     match doubt {
         Doubt::TwoSigns => &posts::TERM_TWO_SIGNS,
         Doubt::MixedBits => &posts::TERM_MIXED_BITS,

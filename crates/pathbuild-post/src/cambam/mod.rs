@@ -3,42 +3,31 @@
 //! A [`Definition`] is read once. A `Plan` combines it with a program and checks all macros. A `Writer` expands the templates line by line
 //! and reads each line back, because the next line depends on the state of the machine.
 
-mod circular;
-mod command;
-mod cycles;
 mod definition;
-mod fuel;
-mod line;
-mod lines;
 mod machine;
 mod macros;
-mod move_values;
 mod moves;
-mod names;
 mod options;
-mod plan;
 pub(super) mod reference;
-mod registers;
 mod section;
-mod states;
 mod template;
 mod values;
 mod writer;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
 
-pub(super) use definition::Definition;
+use crate::PostOptions;
+use crate::job::{Job, Units};
+use crate::shadow::{Shadow, TranslatedText, words};
+use crate::target::Target;
+use definition::{Plan, framed};
 use macros::{Macro, State};
-use plan::Plan;
 use template::Template;
 use writer::{Writer, WrittenText};
 
-use super::PostOptions;
-use super::job::{Job, Units};
-use super::shadow::{Shadow, TranslatedText};
-use super::target::Target;
-use super::words::words;
+pub(super) use definition::Definition;
 
 /// Writes a job, which must contain operations.
 pub(super) fn write(
@@ -50,7 +39,7 @@ pub(super) fn write(
 ) -> Result<EngineOutput, Vec<Diagnostic>> {
     let plan = Plan::new(definition, file, job, target, options)?;
     let one = |error: Box<Diagnostic>| vec![*error];
-    let post_build = command::post_build(definition, file, job, options).map_err(one)?;
+    let post_build = post_build(definition, file, job, options).map_err(one)?;
     let text = Writer::new(&plan).run().map_err(one)?;
     Ok(EngineOutput { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
@@ -83,4 +72,68 @@ fn leaves_out_coolant(plan: &Plan<'_>) -> bool {
     let writes_it =
         || plan.templates().flat_map(Template::macros).any(|(what, _)| *what == Macro::State(State::Coolant));
     plan.job.operations.iter().any(|operation| operation.coolant.is_some()) && !writes_it()
+}
+
+// The command that a definition asks to run on the finished file, as a list of arguments. It is not run here.
+
+/// Returns the program and its arguments, or `None` if the definition has no command.
+pub(super) fn post_build(
+    definition: &Definition,
+    file: &Utf8Path,
+    job: &Job,
+    options: &PostOptions<'_>,
+) -> Result<Option<Vec<String>>, Box<Diagnostic>> {
+    let command = definition.options.post_build_command.trim().trim_matches('"');
+    if command.is_empty() {
+        return Ok(None);
+    }
+    let default_output = || format!("{}.{}", job.name, definition.options.extension);
+    let output = options.output.as_deref().map_or_else(default_output, str::to_owned);
+    let mut words = vec![command.to_owned()];
+    for argument in split(&definition.options.post_build_arguments) {
+        // Macros are replaced after splitting, so that a path with spaces remains one argument.
+        let argument = argument.replace("{$outfile}", &output).replace("{$cbfile.name}", &job.name);
+        if let Some(start) = argument.find("{$") {
+            let name = argument[start + 2..].split('}').next().unwrap_or("");
+            let diagnostic = Diagnostic::new(&posts::UNKNOWN_MACRO).quoting("macro", framed(name));
+            return Err(Box::new(diagnostic.quoting("section", "PostBuildCommandArgs").in_file(file)));
+        }
+        words.push(argument);
+    }
+    Ok(Some(words))
+}
+
+/// Splits a command line at spaces. Double quotes group an argument. Backslashes are literal, as in Windows paths.
+fn split(text: &str) -> Vec<String> {
+    let mut arguments: Vec<String> = Vec::new();
+    let mut is_quoted = false;
+    let mut is_inside = false;
+    for c in text.chars() {
+        if c == '"' {
+            is_quoted = !is_quoted;
+        }
+        let is_blank = c.is_whitespace() && !is_quoted;
+        if !is_blank && !is_inside {
+            arguments.push(String::new());
+        }
+        is_inside = !is_blank;
+        if is_inside && c != '"' {
+            arguments.last_mut().into_iter().for_each(|last| last.push(c));
+        }
+    }
+    arguments
+}
+
+#[cfg(test)]
+mod tests {
+    use super::split;
+
+    #[test]
+    fn quotes_hold_an_argument_together() {
+        assert_eq!(
+            split(r#"TOUCH "C:\my files\x.nc"  -a"" "" b"#),
+            ["TOUCH", r"C:\my files\x.nc", "-a", "", "b"]
+        );
+        assert!(split("  ").is_empty());
+    }
 }

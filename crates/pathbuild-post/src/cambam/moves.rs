@@ -1,18 +1,21 @@
 //! The moves of an operation: entry, rapids, feeds, dwells, probes.
 
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
-use pathbuild_gcode::dialect::DwellUnit;
-use pathbuild_motion::{Move, Pace};
+use std::f64::consts::PI;
+use std::mem::discriminant;
 
-use super::cycles::can_be_canned;
-use super::macros::Argument;
-use super::move_values::MoveValues;
-use super::registers::Register;
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Point};
+use pathbuild_gcode::dialect::DwellUnit;
+use pathbuild_motion::{Arc, Course, Move, Pace, Plane};
+use pathbuild_path::approx::{at_least, near};
+
+use super::machine::{ArcValues, MoveValues, Register};
+use super::macros::{Argument, Macro, Value};
 use super::section::Section;
 use super::writer::{ROTARY, WriteResult, Writer};
+use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
 use crate::holes;
-use crate::job::Entry;
-use crate::step::Step;
+use crate::job::{Entry, Hole, HoleKind, JobStep};
 
 impl Writer<'_> {
     /// Writes the moves of the current operation.
@@ -25,7 +28,9 @@ impl Writer<'_> {
         let mut rest = steps.as_slice();
         while let Some((step, after)) = rest.split_first() {
             rest = match step {
-                Step::Hole(hole) if self.plan.options.cycles && can_be_canned(hole) => self.cycles(rest)?,
+                JobStep::Hole(hole) if self.plan.options.cycles && can_be_canned(hole) => {
+                    self.cycles(rest)?
+                }
                 _ => {
                     self.step(step)?;
                     after
@@ -36,17 +41,17 @@ impl Writer<'_> {
     }
 
     /// Writes any step except a canned cycle.
-    pub(super) fn step(&mut self, step: &Step) -> WriteResult {
+    pub(super) fn step(&mut self, step: &JobStep) -> WriteResult {
         match step {
-            Step::Move(movement) => self.move_to(movement),
-            Step::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
-            Step::Dwell { seconds } => {
+            JobStep::Move(movement) => self.move_to(movement),
+            JobStep::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
+            JobStep::Dwell { seconds } => {
                 let mut values = MoveValues::default();
                 values.set(Register::P, Some(self.dwell(*seconds)));
                 self.go(Section::Dwell, [None; 3], values)
             }
-            Step::Stop => self.lines_of(Section::Stop),
-            Step::Comment(text) => self.comment(text, " "),
+            JobStep::Stop => self.lines_of(Section::Stop),
+            JobStep::Comment(text) => self.comment(text, " "),
         }
     }
 
@@ -79,7 +84,7 @@ impl Writer<'_> {
     }
 
     /// The register values of a move that has none besides the feed.
-    pub(super) fn with_feed(&self, feed: Option<f64>) -> MoveValues {
+    fn with_feed(&self, feed: Option<f64>) -> MoveValues {
         let mut values = MoveValues::default();
         values.set(Register::F, feed.map(|feed| self.scaled(feed)));
         values
@@ -106,7 +111,7 @@ impl Writer<'_> {
     }
 
     /// Sets the register values for a move.
-    pub(super) fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
+    fn set_move(&mut self, to: [Option<f64>; 3], values: MoveValues) -> WriteResult {
         self.move_values = values;
         for (axis, target) in to.into_iter().enumerate() {
             let value = target.map(|target| self.scaled(target)).or_else(|| self.present(axis));
@@ -116,7 +121,7 @@ impl Writer<'_> {
     }
 
     /// Records the position of the tool according to the program.
-    pub(super) fn remember(&mut self, to: [Option<f64>; 3]) {
+    fn remember(&mut self, to: [Option<f64>; 3]) {
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {
                 let text = self.machine.written(Register::AXES[axis]).map(Into::into);
@@ -148,14 +153,14 @@ impl Writer<'_> {
     }
 
     /// Writes a section on lines of its own.
-    pub(super) fn lines_of(&mut self, section: Section) -> WriteResult {
+    fn lines_of(&mut self, section: Section) -> WriteResult {
         self.section(section)?;
         self.end_line();
         Ok(())
     }
 
     /// Whether a height is below the stock surface after rounding.
-    pub(super) fn is_below_surface(&self, z: f64) -> bool {
+    fn is_below_surface(&self, z: f64) -> bool {
         let format = self.number_format();
         format.round(self.scaled(z)) < format.round(self.scaled(self.operation().surface))
     }
@@ -227,5 +232,205 @@ impl Writer<'_> {
             }
             z => self.go(Section::Rapid, [None, None, z], MoveValues::default()),
         }
+    }
+}
+
+// Arcs of an operation. They are written as arcs if they are still circular after rounding, otherwise as lines if the definition permits
+// it.
+
+const OFFSETS: [Register; 3] = [Register::I, Register::J, Register::K];
+
+impl Writer<'_> {
+    /// Writes a circular move in the form required by the options of the definition.
+    pub(super) fn arc(&mut self, movement: &Move, course: &Course) -> WriteResult {
+        let options = &self.plan.definition.options;
+        if options.arcs_as_lines || options.rotary.wrap {
+            return self.chords(movement, course);
+        }
+        let is_short = self.scaled(course.radius() * course.sweep()) < options.least_arc_length;
+        let closes = self.rounded(|rounding| rounding.closes(movement));
+        if is_short || closes || self.scaled(course.radius()) > options.greatest_arc_radius {
+            self.warn_of_line(movement, course);
+            return self.line(movement);
+        }
+        if self.is_written_by_radius(course) {
+            return movement
+                .split(pieces_of(course, WIDEST_BY_RADIUS))
+                .try_for_each(|piece| self.circle(&piece));
+        }
+        let fitted = self.rounded(|rounding| rounding.fitted(movement, self.plan.job.units.millimetres()));
+        self.circle(&fitted.map_err(|error| Box::new(error.in_file(self.plan.file)))?)
+    }
+
+    fn line(&mut self, movement: &Move) -> WriteResult {
+        self.feed(movement.to.axes(), movement.pace.stated_feed())
+    }
+
+    fn chords(&mut self, movement: &Move, course: &Course) -> WriteResult {
+        let Some(count) = chords(course, self.plan.arc_tolerance()) else {
+            let diagnostic = Diagnostic::new(&posts::TOO_MANY_CHORDS).with("limit", u64::from(MOST_CHORDS));
+            return Err(Box::new(diagnostic.with("radius", course.radius()).in_file(self.plan.file)));
+        };
+        movement.split(count).try_for_each(|piece| self.line(&piece))
+    }
+
+    fn warn_of_line(&mut self, movement: &Move, course: &Course) {
+        if course.sagitta() > self.plan.arc_tolerance() {
+            let diagnostic = Diagnostic::new(&posts::ARC_FLATTENED)
+                .with("place", Point::new(movement.to.x(), movement.to.y()));
+            self.warn(diagnostic.with("radius", course.radius()).with("distance", course.sagitta()));
+        }
+    }
+
+    /// Whether the template uses the radius but no centre. Then the arc is only unambiguous if it sweeps less than half a turn.
+    fn is_written_by_radius(&self, course: &Course) -> bool {
+        let template = self.plan.definition.section(self.arc_section(&course.arc()));
+        let has_centre = template.macros().any(|(what, _)| match what {
+            Macro::Register(register, _) | Macro::Value(Value::ArcOffset(register)) => {
+                OFFSETS.contains(register)
+            }
+            _ => false,
+        });
+        !has_centre && template.macros().any(|(what, _)| *what == Macro::Value(Value::ArcRadius))
+    }
+
+    fn arc_section(&self, arc: &Arc) -> Section {
+        let is_inverted = self.plan.definition.options.invert_arcs && arc.plane == Plane::Zx;
+        if arc.clockwise == is_inverted { Section::ArcCcw } else { Section::ArcCw }
+    }
+
+    /// Passes the rounding rules of arcs to a function.
+    fn rounded<T>(&self, ask: impl FnOnce(&Rounding<'_>) -> T) -> T {
+        let length = |length: f64| self.number_format().round(self.scaled(length));
+        ask(&Rounding { length: &length, is_absolute: self.is_absolute() })
+    }
+
+    fn is_absolute(&self) -> bool {
+        self.plan.definition.options.absolute_centres
+    }
+
+    fn circle(&mut self, movement: &Move) -> WriteResult {
+        let Some(course) = movement.course() else { return self.line(movement) };
+        let mut values = self.with_feed(movement.pace.stated_feed());
+        let arc = course.arc();
+        let origin = if self.is_absolute() { [0.0; 3] } else { movement.from.at };
+        for (axis, centre) in arc.plane.axes().into_iter().zip(arc.centre) {
+            values.set(OFFSETS[axis], Some(self.scaled(centre - origin[axis])));
+        }
+        values.arc = Some(self.arc_values(&course));
+        self.go(self.arc_section(&arc), movement.to.axes(), values)
+    }
+
+    fn arc_values(&self, course: &Course) -> ArcValues {
+        let [start, end] = course.directions().map(|angle| angle.to_degrees().rem_euclid(360.0));
+        let clockwise = if course.arc().clockwise { 1.0 } else { -1.0 };
+        let sweep = clockwise * course.sweep().to_degrees();
+        ArcValues { radius: self.scaled(course.radius()), start, end, sweep }
+    }
+}
+
+/// Arcs written by radius are split into parts of at most this angle.
+const WIDEST_BY_RADIUS: f64 = PI * 2.0 / 3.0;
+
+// Canned drilling cycles.
+
+/// What a control keeps of a cycle only until its end: the next one states it again.
+const FORGOTTEN: [Register; 6] =
+    [Register::X, Register::Y, Register::Z, Register::R, Register::P, Register::Q];
+
+impl<'a> Writer<'a> {
+    /// Writes the holes at the beginning of some steps as one group and returns the remaining steps.
+    pub(super) fn cycles(&mut self, steps: &'a [JobStep]) -> Result<&'a [JobStep], Box<Diagnostic>> {
+        let (group, rest) = steps.split_at(group_length(steps));
+        let holes = || group.iter().filter_map(as_hole);
+        let Some(first) = holes().next() else { return Ok(rest) };
+        self.go(Section::Rapid, [None, None, Some(first.level)], MoveValues::default())?;
+        self.go(Section::Rapid, [Some(first.at[0]), Some(first.at[1]), None], MoveValues::default())?;
+        self.lines_of(Section::CannedCycleStart)?;
+        self.machine.forget(&FORGOTTEN);
+        for step in group {
+            match as_hole(step) {
+                Some(hole) => self.cycle(hole)?,
+                None => self.step(step)?,
+            }
+        }
+        self.lines_of(Section::CannedCycleEnd)?;
+        let exit = holes().next_back().map(|hole| hole.exit);
+        self.go(Section::Rapid, [None, None, exit], MoveValues::default())?;
+        Ok(rest)
+    }
+
+    fn cycle(&mut self, hole: &Hole) -> WriteResult {
+        let section = match hole.kind {
+            HoleKind::Plain => Section::Drill,
+            HoleKind::Dwell { .. } => Section::DrillDwell,
+            HoleKind::Peck { .. } => Section::DrillPeck,
+        };
+        let is_below = self.is_below_surface(hole.bottom);
+        if is_below {
+            self.lines_of(Section::StartCut)?;
+        }
+        let to = [Some(hole.at[0]), Some(hole.at[1]), Some(hole.bottom)];
+        self.set_move(to, self.cycle_values(hole))?;
+        self.empty_code = None;
+        self.lines_of(section)?;
+        self.check_drilled(hole, section)?;
+        if is_below {
+            self.lines_of(Section::EndCut)?;
+        }
+        Ok(())
+    }
+
+    fn cycle_values(&self, hole: &Hole) -> MoveValues {
+        let mut values = self.with_feed(hole.feed);
+        values.set(Register::R, Some(self.scaled(hole.retract)));
+        match hole.kind {
+            HoleKind::Plain => {}
+            HoleKind::Dwell { seconds } => values.set(Register::P, Some(self.dwell(seconds))),
+            HoleKind::Peck { depth } => values.set(Register::Q, Some(self.scaled(depth))),
+        }
+        values
+    }
+
+    /// Checks that a hole does not vanish because its section or the word of its cycle is empty.
+    fn check_drilled(&self, hole: &Hole, section: Section) -> WriteResult {
+        let is_blank = self.plan.definition.section(section).is_blank();
+        let Some(empty) = is_blank.then_some(section).or(self.empty_code) else { return Ok(()) };
+        let diagnostic =
+            Diagnostic::new(&posts::DRILLING_LOST).with("place", Point::new(hole.at[0], hole.at[1]));
+        Err(Box::new(self.plan.locate(diagnostic, empty, 0)))
+    }
+}
+
+/// Whether a hole can be written as a canned cycle, which ends at the height where it started.
+fn can_be_canned(hole: &Hole) -> bool {
+    at_least(hole.exit, hole.level)
+}
+
+/// Number of steps in the group: holes between which the tool stays at the same level, and comments among them.
+fn group_length(steps: &[JobStep]) -> usize {
+    let mut length = 0;
+    let mut last: Option<&Hole> = None;
+    // Different kinds of cycles are different groups, because a control forgets R when the word of the cycle changes.
+    let continues = |last: &Hole, hole: &Hole| {
+        near(last.exit, hole.level) && discriminant(&last.kind) == discriminant(&hole.kind)
+    };
+    for (index, step) in steps.iter().enumerate() {
+        match step {
+            JobStep::Hole(hole) if can_be_canned(hole) && last.is_none_or(|last| continues(last, hole)) => {
+                last = Some(hole);
+                length = index + 1;
+            }
+            JobStep::Comment(_) => {}
+            _ => break,
+        }
+    }
+    length
+}
+
+fn as_hole(step: &JobStep) -> Option<&Hole> {
+    match step {
+        JobStep::Hole(hole) => Some(hole),
+        _ => None,
     }
 }

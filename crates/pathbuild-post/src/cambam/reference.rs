@@ -2,8 +2,7 @@
 
 use pathbuild_diagnostic::{Lang, Text};
 
-use super::macros::Macro;
-use super::names::{FIXED, WITH};
+use super::macros::{FIXED, Macro, WITH};
 use super::options::OPTIONS;
 use super::section::Section;
 use crate::reference::Row;

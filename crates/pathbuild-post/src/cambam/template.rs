@@ -1,8 +1,7 @@
 //! Templates: literal text that contains `{$name}` and `{$name(argument, ...)}`.
 
-use super::macros::Macro;
-use super::names::MacroArguments;
-use super::section::Section;
+use super::macros::{Macro, MacroArguments};
+use crate::cambam::section::Section;
 
 /// A text with macros, and its position in the file.
 #[derive(Clone, Debug, PartialEq)]

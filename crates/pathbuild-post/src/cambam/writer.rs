@@ -1,25 +1,22 @@
 //! Expands templates to lines, and reads each line back into the state of the machine.
 
-use pathbuild_diagnostic::{Diagnostic, messages::posts};
-
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::posts;
 use pathbuild_gcode::native::too_large;
 
-use super::fuel::fuel;
-use super::line::{Line, collapse};
-use super::lines::Lines;
-use super::machine::Machine;
+use super::definition::{Plan, framed};
+use super::machine::{Code, Machine, MoveValues, Register};
 use super::macros::{Block, Macro, Value};
-use super::move_values::MoveValues;
-use super::plan::{Plan, framed};
-use super::registers::{Code, Register};
+use super::options::Options;
 use super::section::Section;
 use super::template::{Template, TemplatePart};
+use crate::arcs::chords;
+use crate::findings::LineOrigin;
 use crate::guard::Guard;
-use crate::job::{Feeds, Operation, Tool};
+use crate::holes;
+use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::number::NumberFormat;
-use crate::origin::LineOrigin;
-use crate::shadow::{Shadow, TranslatedText};
-use crate::words::{CommentMarks, Word, Words, words};
+use crate::shadow::{CommentMarks, Shadow, TranslatedText, Word, Words, words};
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
@@ -435,3 +432,140 @@ const FULL_TURN: f64 = 360.001;
 
 /// Maximum number of warnings reported.
 const MOST_WARNINGS: usize = 50;
+
+// The line that is being written.
+
+/// The line that is being written.
+#[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "facts that do not depend on each other")]
+pub(super) struct Line {
+    pub(super) text: String,
+    /// The text that does not come from macros of motion codes.
+    pub(super) rest: String,
+    /// Whether the text added at the moment comes from such a macro.
+    pub(super) is_in_code: bool,
+    /// Whether a register macro was expanded.
+    pub(super) asked: bool,
+    /// Whether a register was written.
+    pub(super) answered: bool,
+    /// Registers written with reversed sign.
+    pub(super) turned: Vec<Register>,
+    /// The motion of a code macro in this line.
+    pub(super) code: Option<Code>,
+    /// Section and line of the definition's file where the line begins.
+    pub(super) origin: Option<(Section, u32)>,
+    /// Whether the line requires a tool number that the program does not have. Such lines are not written.
+    names_no_tool: bool,
+    /// Set if something was omitted at the end of the text: whether it was preceded by blanks.
+    gap: Option<bool>,
+}
+
+impl Line {
+    /// Adds text without line breaks.
+    pub(super) fn push(&mut self, text: &str) {
+        if text.is_empty() {
+            return;
+        }
+        let text = match self.gap.take() {
+            Some(blank_before) => {
+                let after = text.trim_start_matches([' ', '\t']);
+                if blank_before && after.len() < text.len() {
+                    self.text.push(' ');
+                }
+                after
+            }
+            None => text,
+        };
+        self.text.push_str(text);
+        if !self.is_in_code {
+            self.rest.push_str(text);
+        }
+    }
+
+    /// Omits something together with the blanks around it; one blank remains if there were blanks on both sides.
+    pub(super) fn leave_out(&mut self) {
+        let length = self.text.trim_end_matches([' ', '\t']).len();
+        self.gap = Some(length < self.text.len());
+        self.text.truncate(length);
+    }
+}
+
+/// Replaces runs of blanks by one blank and removes those at the ends.
+fn collapse(text: &str) -> String {
+    text.split([' ', '\t', '\r']).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+// The lines of the output with their numbers and line ends.
+
+/// The text written so far.
+#[derive(Debug)]
+pub(super) struct Lines<'a> {
+    options: &'a Options,
+    text: String,
+    next_number: u64,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(options: &'a Options) -> Self {
+        Self { options, text: String::new(), next_number: options.numbering.start.into() }
+    }
+
+    /// Adds a line, which must not be blank.
+    pub(super) fn push(&mut self, line: &str) {
+        if self.options.add_line_numbers
+            && !line.starts_with(|first| self.options.numbering.skip.contains(first))
+        {
+            self.push_number();
+        }
+        self.text.push_str(line);
+        self.text.push_str(&self.options.end_of_line);
+    }
+
+    fn push_number(&mut self) {
+        let numbering = &self.options.numbering;
+        self.text.push_str(&numbering.prefix);
+        self.text.push_str(&numbering.format.format(self.next_number as f64));
+        if numbering.space_after {
+            self.text.push(' ');
+        }
+        self.next_number += u64::from(numbering.increment);
+    }
+
+    /// Length so far, in bytes.
+    pub(super) fn length(&self) -> usize {
+        self.text.len()
+    }
+
+    /// Returns the whole text.
+    pub(super) fn finish(self) -> String {
+        if self.options.upper_case { self.text.to_uppercase() } else { self.text }
+    }
+}
+
+// Limits how much a post may write, so that macros that multiply text come to an end.
+
+/// Number of bytes allowed regardless of the program; each move adds more.
+const FUEL: usize = 1 << 20;
+const FUEL_PER_MOVE: usize = 1 << 12;
+
+/// Number of bytes that a program may produce; each macro costs one more.
+pub(super) fn fuel(plan: &Plan<'_>) -> usize {
+    let moves = |operation: &Operation| -> usize {
+        let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();
+        of_steps + 1
+    };
+    let moves: usize = plan.job.operations.iter().map(moves).sum();
+    FUEL + FUEL_PER_MOVE.saturating_mul(moves)
+}
+
+/// Maximum number of moves that a step can become.
+fn moves_of(step: &JobStep, plan: &Plan<'_>) -> usize {
+    match step {
+        JobStep::Move(movement) => {
+            let count = movement.course().and_then(|course| chords(&course, plan.arc_tolerance()));
+            count.map_or(1, |count| count as usize)
+        }
+        JobStep::Hole(hole) => holes::moves(hole).map_or(1, |moves| moves.len()),
+        _ => 1,
+    }
+}

@@ -4,7 +4,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Entry, Hole, HoleKind, Job, Language, PostMacro, PostOptions, Step, load, native_remark,
+    BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostMacro, PostOptions, load, native_remark,
 };
 
 use crate::support::{arc, feed, operation, rapid, texts};
@@ -13,7 +13,7 @@ use crate::support::{arc, feed, operation, rapid, texts};
 fn sample() -> Job {
     let circle = |to: [f64; 3], from: [f64; 3], clockwise| arc(clockwise, from, [20.0, 0.0], to, Some(250.0));
     let hole = |x: f64, kind| {
-        Step::Hole(Hole {
+        JobStep::Hole(Hole {
             at: [x, 30.0],
             level: 5.0,
             retract: 1.0,
@@ -27,7 +27,7 @@ fn sample() -> Job {
         "1234.1A",
         1,
         vec![
-            Step::Comment("Q:Spannpratze prüfen?".into()),
+            JobStep::Comment("Q:Spannpratze prüfen?".into()),
             rapid(10.0, 0.0, 5.0),
             rapid(10.0, 0.0, 0.0),
             feed(10.0, 0.0, -1.0),

@@ -6,7 +6,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::reasons::NO_FILE;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion::{Coolant, Turning};
-use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostFiles, PostMacro, PostOptions, Step, Units};
+use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, Post, PostFiles, PostMacro, PostOptions, Units};
 
 use crate::support::{arc, feed, job, operation, rapid, texts, unchecked};
 
@@ -33,14 +33,14 @@ program-end = 'M30'
 "#;
 
 fn rectangle() -> Job {
-    let cut = |x, y| Step::feed([x, y, -20.0], Some(400.0));
+    let cut = |x, y| JobStep::feed([x, y, -20.0], Some(400.0));
     let mut operation = operation(
         "rectangle",
         1,
         vec![
             rapid(50.0, 100.0, 100.0),
             rapid(50.0, 100.0, 5.0),
-            Step::feed([50.0, 100.0, -20.0], Some(250.0)),
+            JobStep::feed([50.0, 100.0, -20.0], Some(250.0)),
             cut(50.0, 150.0),
             cut(150.0, 150.0),
             cut(150.0, 100.0),
@@ -515,19 +515,19 @@ comment = '(~CommentText~)'
 ";
 
 #[track_caller]
-fn calls(definition: &str, steps: Vec<Step>) -> Vec<String> {
+fn calls(definition: &str, steps: Vec<JobStep>) -> Vec<String> {
     written(definition, &job(steps)).lines().map(str::to_owned).collect()
 }
 
 #[test]
 fn the_calls_come_in_their_order() {
-    let cut = |x: f64, feed: f64| Step::feed([x, 1.0, -1.0], Some(feed));
+    let cut = |x: f64, feed: f64| JobStep::feed([x, 1.0, -1.0], Some(feed));
     let steps = vec![
         rapid(1.0, 1.0, 5.0),
         rapid(1.0, 1.0, 0.5),
-        Step::feed([1.0, 1.0, -1.0], Some(50.0)),
+        JobStep::feed([1.0, 1.0, -1.0], Some(50.0)),
         cut(2.0, 100.0),
-        Step::Comment("half".into()),
+        JobStep::Comment("half".into()),
         cut(3.0, 100.0),
         cut(4.0, 80.0),
         rapid(4.0, 1.0, 7.0),
@@ -629,9 +629,9 @@ fn a_rapid_within_the_material_is_an_element() {
     assert_eq!(calls(CALLS, steps)[3..6], ["line 2 0 F100 10", "line 1.5 0 F100 01", "up 5"]);
 }
 
-fn hole(x: f64) -> Step {
+fn hole(x: f64) -> JobStep {
     let kind = HoleKind::Peck { depth: 2.0 };
-    Step::Hole(Hole {
+    JobStep::Hole(Hole {
         at: [x, 0.0],
         level: 5.0,
         retract: 1.0,
@@ -677,11 +677,12 @@ fn a_text_for_rapids_writes_every_move_as_it_is() {
 
 #[test]
 fn what_a_post_has_no_text_for_is_an_error() {
-    let dwell = output(CALLS, &job(vec![Step::Dwell { seconds: 1.0 }]), &PostOptions::default()).unwrap_err();
+    let dwell =
+        output(CALLS, &job(vec![JobStep::Dwell { seconds: 1.0 }]), &PostOptions::default()).unwrap_err();
     assert_eq!(texts(&dwell), ["PB759 mill needs the text dwell, which the post does not have"]);
-    let probe = Step::probe([0.0; 3], None);
+    let probe = JobStep::probe([0.0; 3], None);
     let probe = output(CALLS, &job(vec![probe]), &PostOptions::default()).unwrap_err();
     assert_eq!(texts(&probe), ["PB759 mill needs the text probe, which the post does not have"]);
     let with = format!("{CALLS}dwell = 'wait {{.~DwellTime~}}'");
-    assert_eq!(calls(&with, vec![Step::Dwell { seconds: 1.5 }])[1], "wait 1.5");
+    assert_eq!(calls(&with, vec![JobStep::Dwell { seconds: 1.5 }])[1], "wait 1.5");
 }

@@ -1,7 +1,7 @@
 //! Tests of reading CamBam definitions, and of the errors in them.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_post::{PostMacro, PostOptions, Step};
+use pathbuild_post::{JobStep, PostMacro, PostOptions};
 
 use crate::support::{
     arc, bare, definition, errors, feed, job, lines, lines_with, output, read, shared, texts,
@@ -282,9 +282,9 @@ fn an_empty_program_is_refused() {
     let nan = f64::NAN;
     for broken in [
         feed(nan, 0.0, 0.0),
-        Step::feed(at(1.0), Some(nan)),
-        Step::rapid(at(f64::INFINITY)),
-        Step::Dwell { seconds: nan },
+        JobStep::feed(at(1.0), Some(nan)),
+        JobStep::rapid(at(f64::INFINITY)),
+        JobStep::Dwell { seconds: nan },
         arc(nan, 0.0, 1.0, None),
         arc(1.0, nan, 1.0, None),
         arc(1.0, 0.0, nan, None),

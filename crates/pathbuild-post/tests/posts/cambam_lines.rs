@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::{Coolant, Turning};
-use pathbuild_post::{Job, PostMacro, PostOptions, Step, Stock, Texts, Units, VelocityMode};
+use pathbuild_post::{Job, JobStep, PostMacro, PostOptions, Stock, Texts, Units, VelocityMode};
 
 use crate::support::{bare, definition, feed, job, lines, lines_with, operation, output, rapid, texts};
 
@@ -63,7 +63,7 @@ fn the_date_is_the_one_given_else_left_out_with_its_blanks() {
 
 #[test]
 fn a_bracket_in_a_name_does_not_end_the_comment() {
-    let mut job = job(vec![Step::Comment("a (b)\nc".into())]);
+    let mut job = job(vec![JobStep::Comment("a (b)\nc".into())]);
     job.operations[0].name = "x) M3".into();
     let text = bare("<MOP>( {$mop.name} )\n{$blocks}</MOP>").replace("<MOP>{$blocks}</MOP>", "");
     assert_eq!(lines(&text, &job), ["( x] M3 )", "G0 Z5.0", "G0 X0.0 Y0.0", "( a [b] c )"]);

@@ -1,7 +1,7 @@
 //! Tests of moves through a CamBam definition: registers, arcs, cycles, start and end of cutting.
 
 use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Turning};
-use pathbuild_post::{Entry, Hole, HoleKind, Job, PostOptions, Step, Units};
+use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, PostOptions, Units};
 
 use crate::support::{
     self, bare, errors, feed, job, lines, lines_with, operation, output, rapid, read, texts,
@@ -9,15 +9,15 @@ use crate::support::{
 
 /// The lines after the way to (0, 0, 5).
 #[track_caller]
-fn moves(elements: &str, steps: Vec<Step>) -> Vec<String> {
+fn moves(elements: &str, steps: Vec<JobStep>) -> Vec<String> {
     lines(&bare(elements), &job(steps)).split_off(2)
 }
 
-fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Step {
+fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> JobStep {
     support::arc(false, from, centre, to, Some(100.0))
 }
 
-fn quarter() -> Step {
+fn quarter() -> JobStep {
     arc([10.0, 0.0, 5.0], [0.0, 0.0], [0.0, 10.0, 5.0])
 }
 
@@ -73,8 +73,8 @@ fn a_reversed_axis_has_one_sign() {
         .replacen("<MOP>{$blocks}</MOP>", "", 1)
     };
     let steps = |x: f64| {
-        let way = |z| Step::rapid([None, None, Some(z)]);
-        let across = Step::rapid([Some(x), Some(3.0), None]);
+        let way = |z| JobStep::rapid([None, None, Some(z)]);
+        let across = JobStep::rapid([Some(x), Some(3.0), None]);
         vec![across, way(2.0), feed(x, 3.0, -1.0), feed(x + 10.0, 4.0, -1.0), way(5.0)]
     };
     let operations = vec![operation("a", 1, steps(10.0)), operation("b", 2, steps(40.0))];
@@ -98,7 +98,7 @@ fn a_reversed_axis_has_one_sign() {
 
 #[test]
 fn axes_that_are_not_known_are_not_written() {
-    let mut job = job(vec![Step::rapid([None, None, Some(2.0)])]);
+    let mut job = job(vec![JobStep::rapid([None, None, Some(2.0)])]);
     job.operations[0].entry = Entry::Clearance;
     assert_eq!(lines(&bare("<Rapid>{$g0} {$x} {$y} {$z}</Rapid>"), &job), ["G0 Z5.0", "G0 Z2.0"]);
 }
@@ -244,7 +244,7 @@ fn arcs_of_other_planes_have_their_own_offsets() {
         pace: Pace::Feed(0.0),
         named: None,
     };
-    let mut job = job(vec![Step::Move(turn)]);
+    let mut job = job(vec![JobStep::Move(turn)]);
     job.operations[0].plane = Plane::Zx;
     assert_eq!(lines(&bare(""), &job)[2], "G2 X5.0 Z10.0 I5.0 K0.0");
     assert_eq!(lines(&bare("<InvertArcs>true</InvertArcs>"), &job)[2], "G3 X5.0 Z10.0 I5.0 K0.0");
@@ -309,7 +309,7 @@ fn an_angle_stands_in_place_of_the_axis_across() {
             kind: HoleKind::Plain,
         };
         let mut job =
-            job(vec![rapid(3.0, 0.0, 15.0), feed(3.0, 0.0, 9.0), rapid(3.0, 0.0, 15.0), Step::Hole(hole)]);
+            job(vec![rapid(3.0, 0.0, 15.0), feed(3.0, 0.0, 9.0), rapid(3.0, 0.0, 15.0), JobStep::Hole(hole)]);
         (job.operations[0].surface, job.operations[0].clearance) = (10.0, 15.0);
         job.operations[0].entry = Entry::Clearance;
         let options = PostOptions { cycles, ..PostOptions::default() };
@@ -342,7 +342,7 @@ fn an_angle_stands_in_place_of_the_axis_across() {
 
 #[test]
 fn dwells_and_probes_have_sections_of_their_own() {
-    let steps = vec![Step::Dwell { seconds: 1.5 }, Step::probe([0.0, 0.0, -5.0], Some(40.0))];
+    let steps = vec![JobStep::Dwell { seconds: 1.5 }, JobStep::probe([0.0, 0.0, -5.0], Some(40.0))];
     assert_eq!(moves("", steps.clone()), ["G4 P1.5", "G38.2 F40.0 X0.0 Y0.0 Z-5.0"]);
     assert_eq!(moves("<Dwell>G4 S{$move.p}</Dwell>", steps)[0], "G4 S1.5");
 }
@@ -353,7 +353,7 @@ fn hole(x: f64, kind: HoleKind) -> Hole {
 
 #[track_caller]
 fn cycles(elements: &str, holes: Vec<Hole>) -> Vec<String> {
-    let steps = holes.into_iter().map(Step::Hole).collect();
+    let steps = holes.into_iter().map(JobStep::Hole).collect();
     lines_with(&bare(elements), &job(steps), &PostOptions { cycles: true, ..PostOptions::default() })
         .split_off(2)
 }
@@ -397,7 +397,7 @@ fn a_hole_that_ends_lower_than_it_began_is_no_cycle() {
 
 #[test]
 fn a_cycle_states_what_the_control_forgot_at_the_end_of_the_last_one() {
-    let peck = |x: f64| Step::Hole(hole(x, HoleKind::Peck { depth: 1.5 }));
+    let peck = |x: f64| JobStep::Hole(hole(x, HoleKind::Peck { depth: 1.5 }));
     let steps = vec![peck(0.0), rapid(20.0, 0.0, 5.0), peck(30.0)];
     let lines = lines_with(&bare(""), &job(steps), &PostOptions { cycles: true, ..PostOptions::default() });
     let cycles: Vec<&String> = lines.iter().filter(|line| line.starts_with("G83")).collect();
@@ -406,7 +406,7 @@ fn a_cycle_states_what_the_control_forgot_at_the_end_of_the_last_one() {
 
 #[test]
 fn holes_are_moves_where_cycles_are_not_asked_for() {
-    let steps = vec![Step::Hole(hole(8.0, HoleKind::Peck { depth: 3.0 }))];
+    let steps = vec![JobStep::Hole(hole(8.0, HoleKind::Peck { depth: 3.0 }))];
     let expected = ["G0 X8.0", "G0 Z1.0", "G1 F60.0 Z-2.0", "G0 Z1.0", "G0 Z-1.746", "G1 Z-3.0", "G0 Z5.0"];
     assert_eq!(moves("", steps), expected);
 }
@@ -427,7 +427,7 @@ fn a_template_of_moves_stands_for_a_cycle() {
 #[test]
 fn a_hole_that_would_not_be_drilled_is_an_error() {
     let drilled = |elements: &str| {
-        let job = job(vec![Step::Hole(hole(8.0, HoleKind::Peck { depth: 1.0 }))]);
+        let job = job(vec![JobStep::Hole(hole(8.0, HoleKind::Peck { depth: 1.0 }))]);
         output(&bare(elements), &job, &PostOptions { cycles: true, ..PostOptions::default() })
     };
     let expected = |section: &str| {

@@ -1,7 +1,7 @@
 //! Tests of rapids, small arcs and holes in control texts: what a text cannot express is retracted, written as a line, or an error.
 
 use pathbuild_motion::Turning;
-use pathbuild_post::{Entry, Hole, HoleKind, Job, Operation, PostOptions, Step, load};
+use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, Operation, PostOptions, load};
 
 use crate::support::{self, DIN, feed, job, operation, rapid, read_toml, texts};
 
@@ -18,7 +18,7 @@ fn refused(definition: &str, job: &Job) -> Vec<String> {
     texts(&read_toml(definition).write(job, &PostOptions::default()).expect_err("it must be refused"))
 }
 
-fn high(steps: Vec<Step>) -> Job {
+fn high(steps: Vec<JobStep>) -> Job {
     let mut job = job(steps);
     job.operations[0].clearance = 25.0;
     job.operations[0].entry = Entry::At([0.0, 0.0, 25.0]);
@@ -83,8 +83,8 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     assert_eq!(lines[over - 1], "G00 Z+4", "{lines:?}");
 }
 
-fn hole(x: f64, level: f64, kind: HoleKind) -> Step {
-    Step::Hole(Hole {
+fn hole(x: f64, level: f64, kind: HoleKind) -> JobStep {
+    JobStep::Hole(Hole {
         at: [x, 10.0],
         level,
         retract: 2.0,
@@ -139,7 +139,7 @@ fn a_hole_is_left_as_high_as_the_way_behind_it() {
     assert_eq!(lifts(&lines).last(), Some(&"+25"), "at the end too: {lines:?}");
     let near = holes();
     let mut high_exit = near.clone();
-    if let Some(Step::Hole(last)) = high_exit.last_mut() {
+    if let Some(JobStep::Hole(last)) = high_exit.last_mut() {
         last.exit = 25.0;
     }
     for (steps, end) in [(near, "+4"), (high_exit, "+25")] {
@@ -161,7 +161,7 @@ fn pecks_and_dwells_that_the_text_does_not_name_are_moves_or_errors() {
     );
 }
 
-fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> Step {
+fn arc(from: [f64; 3], centre: [f64; 2], to: [f64; 3]) -> JobStep {
     support::arc(false, from, centre, to, Some(100.0))
 }
 

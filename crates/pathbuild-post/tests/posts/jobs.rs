@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use pathbuild_motion::{Coolant, Pace, Turning};
-use pathbuild_post::{Entry, HoleKind, Job, Step, ToolEntry, ToolTable};
+use pathbuild_post::{Entry, HoleKind, Job, JobStep, ToolEntry, ToolTable};
 use pathbuild_toolpath::{
     Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
 };
@@ -62,9 +62,9 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
     let operation = &job.operations[0];
     assert_eq!(operation.entry, Entry::At([0.0, 0.0, 20.0]));
     let steps = straight_from_anywhere(&operation.steps);
-    let Step::Move(first) = steps[2] else { panic!("{steps:?}") };
+    let JobStep::Move(first) = steps[2] else { panic!("{steps:?}") };
     assert_eq!(first.pace, Pace::Feed(150.0), "F of the header");
-    let cut = Step::feed([9.0, 4.0, 1.0], Some(200.0));
+    let cut = JobStep::feed([9.0, 4.0, 1.0], Some(200.0));
     assert_eq!(steps[3..], [cut, rapid(9.0, 4.0, 20.0)]);
     assert_eq!(steps[..2], [rapid(3.0, 4.0, 20.0), rapid(3.0, 4.0, 5.0)], "the first lift goes nowhere");
     assert_eq!((operation.clearance, operation.surface, operation.retract), (20.0, 5.0, 5.0));
@@ -90,9 +90,9 @@ fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
         straight_from_anywhere(&job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps)[0].clone()
     };
     for length in [0.0, 1e-9, 0.0019] {
-        assert_eq!(arc(length), Step::feed([0.0, length, 1.0], Some(100.0)), "{length}");
+        assert_eq!(arc(length), JobStep::feed([0.0, length, 1.0], Some(100.0)), "{length}");
     }
-    assert!(matches!(arc(0.002), Step::Move(it) if it.course().is_some()));
+    assert!(matches!(arc(0.002), JobStep::Move(it) if it.course().is_some()));
 }
 
 /// The ends of a full circle drawn as an arc come from two elements, so they may differ minimally.
@@ -104,7 +104,7 @@ fn a_full_circle_ends_where_it_begins() {
         let to = Move::Arc { feed, clockwise, centre, to, z: height(1.0), is_spiral };
         let count = Count { class: Class::Milling, length, feed: Some(100.0) };
         match job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0] {
-            Step::Move(it) => (it.to.y(), it.course().unwrap().sweep()),
+            JobStep::Move(it) => (it.to.y(), it.course().unwrap().sweep()),
             ref other => panic!("{other:?}"),
         }
     };
@@ -122,7 +122,7 @@ fn a_full_circle_ends_where_it_begins() {
 fn a_plunge_has_a_feed_of_its_own() {
     let job = job_of(vec![drill(1.0), line(200.0, 9.0, 4.0, 1.0), drill(0.5)]);
     let steps = straight_from_anywhere(&job.operations[0].steps);
-    assert_eq!(steps[2], Step::feed([9.0, 4.0, 0.5], Some(150.0)));
+    assert_eq!(steps[2], JobStep::feed([9.0, 4.0, 0.5], Some(150.0)));
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn a_hole_that_is_left_upwards_is_a_hole() {
         drill(1.0),
     ];
     let job = job_of(steps.clone());
-    let [Step::Move(_), Step::Hole(first), Step::Hole(second)] = &*job.operations[0].steps else {
+    let [JobStep::Move(_), JobStep::Hole(first), JobStep::Hole(second)] = &*job.operations[0].steps else {
         panic!("{:?}", job.operations[0].steps)
     };
     assert_eq!(
@@ -177,7 +177,7 @@ fn a_hole_that_is_left_upwards_is_a_hole() {
     assert_eq!((first.kind, first.feed), (HoleKind::Plain, Some(150.0)), "the native program pecks no hole");
     assert_eq!((second.at, second.exit), ([9.0, 4.0], 20.0));
     let pecked = Job::from_programs("x", &[program(steps)], &ToolTable::default(), true).0;
-    let Step::Hole(first) = pecked.operations[0].steps[1] else { panic!() };
+    let JobStep::Hole(first) = pecked.operations[0].steps[1] else { panic!() };
     assert_eq!(first.kind, HoleKind::Peck { depth: 2.0 });
 }
 
@@ -253,5 +253,5 @@ fn remarks_for_the_machine_stand_where_they_were() {
     let question = ProgramStep::Comment(Comment::Question(names.intern("clamp?")));
     let steps = vec![line(150.0, 1.0, 0.0, 5.0), question, line(150.0, 2.0, 0.0, 5.0)];
     let job = Job::from_programs("x", &[Program { names, ..program(steps) }], &ToolTable::default(), false).0;
-    assert_eq!(job.operations[0].steps[1], Step::Comment("Q:clamp?".into()));
+    assert_eq!(job.operations[0].steps[1], JobStep::Comment("Q:clamp?".into()));
 }

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use camino::Utf8Path;
 use pathbuild_motion::Turning;
-use pathbuild_post::{BUILT_IN, Hole, HoleKind, Job, Language, Post, PostOptions, Step};
+use pathbuild_post::{BUILT_IN, Hole, HoleKind, Job, JobStep, Language, Post, PostOptions};
 
 use crate::support::{DIN, arc, feed, operation, rapid, real_definitions};
 
@@ -21,7 +21,7 @@ pub(crate) fn program() -> Job {
         kind: HoleKind::Plain,
     };
     let first = vec![
-        Step::Comment("Q: first".into()),
+        JobStep::Comment("Q: first".into()),
         rapid(0.0, 0.0, 1.0),
         feed(0.0, 0.0, -1.0),
         feed(10.0, 0.0, -1.0),
@@ -29,7 +29,7 @@ pub(crate) fn program() -> Job {
         arc(true, [20.0, 10.0, -1.0], [30.0, 10.0, 0.0], [30.0, 20.0, -1.0]),
         rapid(30.0, 20.0, 5.0),
         rapid(40.0, 0.0, 5.0),
-        Step::Hole(hole),
+        JobStep::Hole(hole),
     ];
     let second = vec![
         rapid(50.0, 0.0, 5.0),

@@ -1,7 +1,7 @@
 //! Inserts texts from drawings, file names and options in every place of every post; no control must act on any of them.
 
 use camino::Utf8Path;
-use pathbuild_post::{BUILT_IN, Job, Language, Post, PostOptions, Step};
+use pathbuild_post::{BUILT_IN, Job, JobStep, Language, Post, PostOptions};
 
 use crate::mutilated::program;
 use crate::support::{DIN, read, real_definitions, texts, unchecked};
@@ -124,7 +124,7 @@ fn written(post: &Post, place: usize, text: &str, is_own: bool) -> Option<String
             operation.tag = text.into();
         }
         if is(3) {
-            operation.steps.insert(0, Step::Comment(text.into()));
+            operation.steps.insert(0, JobStep::Comment(text.into()));
         }
     }
     if is(4) {

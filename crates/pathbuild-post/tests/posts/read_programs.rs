@@ -7,7 +7,8 @@ use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Entry, Hole, HoleKind, Job, Language, PostOptions, Remark, Step, ToolTable, load, native_remark,
+    BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostOptions, Remark, ToolTable, load,
+    native_remark,
 };
 use pathbuild_toolpath::{
     Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
@@ -27,8 +28,8 @@ fn read(text: &str) -> Job {
 fn a_program_without_tools_is_one_operation() {
     let job = read("G21 G90\nG0 Z5\nG0 X1 Y2\nG1 Z-1 F60\nG1 X9 F200\nG0 Z5\nM2\nG0 X99");
     let [operation] = &*job.operations else { panic!("{:?}", job.operations) };
-    let known_in_part = Step::rapid([None, None, Some(5.0)]);
-    let cut = |to: [f64; 3], feed| Step::feed(to, Some(feed));
+    let known_in_part = JobStep::rapid([None, None, Some(5.0)]);
+    let cut = |to: [f64; 3], feed| JobStep::feed(to, Some(feed));
     let down = cut([1.0, 2.0, -1.0], 60.0);
     let expected =
         [known_in_part, rapid(1.0, 2.0, 5.0), down, cut([9.0, 2.0, -1.0], 200.0), rapid(9.0, 2.0, 5.0)];
@@ -74,13 +75,13 @@ fn remarks_say_where_operations_begin_and_end() {
     let job = Job::from_steps("outer", &steps, Dialect::Native, &native_remark).unwrap();
     let names: Vec<_> = job.operations.iter().map(|it| (&*it.name, it.steps.len())).collect();
     assert_eq!(names, [("A", 2), ("B", 1), ("A", 1), ("outer", 2)]);
-    assert_eq!(job.operations[0].steps[0], Step::Comment("Q:a".into()));
+    assert_eq!(job.operations[0].steps[0], JobStep::Comment("Q:a".into()));
 }
 
 #[test]
 fn waits_stay() {
     let job = read("G21 G90 G0 X0 Y0 Z5\nG1 Z-1 F60\nG4 P2.5\nM0\nG1 X1");
-    assert_eq!(job.operations[0].steps[2..4], [Step::Dwell { seconds: 2.5 }, Step::Stop]);
+    assert_eq!(job.operations[0].steps[2..4], [JobStep::Dwell { seconds: 2.5 }, JobStep::Stop]);
 }
 
 fn holes(cycles: &str) -> Vec<Hole> {

@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_motion::Turning;
-use pathbuild_post::{HoleKind, Job, Post, PostMacro, PostOptions, Step};
+use pathbuild_post::{HoleKind, Job, JobStep, Post, PostMacro, PostOptions};
 use proptest::prelude::*;
 
 use crate::support::{arc, definition, feed, job, rapid};
@@ -23,9 +23,9 @@ fn program() -> Job {
         rapid(10.0, 0.0, 5.0),
         feed(10.0, 0.0, -1.0),
         arc,
-        Step::Hole(hole),
-        Step::Comment("{$x} ~X1~ )".into()),
-        Step::Dwell { seconds: 1.0 },
+        JobStep::Hole(hole),
+        JobStep::Comment("{$x} ~X1~ )".into()),
+        JobStep::Dwell { seconds: 1.0 },
     ]);
     job.operations[0].spindle = Some(Turning::Clockwise);
     job

@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
-use pathbuild_post::{Entry, Job, Operation, Output, Post, PostOptions, Step, Tool};
+use pathbuild_post::{Entry, Job, JobStep, Operation, Output, Post, PostOptions, Tool};
 
 /// A file of `../shared` next to the project. `None` if that is absent; the test is then skipped.
 pub(crate) fn shared(name: &str) -> Option<String> {
@@ -117,11 +117,11 @@ pub(crate) fn texts(diagnostics: &[Diagnostic]) -> Vec<String> {
 }
 
 /// A job with one operation that begins at (0, 0, 5), on the clearance plane; the upper face of the material is at 0.
-pub(crate) fn job(steps: Vec<Step>) -> Job {
+pub(crate) fn job(steps: Vec<JobStep>) -> Job {
     Job { name: "part".into(), operations: vec![operation("mill", 1, steps)], ..Job::default() }
 }
 
-pub(crate) fn operation(name: &str, tool: u32, steps: Vec<Step>) -> Operation {
+pub(crate) fn operation(name: &str, tool: u32, steps: Vec<JobStep>) -> Operation {
     Operation {
         clearance: 5.0,
         retract: 1.0,
@@ -131,12 +131,12 @@ pub(crate) fn operation(name: &str, tool: u32, steps: Vec<Step>) -> Operation {
     }
 }
 
-pub(crate) fn rapid(x: f64, y: f64, z: f64) -> Step {
-    Step::rapid([x, y, z])
+pub(crate) fn rapid(x: f64, y: f64, z: f64) -> JobStep {
+    JobStep::rapid([x, y, z])
 }
 
-pub(crate) fn feed(x: f64, y: f64, z: f64) -> Step {
-    Step::feed([x, y, z], Some(100.0))
+pub(crate) fn feed(x: f64, y: f64, z: f64) -> JobStep {
+    JobStep::feed([x, y, z], Some(100.0))
 }
 
 /// Along an arc in XY.
@@ -146,16 +146,18 @@ pub(crate) fn arc(
     centre: [f64; 2],
     to: [f64; 3],
     feed: Option<f64>,
-) -> Step {
+) -> JobStep {
     let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
     let pace = Pace::Feed(feed.unwrap_or_default());
-    Step::Move(Move { from: from.into(), to: to.into(), path: Path::Arc(arc), pace, named: None })
+    JobStep::Move(Move { from: from.into(), to: to.into(), path: Path::Arc(arc), pace, named: None })
 }
 
 /// Steps of which it is forgotten where the straight ones begin.
-pub(crate) fn straight_from_anywhere(steps: &[Step]) -> Vec<Step> {
-    let forget = |step: &Step| match step {
-        Step::Move(it) if it.path == Path::Line => Step::Move(Move { from: Position::default(), ..*it }),
+pub(crate) fn straight_from_anywhere(steps: &[JobStep]) -> Vec<JobStep> {
+    let forget = |step: &JobStep| match step {
+        JobStep::Move(it) if it.path == Path::Line => {
+            JobStep::Move(Move { from: Position::default(), ..*it })
+        }
         other => other.clone(),
     };
     steps.iter().map(forget).collect()

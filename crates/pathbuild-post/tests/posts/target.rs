@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::{Machine, Travel};
 use pathbuild_motion::Turning;
-use pathbuild_post::{Hole, HoleKind, Job, Output, Post, PostOptions, Step};
+use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, Post, PostOptions};
 
 use crate::support::{definition, feed, job, rapid, read, texts};
 
@@ -180,7 +180,7 @@ fn an_unknown_dialect_is_an_error_that_names_the_nearest() {
 
 fn pecked() -> Job {
     let kind = HoleKind::Peck { depth: 2.0 };
-    job(vec![Step::Hole(Hole {
+    job(vec![JobStep::Hole(Hole {
         at: [0.0, 0.0],
         level: 5.0,
         retract: 1.0,
@@ -223,12 +223,12 @@ fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
     );
     let options = PostOptions { dialect: Some("grbl".into()), cycles: true, ..PostOptions::default() };
     let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
-    let output = post.write(&job(vec![Step::Hole(plain)]), &options).unwrap();
+    let output = post.write(&job(vec![JobStep::Hole(plain)]), &options).unwrap();
     assert!(String::from_utf8(output.text).unwrap().contains("(by hand)"));
 }
 
 /// Writes unchecked, if anything may be written, and for a dialect in which the text is read back.
-fn read_back(elements: &str, steps: Vec<Step>) -> Result<(), Vec<String>> {
+fn read_back(elements: &str, steps: Vec<JobStep>) -> Result<(), Vec<String>> {
     let text = definition(&format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP>{elements}"));
     let post = Post::read(text.as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
     let unchecked = PostOptions { unchecked: true, ..PostOptions::default() };

@@ -1,0 +1,347 @@
+//! The controls that posts write for: what they accept, and the check of a text before it is written.
+
+use std::ops::Range;
+
+use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, TextFault};
+use pathbuild_gcode::dialect::{Acceptance, Dialect, LineLength, Percent, Style, Words, ascii};
+use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::read::LONGEST_LINE;
+
+/// What a control accepts.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
+pub(super) struct Target {
+    /// Name of its dialect.
+    pub(super) name: &'static str,
+    words: &'static Words,
+    comments: Comments,
+    /// Whether `!`, `?`, `~` and bytes above 127 act immediately, even in comments.
+    has_real_time_bytes: bool,
+    /// Whether a line may begin with `%`.
+    percent: bool,
+    /// Whether the rest of a line after `%` is the name of the program, even after a block number.
+    titles: bool,
+    longest: Option<LineLength>,
+    /// Whether the tool number follows M6 without a letter.
+    bare_tool_number: bool,
+    /// M codes that are followed by a text for the display.
+    message_codes: &'static [u16],
+    /// Whether lines may begin with N.
+    line_numbers: bool,
+    /// The dialect in which the output is read back.
+    pub(super) reader: Dialect,
+}
+
+/// The comment notations of a control.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
+struct Comments {
+    /// `( )`.
+    round: bool,
+    /// Whether `(` is an ordinary character within a round comment.
+    nested: bool,
+    /// `;` to the end of the line.
+    semicolon: bool,
+    /// `//` to the end of the line.
+    slashes: bool,
+}
+
+impl Target {
+    /// Finds the target by the name of its dialect.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        name.parse().ok().map(Self::of_dialect)
+    }
+
+    /// The names of all targets, for messages.
+    pub(super) fn names() -> Vec<&'static str> {
+        Dialect::ALL.iter().map(|dialect| dialect.name()).collect()
+    }
+
+    fn of_dialect(dialect: Dialect) -> Self {
+        let rules = dialect.rules();
+        let spelling = &rules.spelling;
+        Self {
+            name: dialect.name(),
+            words: rules.words,
+            comments: Comments {
+                round: spelling.round_comments == Style::Usual,
+                nested: spelling.nested_comments,
+                semicolon: spelling.semicolon_comments == Style::Usual,
+                slashes: spelling.slash_comments == Style::Usual,
+            },
+            has_real_time_bytes: spelling.real_time_bytes,
+            percent: spelling.percent != Percent::Refused,
+            titles: spelling.percent == Percent::Title,
+            longest: spelling.line_length,
+            bare_tool_number: spelling.bare_tool_number,
+            message_codes: spelling.message_codes,
+            line_numbers: spelling.block_numbers.is_some(),
+            reader: dialect,
+        }
+    }
+
+    /// Whether the control supports the cycle G81.
+    pub(super) fn has_cycles(&self) -> bool {
+        self.words.g(810) == Acceptance::Taken
+    }
+
+    /// Whether the control supports M3.
+    pub(super) fn switches_spindle(&self) -> bool {
+        self.words.m(30) == Acceptance::Taken
+    }
+
+    /// Whether only ASCII may be written, regardless of the configuration.
+    fn needs_ascii(&self) -> bool {
+        self.has_real_time_bytes
+    }
+
+    /// Length of the mark that opens a comment at the beginning of a text, and the mark that closes it, unless it extends to the end of the
+    /// line.
+    pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {
+        let Comments { round, semicolon, slashes, .. } = self.comments;
+        let signs = [(round, "(", ")"), (semicolon, ";", ""), (slashes, "//", "")];
+        let found = signs.into_iter().find(|(is_known, open, _)| *is_known && text.starts_with(open));
+        found.map(|(_, open, close)| (open.len(), close))
+    }
+
+    /// Length of the comment at the beginning of a text, or `None` if there is none.
+    fn comment_length(&self, text: &str) -> Option<usize> {
+        let (open, close) = self.comment_marks(text)?;
+        let end = text[open..].find(close).filter(|_| !close.is_empty());
+        Some(end.map_or(text.len(), |end| open + end + close.len()))
+    }
+
+    /// Length of the code at the beginning of a line. M0 and M117 are followed by a text for the display.
+    pub(crate) fn code_length(&self, line: &str) -> usize {
+        let digits = line
+            .strip_prefix('M')
+            .map_or("", |rest| &rest[..rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len())]);
+        let shows = digits.parse().is_ok_and(|code: u16| self.message_codes.contains(&code));
+        if shows { 1 + digits.len() } else { line.len() }
+    }
+
+    /// Splits a line.
+    fn pieces<'a>(&self, line: &'a str) -> Vec<LinePart<'a>> {
+        let mut pieces = Vec::new();
+        let mut begins = 0;
+        let mut at = 0;
+        if self.titles
+            && let Some(percent) = line.find('%').filter(|at| is_block_number(&line[..*at]))
+        {
+            return vec![LinePart::Code(&line[..percent]), LinePart::Comment(&line[percent..])];
+        }
+        let code = self.code_length(line);
+        if code < line.len() {
+            return vec![LinePart::Code(&line[..code]), LinePart::Comment(&line[code..])];
+        }
+        while at < line.len() {
+            match self.comment_length(&line[at..]) {
+                Some(length) => {
+                    pieces.push(LinePart::Code(&line[begins..at]));
+                    pieces.push(LinePart::Comment(&line[at..at + length]));
+                    at += length;
+                    begins = at;
+                }
+                None => at += line[at..].chars().next().map_or(1, char::len_utf8),
+            }
+        }
+        pieces.push(LinePart::Code(&line[begins..]));
+        pieces
+    }
+}
+
+/// Whether a text is empty or a block number.
+fn is_block_number(text: &str) -> bool {
+    let text = text.trim();
+    text.is_empty()
+        || text.strip_prefix('N').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+/// A part of a line.
+#[derive(Clone, Copy, Debug)]
+enum LinePart<'a> {
+    Code(&'a str),
+    Comment(&'a str),
+}
+
+// Checks a text against the words accepted by its target.
+
+/// Maximum number of errors reported.
+const MOST_ERRORS: usize = 20;
+
+/// Returns what the target would refuse, by line of the text.
+pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    for (number, line) in (1_u64..).zip(text.split(|&byte| byte == b'\n')) {
+        let line = String::from_utf8_lossy(line);
+        let line = line.trim_end_matches('\r');
+        Checker { target, number, line, after_change: false, errors: &mut errors }.line();
+        if errors.len() >= MOST_ERRORS {
+            break;
+        }
+    }
+    errors
+}
+
+struct Checker<'a> {
+    target: &'a Target,
+    number: u64,
+    line: &'a str,
+    /// Whether the previous word was M6.
+    after_change: bool,
+    errors: &'a mut Vec<Diagnostic>,
+}
+
+impl Checker<'_> {
+    fn line(&mut self) {
+        let (mut at, mut bare) = (0, 0);
+        for piece in self.target.pieces(self.line) {
+            let text = match piece {
+                LinePart::Code(code) => {
+                    self.code(code, at);
+                    bare += code.bytes().filter(|byte| !byte.is_ascii_whitespace()).count();
+                    code
+                }
+                LinePart::Comment(comment) => {
+                    self.comment(comment, at);
+                    comment
+                }
+            };
+            at += text.len();
+        }
+        self.length(bare);
+    }
+
+    fn length(&mut self, bare: usize) {
+        let (length, longest) = match self.target.longest {
+            Some(LineLength::Bare(longest)) => (bare, longest),
+            Some(LineLength::Whole(longest)) => (self.line.len(), longest),
+            // The limit for reading it back.
+            None => (self.line.len(), LONGEST_LINE),
+        };
+        if length > longest {
+            let diagnostic = Diagnostic::new(&posts::LINE_TOO_LONG).with("length", length);
+            self.report(diagnostic.with("longest", longest), 0..self.line.len());
+        }
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic, span: Range<usize>) {
+        if self.errors.len() >= MOST_ERRORS {
+            return;
+        }
+        let diagnostic = diagnostic.quoting("dialect", self.target.name).with("line", self.number);
+        let diagnostic = diagnostic.at_line(u32::try_from(self.number).unwrap_or(u32::MAX), None);
+        self.errors.push(diagnostic.with_text(TextFault::new(self.line, span)));
+    }
+
+    fn reject(&mut self, span: Range<usize>) {
+        let word = self.line[span.clone()].trim().to_owned();
+        self.report(Diagnostic::new(&posts::WORD_REJECTED).quoting("word", word), span);
+    }
+
+    /// Checks a comment, because some bytes act even there.
+    fn comment(&mut self, text: &str, start: usize) {
+        let acts = |c: char| !c.is_ascii() || matches!(c, '!' | '?' | '~');
+        if let Some((at, c)) = text.char_indices().find(|(_, c)| self.target.has_real_time_bytes && acts(*c))
+        {
+            self.reject(start + at..start + at + c.len_utf8());
+        }
+    }
+
+    fn code(&mut self, code: &str, start: usize) {
+        let mut at = 0;
+        while let Some(c) = code[at..].chars().next() {
+            let is_first = start + at == 0;
+            at += match c {
+                c if c.is_whitespace() => c.len_utf8(),
+                '%' if is_first && self.target.percent => 1,
+                '/' if is_first => 1,
+                c if c.is_ascii_alphabetic() => self.word(&code[at..], start + at),
+                '0'..='9' if self.after_change => self.bare_number(&code[at..]),
+                c => {
+                    self.reject(start + at..start + at + c.len_utf8());
+                    c.len_utf8()
+                }
+            };
+        }
+    }
+
+    fn bare_number(&mut self, text: &str) -> usize {
+        self.after_change = false;
+        text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len())
+    }
+
+    /// Checks the word at the beginning of a text and returns its length.
+    fn word(&mut self, text: &str, start: usize) -> usize {
+        let rest = text[1..].trim_start_matches([' ', '\t']);
+        let digits = rest.find(|c: char| !matches!(c, '0'..='9' | '.' | '+' | '-')).unwrap_or(rest.len());
+        let letter = text.as_bytes()[0].to_ascii_uppercase();
+        let Ok(value) = rest[..digits].parse::<f64>() else {
+            self.reject(start..start + 1);
+            return 1;
+        };
+        let length = text.len() - rest.len() + digits;
+        if !self.takes(letter, value) {
+            self.reject(start..start + length);
+        }
+        self.after_change = self.target.bare_tool_number && letter == b'M' && value == 6.0;
+        length
+    }
+
+    fn takes(&self, letter: u8, value: f64) -> bool {
+        let words = self.target.words;
+        match letter {
+            b'G' => tenths(value).is_some_and(|code| words.g(code) != Acceptance::Unknown),
+            b'M' => tenths(value).is_some_and(|code| words.m(code) == Acceptance::Taken),
+            b'N' => self.target.line_numbers,
+            letter => words.letters.contains(letter),
+        }
+    }
+}
+
+/// Ten times the number of a code.
+fn tenths(value: f64) -> Option<u16> {
+    let tenths = value * 10.0;
+    let is_code = (tenths - tenths.round()).abs() < 1e-6 && (0.0..=60_000.0).contains(&tenths);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+    is_code.then_some(tenths.round() as u16)
+}
+
+// Replaces characters that the target does not allow.
+
+/// Replaces characters that the target or the configuration does not allow. Characters that the target would act on are replaced in
+/// comments; in code they are kept, so that the check reports them. Lines that are not UTF-8 are not changed.
+pub(crate) fn plain(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
+    let is_ascii = charset == Charset::Ascii || target.is_some_and(Target::needs_ascii);
+    let mut plain = Vec::with_capacity(text.len());
+    for line in text.split_inclusive(|&byte| byte == b'\n') {
+        match std::str::from_utf8(line) {
+            Ok(line) => plain.extend(plain_line(line, target, is_ascii).into_bytes()),
+            Err(_) => plain.extend_from_slice(line),
+        }
+    }
+    plain
+}
+
+fn plain_line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
+    let line = if is_ascii { ascii(line) } else { line.to_owned() };
+    let Some(target) = target else { return line };
+    let piece = |piece| match piece {
+        LinePart::Code(code) => code.to_owned(),
+        LinePart::Comment(comment) => harmless(comment, target),
+    };
+    target.pieces(&line).into_iter().map(piece).collect()
+}
+
+fn harmless(comment: &str, target: &Target) -> String {
+    let is_round = comment.starts_with('(');
+    let replace = |(at, c): (usize, char)| match c {
+        '(' if is_round && at > 0 && !target.comments.nested => '[',
+        '!' | '?' if target.has_real_time_bytes => '.',
+        '~' if target.has_real_time_bytes => '-',
+        '%' if !target.percent => '-',
+        c => c,
+    };
+    comment.char_indices().map(replace).collect()
+}
