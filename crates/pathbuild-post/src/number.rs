@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 /// A pattern such as `0.0###`, in which `0` is a digit that is always shown and `#` one that is shown if needed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct NumberFormat {
     /// Minimum number of digits before the decimal point.
     whole: usize,

@@ -8,8 +8,6 @@ mod changes;
 #[cfg(feature = "pictures")]
 mod page;
 #[cfg(feature = "pictures")]
-mod pages;
-#[cfg(feature = "pictures")]
 mod raster;
 mod scene;
 mod svg;
@@ -24,9 +22,9 @@ pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 #[cfg(feature = "pictures")]
 pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
-    Arc, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, KeepOut, Label, Move,
-    MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA, Scene, ScenePath, Shape, Totals,
-    VERSION,
+    ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, KeepOut, Label,
+    MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA, Scene, SceneMove, ScenePath,
+    Shape, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;

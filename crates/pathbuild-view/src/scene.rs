@@ -3,14 +3,11 @@
 //! Lengths are in mm. Each path has its own coordinates, which are those of its program; [`ScenePath::zero`] is their origin in the
 //! drawing. Everything outside of paths is in the coordinates of the drawing.
 
-mod json;
-mod moves;
-
 use pathbuild_diagnostic::shown;
-use serde::Serialize;
-
-use json::{millimetres, point, points};
-pub use moves::{Move, MoveKind};
+use pathbuild_motion as motion;
+use pathbuild_motion::{Axes, Pace, Path};
+use serde::ser::SerializeSeq;
+use serde::{Serialize, Serializer};
 
 /// The name of the JSON form.
 pub const SCHEMA: &str = "pathbuild-scene";
@@ -69,7 +66,7 @@ pub struct ScenePath {
     /// Z-probes of the program, in measuring order.
     pub probes: Vec<ProbeMark>,
     /// The moves of the tool, in order. Empty if the path has errors.
-    pub moves: Vec<Move>,
+    pub moves: Vec<SceneMove>,
     /// Lengths and times.
     pub totals: Option<Totals>,
     /// The G-code as written by `emit`, with LF as line ends. Lines are counted from 1.
@@ -194,7 +191,7 @@ pub enum Shape {
         #[serde(serialize_with = "point")]
         to: Point,
     },
-    Arc(Arc),
+    Arc(ArcShape),
     Circle {
         #[serde(serialize_with = "point")]
         centre: Point,
@@ -206,7 +203,7 @@ pub enum Shape {
 /// A circular arc.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the parts of an arc")]
-pub struct Arc {
+pub struct ArcShape {
     #[serde(serialize_with = "point")]
     pub from: Point,
     #[serde(serialize_with = "point")]
@@ -371,7 +368,7 @@ impl Shape {
     /// The start; for a circle, the centre.
     pub fn start(&self) -> Point {
         match self {
-            Self::Line { from, .. } | Self::Arc(Arc { from, .. }) => *from,
+            Self::Line { from, .. } | Self::Arc(ArcShape { from, .. }) => *from,
             Self::Circle { centre, .. } => *centre,
         }
     }
@@ -386,7 +383,7 @@ impl Shape {
     }
 }
 
-impl Arc {
+impl ArcShape {
     /// The point at a fraction (0 to 1) of the way.
     pub fn point(&self, share: f64) -> Point {
         let [x, y] = [self.from[0] - self.centre[0], self.from[1] - self.centre[1]];
@@ -412,4 +409,177 @@ impl Arc {
 
 fn hull(a: Point, b: Point) -> [Point; 2] {
     [[a[0].min(b[0]), a[1].min(b[1])], [a[0].max(b[0]), a[1].max(b[1])]]
+}
+
+// Moves of the tool.
+
+/// A move of the tool tip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneMove {
+    /// The purpose.
+    pub kind: MoveKind,
+    /// The geometry: start, end and curve. Arcs and helices are kept.
+    pub way: motion::Move,
+    /// Its length in mm.
+    pub length: f64,
+    /// Its element, as an index into [`ScenePath::elements`](crate::scene::ScenePath::elements).
+    pub element: Option<u32>,
+    /// Its line in the G-code.
+    pub line: Option<u32>,
+}
+
+/// The purpose of a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MoveKind {
+    /// Rapid move in the plane.
+    Sweep,
+    /// Rapid move straight up or down.
+    Lift,
+    /// Cut straight down or up.
+    Plunge,
+    /// Cut along an element.
+    Mill,
+    /// Cut along an element that is only marked.
+    Mark,
+    /// Move until the probe triggers.
+    Probe,
+}
+
+impl SceneMove {
+    /// A move about which only its geometry is known.
+    pub fn new(way: motion::Move, line: Option<u32>) -> Self {
+        Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line }
+    }
+
+    /// Whether its position in the plane is known.
+    pub fn is_placed(&self) -> bool {
+        self.way.from.known.and(self.way.to.known).has(Axes::XY) && self.way.named.is_none()
+    }
+
+    /// The start in the plane.
+    pub fn from(&self) -> Point {
+        [self.way.from.x(), self.way.from.y()]
+    }
+
+    /// The end in the plane.
+    pub fn to(&self) -> Point {
+        [self.way.to.x(), self.way.to.y()]
+    }
+
+    /// Its lowest Z in mm; `None` if the height of neither end is known.
+    pub fn depth(&self) -> Option<f64> {
+        let ends = [&self.way.from, &self.way.to].into_iter().filter(|end| end.known.has(Axes::Z));
+        ends.map(motion::Position::z).reduce(f64::min)
+    }
+
+    /// The corners of its bounding box in the plane; `None` if unknown.
+    pub fn extent(&self) -> Option<[Point; 2]> {
+        let [Some(x), Some(y), _] = self.way.extent() else { return None };
+        self.is_placed().then_some([[x.0, y.0], [x.1, y.1]])
+    }
+}
+
+impl MoveKind {
+    fn of(way: &motion::Move) -> Self {
+        let is_upright = way.is_upright();
+        match way.pace {
+            Pace::Probe { .. } => Self::Probe,
+            Pace::Rapid if is_upright => Self::Lift,
+            Pace::Rapid => Self::Sweep,
+            Pace::Feed(_) if is_upright => Self::Plunge,
+            Pace::Feed(_) => Self::Mill,
+        }
+    }
+
+    /// Whether it removes material.
+    pub fn cuts(self) -> bool {
+        matches!(self, Self::Plunge | Self::Mill | Self::Mark)
+    }
+}
+
+/// The JSON form of a move.
+#[derive(Serialize)]
+struct MoveJson {
+    kind: MoveKind,
+    from: [Option<f64>; 3],
+    to: [Option<f64>; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arc: Option<ArcJson>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    feed: Option<f64>,
+    length: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    element: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+}
+
+/// The JSON form of an arc: the axes of its plane, its centre on these axes, and the angle it covers.
+#[derive(Serialize)]
+struct ArcJson {
+    axes: [usize; 2],
+    centre: [f64; 2],
+    clockwise: bool,
+    degrees: f64,
+}
+
+impl Serialize for SceneMove {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let place = |end: &motion::Position| {
+            [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)).then(|| rounded(end.at[axis])))
+        };
+        let motion::Move { from, to, path, pace, .. } = &self.way;
+        let arc = match path {
+            Path::Line => None,
+            Path::Arc(arc) => Some(ArcJson {
+                axes: arc.plane.axes(),
+                centre: arc.centre.map(rounded),
+                clockwise: arc.clockwise,
+                degrees: rounded(arc.sweep(from, to).to_degrees()),
+            }),
+        };
+        let written = MoveJson {
+            kind: self.kind,
+            from: place(from),
+            to: place(to),
+            arc,
+            feed: pace.feed(),
+            length: rounded(self.length),
+            element: self.element,
+            line: self.line,
+        };
+        written.serialize(serializer)
+    }
+}
+
+// Numbers in JSON: millimetres rounded to a millionth, so that a scene has the same bytes everywhere.
+
+/// The precision: six decimals.
+const MILLIONTHS: f64 = 1e6;
+
+/// Rounds a coordinate or length, and avoids a negative 0.
+fn rounded(value: f64) -> f64 {
+    (value * MILLIONTHS).round() / MILLIONTHS + 0.0
+}
+
+#[cfg_attr(target_pointer_width = "64", expect(clippy::trivially_copy_pass_by_ref, reason = "serde's form"))]
+fn millimetres<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(rounded(*value))
+}
+
+fn millimetres_each<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut list = serializer.serialize_seq(Some(values.len()))?;
+    for value in values {
+        list.serialize_element(&rounded(*value))?;
+    }
+    list.end()
+}
+
+pub(super) fn point<S: Serializer>(value: &[f64; 2], serializer: S) -> Result<S::Ok, S::Error> {
+    millimetres_each(value, serializer)
+}
+
+pub(super) fn points<S: Serializer>(values: &[[f64; 2]; 2], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(values.iter().map(|value| value.map(rounded)))
 }

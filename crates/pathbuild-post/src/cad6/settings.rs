@@ -56,108 +56,51 @@ pub(super) struct Setting {
     pub(super) about: Text,
 }
 
-/// All keys of `[post]`.
-pub(super) static SETTINGS: &[Setting] = &[
-    Setting {
-        name: "name",
-        expected: &Text { en: "a text", de: "ein Text" },
-        set: |s, v| put(&mut s.name, text(v)),
-        about: Text { en: "name of the post", de: "Name des Postprozessors" },
-    },
-    Setting {
-        name: "description",
-        expected: &Text { en: "a text", de: "ein Text" },
-        set: |_, v| v.as_str().map(drop),
-        about: Text { en: "a comment on the definition", de: "ein Kommentar zur Definition" },
-    },
-    Setting {
-        name: "extension",
-        expected: &Text { en: "a file name's extension", de: "die Endung eines Dateinamens" },
-        set: |s, v| put(&mut s.extension, extension(v)),
-        about: Text {
-            en: "extension of the files that are written; `nc` without it",
-            de: "Endung der geschriebenen Dateien; sonst `nc`",
-        },
-    },
-    Setting {
-        name: "end-of-line",
-        expected: &Text { en: "lf or crlf", de: "lf oder crlf" },
-        set: |s, v| put(&mut s.end_of_line, end_of_line(v)),
-        about: Text { en: "line ends; `lf` without it", de: "Zeilenenden; sonst `lf`" },
-    },
-    Setting {
-        name: "decimals",
-        expected: &Text { en: "a whole number up to 9", de: "eine ganze Zahl bis 9" },
-        set: |s, v| put(&mut s.decimals, decimals(v)),
-        about: Text {
-            en: "decimals of rounded numbers; 3 without it",
-            de: "Nachkommastellen gerundeter Zahlen; sonst 3",
-        },
-    },
-    Setting {
-        name: "units",
-        expected: &Text { en: "mm or inch", de: "mm oder inch" },
-        set: |s, v| put(&mut s.units, units(v).map(Some)),
-        about: Text {
-            en: "unit of all lengths; that of the program without it",
-            de: "Einheit aller Längen; sonst die des Programms",
-        },
-    },
-    Setting {
-        name: "number-lines",
-        expected: &Text { en: "true or false", de: "true oder false" },
-        set: |s, v| put(&mut s.number_lines, v.as_bool()),
-        about: Text {
-            en: "whether `line-number` is called; `true` without it",
-            de: "ob `line-number` gerufen wird; sonst `true`",
-        },
-    },
-    Setting {
-        name: "trim",
-        expected: &Text { en: "true or false", de: "true oder false" },
-        set: |s, v| put(&mut s.trim, v.as_bool()),
-        about: Text {
-            en: "whether blanks at line ends are removed; `true` without it",
-            de: "ob Leerzeichen am Zeilenende entfallen; sonst `true`",
-        },
-    },
-    Setting {
-        name: "dialect",
-        expected: &Text { en: "a text", de: "ein Text" },
-        set: |s, v| put(&mut s.dialect, text(v).map(Some)),
-        about: Text {
-            en: "the dialect in which the output is read back",
-            de: "der Dialekt, in dem die Ausgabe zurückgelesen wird",
-        },
-    },
-    Setting {
-        name: "arc-tolerance",
-        expected: &Text { en: "mm above 0", de: "mm über 0" },
-        set: |s, v| put(&mut s.arc_tolerance, positive(v)),
-        about: Text {
-            en: "greatest distance of a line from the arc that it stands for; 0.01 without it",
-            de: "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01",
-        },
-    },
-    Setting {
-        name: "arc-sweep",
-        expected: &Text { en: "degrees from 10 to 360", de: "Grad von 10 bis 360" },
-        set: |s, v| put(&mut s.arc_sweep, sweep(v)),
-        about: Text {
-            en: "largest angle of an arc, larger ones are divided; 360 without it",
-            de: "größter Winkel eines Bogens, größere werden geteilt; sonst 360",
-        },
-    },
-    Setting {
-        name: "lift-between-passes",
-        expected: &Text { en: "true or false", de: "true oder false" },
-        set: |s, v| put(&mut s.lift_between_passes, v.as_bool()),
-        about: Text {
-            en: "whether the tool may be lifted out between two passes instead of going down in the cut; `false` without it",
-            de: "ob das Werkzeug zwischen zwei Zustellungen herausgehoben werden darf, statt im Schnitt abwärts zu fahren; sonst `false`",
-        },
-    },
-];
+/// Declares the keys of `[post]`: each with how its value is read, the permitted values, and meaning and default for the book.
+macro_rules! settings {
+    ($($name:literal $set:expr, $expected_en:literal, $expected_de:literal, $en:literal, $de:literal;)*) => {
+        /// All keys of `[post]`.
+        pub(super) static SETTINGS: &[Setting] = &[$(Setting {
+            name: $name,
+            expected: &Text { en: $expected_en, de: $expected_de },
+            set: $set,
+            about: Text { en: $en, de: $de },
+        },)*];
+    };
+}
+
+settings! {
+    "name" |s, v| put(&mut s.name, text(v)), "a text", "ein Text",
+        "name of the post", "Name des Postprozessors";
+    "description" |_, v| v.as_str().map(drop), "a text", "ein Text",
+        "a comment on the definition", "ein Kommentar zur Definition";
+    "extension" |s, v| put(&mut s.extension, extension(v)), "a file name's extension", "die Endung eines Dateinamens",
+        "extension of the files that are written; `nc` without it",
+        "Endung der geschriebenen Dateien; sonst `nc`";
+    "end-of-line" |s, v| put(&mut s.end_of_line, end_of_line(v)), "lf or crlf", "lf oder crlf",
+        "line ends; `lf` without it", "Zeilenenden; sonst `lf`";
+    "decimals" |s, v| put(&mut s.decimals, decimals(v)), "a whole number up to 9", "eine ganze Zahl bis 9",
+        "decimals of rounded numbers; 3 without it", "Nachkommastellen gerundeter Zahlen; sonst 3";
+    "units" |s, v| put(&mut s.units, units(v).map(Some)), "mm or inch", "mm oder inch",
+        "unit of all lengths; that of the program without it",
+        "Einheit aller Längen; sonst die des Programms";
+    "number-lines" |s, v| put(&mut s.number_lines, v.as_bool()), "true or false", "true oder false",
+        "whether `line-number` is called; `true` without it", "ob `line-number` gerufen wird; sonst `true`";
+    "trim" |s, v| put(&mut s.trim, v.as_bool()), "true or false", "true oder false",
+        "whether blanks at line ends are removed; `true` without it",
+        "ob Leerzeichen am Zeilenende entfallen; sonst `true`";
+    "dialect" |s, v| put(&mut s.dialect, text(v).map(Some)), "a text", "ein Text",
+        "the dialect in which the output is read back", "der Dialekt, in dem die Ausgabe zurückgelesen wird";
+    "arc-tolerance" |s, v| put(&mut s.arc_tolerance, positive(v)), "mm above 0", "mm über 0",
+        "greatest distance of a line from the arc that it stands for; 0.01 without it",
+        "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01";
+    "arc-sweep" |s, v| put(&mut s.arc_sweep, sweep(v)), "degrees from 10 to 360", "Grad von 10 bis 360",
+        "largest angle of an arc, larger ones are divided; 360 without it",
+        "größter Winkel eines Bogens, größere werden geteilt; sonst 360";
+    "lift-between-passes" |s, v| put(&mut s.lift_between_passes, v.as_bool()), "true or false", "true oder false",
+        "whether the tool may be lifted out between two passes instead of going down in the cut; `false` without it",
+        "ob das Werkzeug zwischen zwei Zustellungen herausgehoben werden darf, statt im Schnitt abwärts zu fahren; sonst `false`";
+}
 
 fn put<T>(setting: &mut T, value: Option<T>) -> Option<()> {
     *setting = value?;

@@ -372,89 +372,54 @@ pub(super) struct Function {
 
 /// All functions, in the order in which they are documented.
 pub(super) static FUNCTIONS: &[Function] = &[
-    Function { name: "abs", rule: Rule::One(f64::abs), about: Text { en: "absolute value", de: "Betrag" } },
-    Function {
-        name: "sqrt",
-        rule: Rule::One(f64::sqrt),
-        about: Text { en: "square root", de: "Quadratwurzel" },
-    },
-    Function {
-        name: "int",
-        rule: Rule::One(f64::trunc),
-        about: Text { en: "without decimals", de: "ohne Nachkommastellen" },
-    },
-    Function {
-        name: "round",
-        rule: Rule::One(f64::round),
-        about: Text {
-            en: "nearest whole number, halves away from 0",
-            de: "nächste ganze Zahl, Hälften von 0 weg",
-        },
-    },
-    Function {
-        name: "floor",
-        rule: Rule::One(f64::floor),
-        about: Text { en: "next smaller whole number", de: "nächstkleinere ganze Zahl" },
-    },
-    Function {
-        name: "ceil",
-        rule: Rule::One(f64::ceil),
-        about: Text { en: "next larger whole number", de: "nächstgrößere ganze Zahl" },
-    },
-    Function {
-        name: "sin",
-        rule: Rule::One(|x| libm::sin(x.to_radians())),
-        about: Text { en: "sine", de: "Sinus" },
-    },
-    Function {
-        name: "cos",
-        rule: Rule::One(|x| libm::cos(x.to_radians())),
-        about: Text { en: "cosine", de: "Kosinus" },
-    },
-    Function {
-        name: "tan",
-        rule: Rule::One(|x| libm::tan(x.to_radians())),
-        about: Text { en: "tangent", de: "Tangens" },
-    },
-    Function {
-        name: "asin",
-        rule: Rule::One(|x| libm::asin(x).to_degrees()),
-        about: Text { en: "arc sine", de: "Arkussinus" },
-    },
-    Function {
-        name: "acos",
-        rule: Rule::One(|x| libm::acos(x).to_degrees()),
-        about: Text { en: "arc cosine", de: "Arkuskosinus" },
-    },
-    Function {
-        name: "atan",
-        rule: Rule::One(|x| libm::atan(x).to_degrees()),
-        about: Text { en: "arc tangent", de: "Arkustangens" },
-    },
-    Function {
-        name: "atan2",
-        rule: Rule::Two(|y, x| libm::atan2(y, x).to_degrees()),
-        about: Text { en: "angle of the point (second, first)", de: "Winkel des Punktes (zweites, erstes)" },
-    },
-    Function {
-        name: "mod",
-        rule: Rule::Two(|a, b| a - b * (a / b).floor()),
-        about: Text {
-            en: "remainder, with the sign of the second",
-            de: "Rest, mit dem Vorzeichen des zweiten",
-        },
-    },
-    Function {
-        name: "min",
-        rule: Rule::Any(|all| all.iter().copied().fold(f64::INFINITY, f64::min)),
-        about: Text { en: "the smallest", de: "das Kleinste" },
-    },
-    Function {
-        name: "max",
-        rule: Rule::Any(|all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
-        about: Text { en: "the largest", de: "das Größte" },
-    },
+    Function::new("abs", Rule::One(f64::abs), "absolute value", "Betrag"),
+    Function::new("sqrt", Rule::One(f64::sqrt), "square root", "Quadratwurzel"),
+    Function::new("int", Rule::One(f64::trunc), "without decimals", "ohne Nachkommastellen"),
+    Function::new(
+        "round",
+        Rule::One(f64::round),
+        "nearest whole number, halves away from 0",
+        "nächste ganze Zahl, Hälften von 0 weg",
+    ),
+    Function::new("floor", Rule::One(f64::floor), "next smaller whole number", "nächstkleinere ganze Zahl"),
+    Function::new("ceil", Rule::One(f64::ceil), "next larger whole number", "nächstgrößere ganze Zahl"),
+    Function::new("sin", Rule::One(|x| libm::sin(x.to_radians())), "sine", "Sinus"),
+    Function::new("cos", Rule::One(|x| libm::cos(x.to_radians())), "cosine", "Kosinus"),
+    Function::new("tan", Rule::One(|x| libm::tan(x.to_radians())), "tangent", "Tangens"),
+    Function::new("asin", Rule::One(|x| libm::asin(x).to_degrees()), "arc sine", "Arkussinus"),
+    Function::new("acos", Rule::One(|x| libm::acos(x).to_degrees()), "arc cosine", "Arkuskosinus"),
+    Function::new("atan", Rule::One(|x| libm::atan(x).to_degrees()), "arc tangent", "Arkustangens"),
+    Function::new(
+        "atan2",
+        Rule::Two(|y, x| libm::atan2(y, x).to_degrees()),
+        "angle of the point (second, first)",
+        "Winkel des Punktes (zweites, erstes)",
+    ),
+    Function::new(
+        "mod",
+        Rule::Two(|a, b| a - b * (a / b).floor()),
+        "remainder, with the sign of the second",
+        "Rest, mit dem Vorzeichen des zweiten",
+    ),
+    Function::new(
+        "min",
+        Rule::Any(|all| all.iter().copied().fold(f64::INFINITY, f64::min)),
+        "the smallest",
+        "das Kleinste",
+    ),
+    Function::new(
+        "max",
+        Rule::Any(|all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max)),
+        "the largest",
+        "das Größte",
+    ),
 ];
+
+impl Function {
+    const fn new(name: &'static str, rule: Rule, en: &'static str, de: &'static str) -> Self {
+        Self { name, rule, about: Text { en, de } }
+    }
+}
 
 /// Evaluates a function.
 pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, Wrong> {

@@ -20,213 +20,131 @@ pub(super) struct Variable {
     pub(super) about: Text,
 }
 
-/// Where a variable is available. (book: reference/post-definitions)
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Presence {
-    Always,
-    FirstMove,
-    Feed,
-    ToolNumber,
-    Speed,
-    Contours,
-    Elements,
-    Arcs,
-    Holes,
-    Waits,
-    Comments,
-    Dated,
-    Never,
+/// Declares where a variable is available, in words for the book.
+macro_rules! presences {
+    ($($variant:ident $en:literal, $de:literal;)*) => {
+        /// Where a variable is available. (book: reference/post-definitions)
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Presence {
+            $($variant,)*
+        }
+
+        impl Presence {
+            /// Description for the book.
+            pub(super) fn word(self) -> Text {
+                match self {
+                    $(Self::$variant => Text { en: $en, de: $de },)*
+                }
+            }
+        }
+    };
 }
 
-impl Presence {
-    /// Description for the book.
-    pub(super) fn word(self) -> Text {
-        let word = |en, de| Text { en, de };
-        match self {
-            Self::Always => word("everywhere", "überall"),
-            Self::FirstMove => word("from the first move on", "ab der ersten Bewegung"),
-            Self::Feed => word("where a feed is given", "wo ein Vorschub vorliegt"),
-            Self::ToolNumber => word("where the tool has a number", "wo das Werkzeug eine Nummer hat"),
-            Self::Speed => word("where a speed is given", "wo eine Drehzahl vorliegt"),
-            Self::Contours => word("from the first contour on", "ab der ersten Kontur"),
-            Self::Elements => {
-                word("from the first element of a contour on", "ab dem ersten Element einer Kontur")
-            }
-            Self::Arcs => word("in `arc` only", "nur in `arc`"),
-            Self::Holes => word("from the first hole on", "ab der ersten Bohrung"),
-            Self::Waits => {
-                word("from the first hole or `dwell` on", "ab der ersten Bohrung oder dem ersten `dwell`")
-            }
-            Self::Comments => word("from the first comment on", "ab dem ersten Kommentar"),
-            Self::Dated => word("with `--date`", "mit `--date`"),
-            Self::Never => word("never: no program has curves", "nie: Kein Programm hat Kurven"),
-        }
-    }
+presences! {
+    Always "everywhere", "überall";
+    FirstMove "from the first move on", "ab der ersten Bewegung";
+    Feed "where a feed is given", "wo ein Vorschub vorliegt";
+    ToolNumber "where the tool has a number", "wo das Werkzeug eine Nummer hat";
+    Speed "where a speed is given", "wo eine Drehzahl vorliegt";
+    Contours "from the first contour on", "ab der ersten Kontur";
+    Elements "from the first element of a contour on", "ab dem ersten Element einer Kontur";
+    Arcs "in `arc` only", "nur in `arc`";
+    Holes "from the first hole on", "ab der ersten Bohrung";
+    Waits "from the first hole or `dwell` on", "ab der ersten Bohrung oder dem ersten `dwell`";
+    Comments "from the first comment on", "ab dem ersten Kommentar";
+    Dated "with `--date`", "mit `--date`";
+    Never "never: no program has curves", "nie: Kein Programm hat Kurven";
 }
 
 impl Variable {
-    const fn number(name: &'static str, presence: Presence, en: &'static str, de: &'static str) -> Self {
-        Self { name, is_text: false, presence, about: Text { en, de } }
-    }
-
-    const fn text(name: &'static str, presence: Presence, en: &'static str, de: &'static str) -> Self {
-        Self { name, is_text: true, presence, about: Text { en, de } }
-    }
-
     /// Finds a variable by its name.
     pub(super) fn named(name: &str) -> Option<&'static Self> {
         VARIABLES.iter().find(|variable| variable.name == name)
     }
 }
 
-/// All variables set by pathbuild, in the order in which they are documented.
-pub(super) static VARIABLES: &[Variable] = &[
-    Variable::number(
-        "X1",
-        Presence::FirstMove,
-        "where the move or hole ends",
-        "wo die Bewegung endet oder die Bohrung liegt",
-    ),
-    Variable::number("Y1", Presence::FirstMove, "likewise", "ebenso"),
-    Variable::number(
-        "Z1",
-        Presence::FirstMove,
-        "likewise; of a hole its bottom",
-        "ebenso; bei Bohrungen der Grund",
-    ),
-    Variable::number(
-        "PrevX",
-        Presence::FirstMove,
-        "where the tool was before the move",
-        "wo der Fräser vor der Bewegung stand",
-    ),
-    Variable::number("PrevY", Presence::FirstMove, "likewise", "ebenso"),
-    Variable::number("PrevZ", Presence::FirstMove, "likewise", "ebenso"),
-    Variable::number("XIncr", Presence::FirstMove, "the text `(~X1~-~PrevX~)`", "der Text `(~X1~-~PrevX~)`"),
-    Variable::number("YIncr", Presence::FirstMove, "the text `(~Y1~-~PrevY~)`", "der Text `(~Y1~-~PrevY~)`"),
-    Variable::number("ZIncr", Presence::FirstMove, "the text `(~Z1~-~PrevZ~)`", "der Text `(~Z1~-~PrevZ~)`"),
-    Variable::number(
-        "ZClearance",
-        Presence::Always,
-        "the height of rapid moves in the plane",
-        "die Höhe der Eilgänge in der Ebene",
-    ),
-    Variable::number(
-        "ZWorking",
-        Presence::Always,
-        "the height at which a rapid move down ends",
-        "die Höhe, in der der Eilgang abwärts endet",
-    ),
-    Variable::number("LoweringVel", Presence::Feed, "the feed down", "der Vorschub abwärts"),
-    Variable::number("MovingVel", Presence::Feed, "the feed of the element", "der Vorschub des Elements"),
-    Variable::number("MachineToolNo", Presence::ToolNumber, "the tool's number", "die Nummer des Werkzeugs"),
-    Variable::number(
-        "MillingSpindleRate",
-        Presence::Speed,
-        "revolutions per minute",
-        "Umdrehungen pro Minute",
-    ),
-    Variable::number(
-        "MillingSpindleDir",
-        Presence::Always,
-        "0 clockwise, 1 counter-clockwise",
-        "0 im Uhrzeigersinn, 1 gegen ihn",
-    ),
-    Variable::number("ToolControl1", Presence::Always, "1 with flood or mist", "1 mit Kühlmittel oder Nebel"),
-    Variable::number("ToolControl2", Presence::Always, "1 with mist", "1 mit Nebel"),
-    Variable::number(
-        "FirstContourElement",
-        Presence::Elements,
+/// Declares the variables set by pathbuild, in the order in which they are documented.
+macro_rules! variables {
+    ($($name:literal $kind:ident $presence:ident, $en:literal, $de:literal;)*) => {
+        /// All variables set by pathbuild, in the order in which they are documented.
+        pub(super) static VARIABLES: &[Variable] = &[$(Variable {
+            name: $name,
+            is_text: variables!($kind),
+            presence: Presence::$presence,
+            about: Text { en: $en, de: $de },
+        },)*];
+    };
+    (text) => { true };
+    (number) => { false };
+}
+
+variables! {
+    "X1" number FirstMove, "where the move or hole ends", "wo die Bewegung endet oder die Bohrung liegt";
+    "Y1" number FirstMove, "likewise", "ebenso";
+    "Z1" number FirstMove, "likewise; of a hole its bottom", "ebenso; bei Bohrungen der Grund";
+    "PrevX" number FirstMove, "where the tool was before the move", "wo der Fräser vor der Bewegung stand";
+    "PrevY" number FirstMove, "likewise", "ebenso";
+    "PrevZ" number FirstMove, "likewise", "ebenso";
+    "XIncr" number FirstMove, "the text `(~X1~-~PrevX~)`", "der Text `(~X1~-~PrevX~)`";
+    "YIncr" number FirstMove, "the text `(~Y1~-~PrevY~)`", "der Text `(~Y1~-~PrevY~)`";
+    "ZIncr" number FirstMove, "the text `(~Z1~-~PrevZ~)`", "der Text `(~Z1~-~PrevZ~)`";
+    "ZClearance" number Always,
+        "the height of rapid moves in the plane", "die Höhe der Eilgänge in der Ebene";
+    "ZWorking" number Always,
+        "the height at which a rapid move down ends", "die Höhe, in der der Eilgang abwärts endet";
+    "LoweringVel" number Feed, "the feed down", "der Vorschub abwärts";
+    "MovingVel" number Feed, "the feed of the element", "der Vorschub des Elements";
+    "MachineToolNo" number ToolNumber, "the tool's number", "die Nummer des Werkzeugs";
+    "MillingSpindleRate" number Speed, "revolutions per minute", "Umdrehungen pro Minute";
+    "MillingSpindleDir" number Always, "0 clockwise, 1 counter-clockwise", "0 im Uhrzeigersinn, 1 gegen ihn";
+    "ToolControl1" number Always, "1 with flood or mist", "1 mit Kühlmittel oder Nebel";
+    "ToolControl2" number Always, "1 with mist", "1 mit Nebel";
+    "FirstContourElement" number Elements,
         "1 for the first element of a contour, and where its feed changes",
-        "1 beim ersten Element einer Kontur und wo ihr Vorschub wechselt",
-    ),
-    Variable::number(
-        "LastContourElement",
-        Presence::Elements,
-        "1 for the last element of a contour",
-        "1 beim letzten Element einer Kontur",
-    ),
-    Variable::number("UpdateXYPosition", Presence::Contours, "1", "1"),
-    Variable::number("UseAuxPoint", Presence::Contours, "0", "0"),
-    Variable::number("UpdateCutterRotationOnly", Presence::Contours, "0", "0"),
-    Variable::number(
-        "LineNumber",
-        Presence::Always,
-        "begins at 10; the text `line-number` raises it",
-        "beginnt bei 10; der Text `line-number` erhöht sie",
-    ),
-    Variable::text("PrgName", Presence::Always, "the program's name", "der Name des Programms"),
-    Variable::number("Units", Presence::Always, "0 millimetres, 2 inches", "0 Millimeter, 2 Zoll"),
-    Variable::number("ToolChangeCommands", Presence::Always, "1", "1"),
-    Variable::number("MachinePosX", Presence::Always, "0", "0"),
-    Variable::number("MachinePosY", Presence::Always, "0", "0"),
-    Variable::number("XC", Presence::Arcs, "the arc's centre", "der Mittelpunkt des Bogens"),
-    Variable::number("YC", Presence::Arcs, "likewise", "ebenso"),
-    Variable::number(
-        "IRel",
-        Presence::Arcs,
-        "from the arc's start to its centre",
-        "vom Anfang des Bogens zum Mittelpunkt",
-    ),
-    Variable::number("JRel", Presence::Arcs, "likewise", "ebenso"),
-    Variable::number("Radius", Presence::Arcs, "the arc's radius", "der Radius des Bogens"),
-    Variable::number("StartAngle", Presence::Arcs, "degrees from 0 to 360", "Grad von 0 bis 360"),
-    Variable::number("EndAngle", Presence::Arcs, "likewise", "ebenso"),
-    Variable::number(
-        "SweepAngle",
-        Presence::Arcs,
-        "degrees, clockwise negative",
-        "Grad, im Uhrzeigersinn negativ",
-    ),
-    Variable::number(
-        "ArcDir",
-        Presence::Arcs,
-        "0 clockwise, 1 counter-clockwise",
-        "0 im Uhrzeigersinn, 1 gegen ihn",
-    ),
-    Variable::number("XB1", Presence::Never, "a curve's control point", "ein Kontrollpunkt einer Kurve"),
-    Variable::number("YB1", Presence::Never, "likewise", "ebenso"),
-    Variable::number("XB2", Presence::Never, "likewise", "ebenso"),
-    Variable::number("YB2", Presence::Never, "likewise", "ebenso"),
-    Variable::number(
-        "ElementNo",
-        Presence::Elements,
-        "number of the element in its contour, from 1",
-        "Nummer des Elements in seiner Kontur, ab 1",
-    ),
-    Variable::number(
-        "ContourNo",
-        Presence::Contours,
-        "number of the contour, from 1",
-        "Nummer der Kontur, ab 1",
-    ),
-    Variable::number(
-        "ToolChanged",
-        Presence::FirstMove,
-        "1 in the first call after a tool change",
-        "1 beim ersten Aufruf nach einem Werkzeugwechsel",
-    ),
-    Variable::number("ToolDiameter", Presence::Always, "O", "O"),
-    Variable::text("PathName", Presence::Always, "the path", "der Pfad"),
-    Variable::text("SourceFile", Presence::Always, "the drawing", "die Zeichnung"),
-    Variable::text("ToolName", Presence::Always, "the tool's name", "der Name des Werkzeugs"),
-    Variable::number("Decimals", Presence::Always, "`[post] decimals`", "`[post] decimals`"),
-    Variable::text("Date", Presence::Dated, "the date", "das Datum"),
-    Variable::number(
-        "PeckDepth",
-        Presence::Holes,
-        "depth of each plunge, 0 without chip breaking",
-        "Tiefe je Stich, 0 ohne Spanbruch",
-    ),
-    Variable::number("DwellTime", Presence::Waits, "seconds", "Sekunden"),
-    Variable::text("CommentText", Presence::Comments, "the comment", "der Kommentar"),
-    Variable::number(
-        "SpinUpTime",
-        Presence::Always,
-        "seconds until the spindle turns (`spin-up`)",
-        "Sekunden, bis die Spindel dreht (`spin-up`)",
-    ),
-];
+        "1 beim ersten Element einer Kontur und wo ihr Vorschub wechselt";
+    "LastContourElement" number Elements,
+        "1 for the last element of a contour", "1 beim letzten Element einer Kontur";
+    "UpdateXYPosition" number Contours, "1", "1";
+    "UseAuxPoint" number Contours, "0", "0";
+    "UpdateCutterRotationOnly" number Contours, "0", "0";
+    "LineNumber" number Always,
+        "begins at 10; the text `line-number` raises it", "beginnt bei 10; der Text `line-number` erhöht sie";
+    "PrgName" text Always, "the program's name", "der Name des Programms";
+    "Units" number Always, "0 millimetres, 2 inches", "0 Millimeter, 2 Zoll";
+    "ToolChangeCommands" number Always, "1", "1";
+    "MachinePosX" number Always, "0", "0";
+    "MachinePosY" number Always, "0", "0";
+    "XC" number Arcs, "the arc's centre", "der Mittelpunkt des Bogens";
+    "YC" number Arcs, "likewise", "ebenso";
+    "IRel" number Arcs, "from the arc's start to its centre", "vom Anfang des Bogens zum Mittelpunkt";
+    "JRel" number Arcs, "likewise", "ebenso";
+    "Radius" number Arcs, "the arc's radius", "der Radius des Bogens";
+    "StartAngle" number Arcs, "degrees from 0 to 360", "Grad von 0 bis 360";
+    "EndAngle" number Arcs, "likewise", "ebenso";
+    "SweepAngle" number Arcs, "degrees, clockwise negative", "Grad, im Uhrzeigersinn negativ";
+    "ArcDir" number Arcs, "0 clockwise, 1 counter-clockwise", "0 im Uhrzeigersinn, 1 gegen ihn";
+    "XB1" number Never, "a curve's control point", "ein Kontrollpunkt einer Kurve";
+    "YB1" number Never, "likewise", "ebenso";
+    "XB2" number Never, "likewise", "ebenso";
+    "YB2" number Never, "likewise", "ebenso";
+    "ElementNo" number Elements,
+        "number of the element in its contour, from 1", "Nummer des Elements in seiner Kontur, ab 1";
+    "ContourNo" number Contours, "number of the contour, from 1", "Nummer der Kontur, ab 1";
+    "ToolChanged" number FirstMove,
+        "1 in the first call after a tool change", "1 beim ersten Aufruf nach einem Werkzeugwechsel";
+    "ToolDiameter" number Always, "O", "O";
+    "PathName" text Always, "the path", "der Pfad";
+    "SourceFile" text Always, "the drawing", "die Zeichnung";
+    "ToolName" text Always, "the tool's name", "der Name des Werkzeugs";
+    "Decimals" number Always, "`[post] decimals`", "`[post] decimals`";
+    "Date" text Dated, "the date", "das Datum";
+    "PeckDepth" number Holes,
+        "depth of each plunge, 0 without chip breaking", "Tiefe je Stich, 0 ohne Spanbruch";
+    "DwellTime" number Waits, "seconds", "Sekunden";
+    "CommentText" text Comments, "the comment", "der Kommentar";
+    "SpinUpTime" number Always,
+        "seconds until the spindle turns (`spin-up`)", "Sekunden, bis die Spindel dreht (`spin-up`)";
+}
 
 /// The reason why a variable is not available in some places, or `None` if pathbuild sets no such variable.
 pub(super) fn reason(name: &str) -> Option<&'static Text> {

@@ -201,7 +201,7 @@ impl<'a> CbppReader<'a> {
         let definition = Definition {
             sections: vec![None; Section::ALL.len()],
             defaults: Section::ALL.iter().map(default).collect(),
-            options: Options::default(),
+            options: Options::initial(),
             macros: UserMacros::default(),
         };
         Self { file, lines, definition, seen: HashSet::new(), findings: Findings::default() }

@@ -4,8 +4,8 @@ use pathbuild_diagnostic::Text;
 
 use crate::number::NumberFormat;
 
-/// All options, initially with the defaults for absent elements.
-#[derive(Clone, Debug, PartialEq)]
+/// All options.
+#[derive(Clone, Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "the file's elements are independent switches")]
 pub(super) struct Options {
     pub(super) number_format: NumberFormat,
@@ -39,7 +39,7 @@ pub(super) struct Options {
 }
 
 /// How lines are numbered.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Numbering {
     pub(super) start: u32,
     pub(super) increment: u32,
@@ -51,45 +51,13 @@ pub(super) struct Numbering {
 }
 
 /// Settings for paths wrapped around a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rotary {
     pub(super) wrap: bool,
     /// The axis parallel to the cylinder: 0 is X, 1 is Y.
     pub(super) along: usize,
     /// The letter of the angle: 0 is A, 2 is C.
     pub(super) letter: usize,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            number_format: NumberFormat::decimals(1, 4),
-            end_of_line: "\r\n".into(),
-            upper_case: false,
-            add_line_numbers: false,
-            numbering: Numbering {
-                start: 1,
-                increment: 1,
-                prefix: "N".into(),
-                format: NumberFormat::decimals(0, 0),
-                space_after: true,
-                skip: "%O(:;".into(),
-            },
-            arcs_as_lines: false,
-            absolute_centres: false,
-            arc_tolerance: 0.01,
-            least_arc_length: 1e-4,
-            greatest_arc_radius: 1e6,
-            invert_arcs: false,
-            rapid_down: true,
-            suppress_parser_errors: false,
-            rotary: Rotary { wrap: false, along: 0, letter: 0 },
-            post_build_command: "".into(),
-            post_build_arguments: "".into(),
-            dialect: None,
-            extension: "nc".into(),
-        }
-    }
 }
 
 /// Why an option could not be set.
@@ -109,299 +77,105 @@ pub(super) struct ElementOption {
     set: fn(&mut Options, &str) -> OptionResult<()>,
     /// Default if the element is absent, as it would be written.
     pub(super) default: &'static str,
-    /// Whether the element is unknown to CamBam.
-    pub(super) is_own: bool,
     /// Meaning of the value, for the book.
     pub(super) about: Text,
 }
 
-/// All elements that contain values.
-pub(super) static OPTIONS: &[ElementOption] = &[
-    ElementOption {
-        element: "NumberFormat",
-        set: |o, v| put(&mut o.number_format, pattern(v.trim())),
-        default: "0.0###",
-        is_own: false,
-        about: Text { en: "pattern of all numbers", de: "Muster aller Zahlen" },
-    },
-    ElementOption {
-        element: "EndOfLine",
-        set: |o, v| put(&mut o.end_of_line, end_of_line(v)),
-        default: "\\r\\n",
-        is_own: false,
-        about: Text { en: "line ends", de: "Zeilenenden" },
-    },
-    ElementOption {
-        element: "UpperCase",
-        set: |o, v| put(&mut o.upper_case, boolean(v.trim())),
-        default: "false",
-        is_own: false,
-        about: Text { en: "whether lines are written in capitals", de: "ob Zeilen groß geschrieben werden" },
-    },
-    ElementOption {
-        element: "AddLineNumbers",
-        set: |o, v| put(&mut o.add_line_numbers, boolean(v.trim())),
-        default: "false",
-        is_own: false,
-        about: Text { en: "whether lines are numbered", de: "ob Zeilen nummeriert werden" },
-    },
-    ElementOption {
-        element: "LineNumberStart",
-        set: |o, v| put(&mut o.numbering.start, count(v.trim())),
-        default: "1",
-        is_own: false,
-        about: Text { en: "first number", de: "erste Nummer" },
-    },
-    ElementOption {
-        element: "LineNumberIncrement",
-        set: |o, v| put(&mut o.numbering.increment, count(v.trim())),
-        default: "1",
-        is_own: false,
-        about: Text { en: "from one number to the next", de: "von einer Nummer zur nächsten" },
-    },
-    ElementOption {
-        element: "LineNumberPrefix",
-        set: |o, v| put(&mut o.numbering.prefix, Ok(v.trim().into())),
-        default: "N",
-        is_own: false,
-        about: Text { en: "text in front of the number", de: "Text vor der Nummer" },
-    },
-    ElementOption {
-        element: "LineNumberFormat",
-        set: |o, v| put(&mut o.numbering.format, pattern(v.trim())),
-        default: "0",
-        is_own: false,
-        about: Text { en: "pattern of the number", de: "Muster der Nummer" },
-    },
-    ElementOption {
-        element: "LineNumberSpaceAfter",
-        set: |o, v| put(&mut o.numbering.space_after, boolean(v.trim())),
-        default: "true",
-        is_own: false,
-        about: Text { en: "whether a blank follows the number", de: "ob der Nummer ein Leerzeichen folgt" },
-    },
-    ElementOption {
-        element: "LineNumberSkip",
-        set: |o, v| put(&mut o.numbering.skip, Ok(v.trim().into())),
-        default: "%O(:;",
-        is_own: false,
-        about: Text {
-            en: "lines that begin with one of these have no number",
-            de: "Zeilen mit einem dieser Anfänge haben keine Nummer",
-        },
-    },
-    ElementOption {
-        element: "ArcOutput",
-        set: |o, v| put(&mut o.arcs_as_lines, arc_output(v.trim())),
-        default: "Normal",
-        is_own: false,
-        about: Text { en: "whether arcs become lines", de: "ob Bögen zu Strecken werden" },
-    },
-    ElementOption {
-        element: "ArcCenterMode",
-        set: |o, v| put(&mut o.absolute_centres, centre_mode(v.trim())),
-        default: "Incremental",
-        is_own: false,
-        about: Text {
-            en: "whether I and J are places or distances",
-            de: "ob I und J Orte oder Abstände sind",
-        },
-    },
-    ElementOption {
-        element: "ArcToLinesTolerance",
-        set: |o, v| put(&mut o.arc_tolerance, positive(v.trim())),
-        default: "0.01",
-        is_own: false,
-        about: Text {
-            en: "greatest distance of a line from its arc, in the program's unit",
-            de: "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms",
-        },
-    },
-    ElementOption {
-        element: "MinimumArcLength",
-        set: |o, v| put(&mut o.least_arc_length, length(v.trim())),
-        default: "0.0001",
-        is_own: false,
-        about: Text { en: "shorter arcs become lines", de: "kürzere Bögen werden Strecken" },
-    },
-    ElementOption {
-        element: "MaximumArcRadius",
-        set: |o, v| put(&mut o.greatest_arc_radius, positive(v.trim())),
-        default: "1000000",
-        is_own: false,
-        about: Text { en: "larger arcs become lines", de: "größere Bögen werden Strecken" },
-    },
-    ElementOption {
-        element: "ClearancePlaneAxis",
-        set: |_, v| {
-            choice(
-                v.trim(),
-                &Text { en: "Z: lathes are not supported", de: "Z: Drehmaschinen werden nicht unterstützt" },
-                &[("Z", ())],
-            )
-        },
-        default: "Z",
-        is_own: false,
-        about: Text {
-            en: "only this value: lathes are not supported",
-            de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
-        },
-    },
-    ElementOption {
-        element: "InvertArcs",
-        set: |o, v| put(&mut o.invert_arcs, boolean(v.trim())),
-        default: "false",
-        is_own: false,
-        about: Text {
-            en: "whether arcs in G18 turn the other way",
-            de: "ob Bögen in G18 andersherum drehen",
-        },
-    },
-    ElementOption {
-        element: "RapidDownToClearance",
-        set: |o, v| put(&mut o.rapid_down, boolean(v.trim())),
-        default: "true",
-        is_own: false,
-        about: Text {
-            en: "whether the tool moves down to the clearance plane by a rapid move",
-            de: "ob der Fräser im Eilgang zur Sicherheitsebene hinunterfährt",
-        },
-    },
-    ElementOption {
-        element: "SuppressParserErrors",
-        set: |o, v| put(&mut o.suppress_parser_errors, boolean(v.trim())),
-        default: "false",
-        is_own: false,
-        about: Text {
-            en: "whether lines that are no G-code pass without a warning",
-            de: "ob Zeilen, die kein G-Code sind, ohne Warnung bleiben",
-        },
-    },
-    ElementOption {
-        element: "LatheXMode",
-        set: |_, v| {
-            choice(
-                v.trim(),
-                &Text {
-                    en: "Radius: lathes are not supported",
-                    de: "Radius: Drehmaschinen werden nicht unterstützt",
-                },
-                &[("Radius", ())],
-            )
-        },
-        default: "Radius",
-        is_own: false,
-        about: Text {
-            en: "only this value: lathes are not supported",
-            de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
-        },
-    },
-    ElementOption {
-        element: "LatheToolRadiusOffset",
-        set: |_, v| {
-            choice(
-                v.trim(),
-                &Text {
-                    en: "false: lathes are not supported",
-                    de: "false: Drehmaschinen werden nicht unterstützt",
-                },
-                &[("false", ())],
-            )
-        },
-        default: "false",
-        is_own: false,
-        about: Text {
-            en: "only this value: lathes are not supported",
-            de: "nur dieser Wert: Drehmaschinen sind nicht vorgesehen",
-        },
-    },
-    ElementOption {
-        element: "RotaryWrap",
-        set: |o, v| put(&mut o.rotary.wrap, boolean(v.trim())),
-        default: "false",
-        is_own: false,
-        about: Text {
-            en: "whether paths are wrapped round a cylinder",
-            de: "ob Pfade um einen Zylinder gewickelt werden",
-        },
-    },
-    ElementOption {
-        element: "AxisOfRotation",
-        set: |o, v| put(&mut o.rotary.along, axis(v.trim())),
-        default: "X",
-        is_own: false,
-        about: Text { en: "the axis along the cylinder", de: "die Achse längs des Zylinders" },
-    },
-    ElementOption {
-        element: "AxisOfSpin",
-        set: |o, v| put(&mut o.rotary.along, axis(v.trim())),
-        default: "X",
-        is_own: false,
-        about: Text { en: "the same, as the manual calls it", de: "dasselbe, wie das Handbuch es nennt" },
-    },
-    ElementOption {
-        element: "RotaryAxis",
-        set: |o, v| {
-            put(
-                &mut o.rotary.letter,
-                choice(
-                    v.trim(),
-                    &Text { en: "A, B or C", de: "A, B oder C" },
-                    &[("A", 0), ("B", 1), ("C", 2)],
-                ),
-            )
-        },
-        default: "A",
-        is_own: false,
-        about: Text { en: "the letter of the angle", de: "der Buchstabe des Winkels" },
-    },
-    ElementOption {
-        element: "PostBuildCommand",
-        set: |o, v| put(&mut o.post_build_command, Ok(v.trim().into())),
-        default: "",
-        is_own: false,
-        about: Text {
-            en: "program that is run on the file, only with `--run-post-build`",
-            de: "Programm, das die Datei bearbeitet, nur mit `--run-post-build`",
-        },
-    },
-    ElementOption {
-        element: "PostBuildCommandArgs",
-        set: |o, v| put(&mut o.post_build_arguments, Ok(v.trim().into())),
-        default: "",
-        is_own: false,
-        about: Text {
-            en: "its arguments; no shell reads them",
-            de: "seine Argumente; keine Shell liest sie",
-        },
-    },
-    ElementOption {
-        element: "Notes",
-        set: |_, _| Ok(()),
-        default: "",
-        is_own: false,
-        about: Text { en: "a comment on the definition", de: "ein Kommentar zur Definition" },
-    },
-    ElementOption {
-        element: "Dialect",
-        set: |o, v| put(&mut o.dialect, Ok((!v.trim().is_empty()).then(|| v.trim().into()))),
-        default: "",
-        is_own: true,
-        about: Text {
-            en: "the dialect in which the output is read back",
-            de: "der Dialekt, in dem die Ausgabe zurückgelesen wird",
-        },
-    },
-    ElementOption {
-        element: "FileExtension",
-        set: |o, v| put(&mut o.extension, extension(v.trim())),
-        default: "nc",
-        is_own: true,
-        about: Text { en: "extension of the files that are written", de: "Endung der geschriebenen Dateien" },
-    },
-];
+/// The permitted values of options that only lathes need.
+const ONLY_Z: Text =
+    Text { en: "Z: lathes are not supported", de: "Z: Drehmaschinen werden nicht unterstützt" };
+const ONLY_RADIUS: Text =
+    Text { en: "Radius: lathes are not supported", de: "Radius: Drehmaschinen werden nicht unterstützt" };
+const ONLY_FALSE: Text =
+    Text { en: "false: lathes are not supported", de: "false: Drehmaschinen werden nicht unterstützt" };
+
+/// Declares the elements that contain values: each with its default if it is absent, how its value is read, and its meaning for the book.
+macro_rules! element_options {
+    ($($element:literal = $default:literal, $set:expr, $en:literal, $de:literal;)*) => {
+        /// All elements that contain values.
+        pub(super) static OPTIONS: &[ElementOption] = &[$(ElementOption {
+            element: $element,
+            set: $set,
+            default: $default,
+            about: Text { en: $en, de: $de },
+        },)*];
+    };
+}
+
+element_options! {
+    "NumberFormat" = "0.0###", |o, v| put(&mut o.number_format, pattern(v)),
+        "pattern of all numbers", "Muster aller Zahlen";
+    "EndOfLine" = "\\r\\n", |o, v| put(&mut o.end_of_line, end_of_line(v)),
+        "line ends", "Zeilenenden";
+    "UpperCase" = "false", |o, v| put(&mut o.upper_case, boolean(v)),
+        "whether lines are written in capitals", "ob Zeilen groß geschrieben werden";
+    "AddLineNumbers" = "false", |o, v| put(&mut o.add_line_numbers, boolean(v)),
+        "whether lines are numbered", "ob Zeilen nummeriert werden";
+    "LineNumberStart" = "1", |o, v| put(&mut o.numbering.start, count(v)),
+        "first number", "erste Nummer";
+    "LineNumberIncrement" = "1", |o, v| put(&mut o.numbering.increment, count(v)),
+        "from one number to the next", "von einer Nummer zur nächsten";
+    "LineNumberPrefix" = "N", |o, v| put(&mut o.numbering.prefix, text(v)),
+        "text in front of the number", "Text vor der Nummer";
+    "LineNumberFormat" = "0", |o, v| put(&mut o.numbering.format, pattern(v)),
+        "pattern of the number", "Muster der Nummer";
+    "LineNumberSpaceAfter" = "true", |o, v| put(&mut o.numbering.space_after, boolean(v)),
+        "whether a blank follows the number", "ob der Nummer ein Leerzeichen folgt";
+    "LineNumberSkip" = "%O(:;", |o, v| put(&mut o.numbering.skip, text(v)),
+        "lines that begin with one of these have no number",
+        "Zeilen mit einem dieser Anfänge haben keine Nummer";
+    "ArcOutput" = "Normal", |o, v| put(&mut o.arcs_as_lines, arc_output(v)),
+        "whether arcs become lines", "ob Bögen zu Strecken werden";
+    "ArcCenterMode" = "Incremental", |o, v| put(&mut o.absolute_centres, centre_mode(v)),
+        "whether I and J are places or distances", "ob I und J Orte oder Abstände sind";
+    "ArcToLinesTolerance" = "0.01", |o, v| put(&mut o.arc_tolerance, positive(v)),
+        "greatest distance of a line from its arc, in the program's unit",
+        "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms";
+    "MinimumArcLength" = "0.0001", |o, v| put(&mut o.least_arc_length, length(v)),
+        "shorter arcs become lines", "kürzere Bögen werden Strecken";
+    "MaximumArcRadius" = "1000000", |o, v| put(&mut o.greatest_arc_radius, positive(v)),
+        "larger arcs become lines", "größere Bögen werden Strecken";
+    "ClearancePlaneAxis" = "Z", |_, v| choice(v, &ONLY_Z, &[("Z", ())]),
+        "only this value: lathes are not supported", "nur dieser Wert: Drehmaschinen sind nicht vorgesehen";
+    "InvertArcs" = "false", |o, v| put(&mut o.invert_arcs, boolean(v)),
+        "whether arcs in G18 turn the other way", "ob Bögen in G18 andersherum drehen";
+    "RapidDownToClearance" = "true", |o, v| put(&mut o.rapid_down, boolean(v)),
+        "whether the tool moves down to the clearance plane by a rapid move",
+        "ob der Fräser im Eilgang zur Sicherheitsebene hinunterfährt";
+    "SuppressParserErrors" = "false", |o, v| put(&mut o.suppress_parser_errors, boolean(v)),
+        "whether lines that are no G-code pass without a warning",
+        "ob Zeilen, die kein G-Code sind, ohne Warnung bleiben";
+    "LatheXMode" = "Radius", |_, v| choice(v, &ONLY_RADIUS, &[("Radius", ())]),
+        "only this value: lathes are not supported", "nur dieser Wert: Drehmaschinen sind nicht vorgesehen";
+    "LatheToolRadiusOffset" = "false", |_, v| choice(v, &ONLY_FALSE, &[("false", ())]),
+        "only this value: lathes are not supported", "nur dieser Wert: Drehmaschinen sind nicht vorgesehen";
+    "RotaryWrap" = "false", |o, v| put(&mut o.rotary.wrap, boolean(v)),
+        "whether paths are wrapped round a cylinder", "ob Pfade um einen Zylinder gewickelt werden";
+    "AxisOfRotation" = "X", |o, v| put(&mut o.rotary.along, axis(v)),
+        "the axis along the cylinder", "die Achse längs des Zylinders";
+    "AxisOfSpin" = "X", |o, v| put(&mut o.rotary.along, axis(v)),
+        "the same, as the manual calls it", "dasselbe, wie das Handbuch es nennt";
+    "RotaryAxis" = "A", |o, v| put(&mut o.rotary.letter, rotary_axis(v)),
+        "the letter of the angle", "der Buchstabe des Winkels";
+    "PostBuildCommand" = "", |o, v| put(&mut o.post_build_command, text(v)),
+        "program that is run on the file, only with `--run-post-build`",
+        "Programm, das die Datei bearbeitet, nur mit `--run-post-build`";
+    "PostBuildCommandArgs" = "", |o, v| put(&mut o.post_build_arguments, text(v)),
+        "its arguments; no shell reads them", "seine Argumente; keine Shell liest sie";
+    "Notes" = "", |_, _| Ok(()),
+        "a comment on the definition", "ein Kommentar zur Definition";
+    "Dialect" = "", |o, v| put(&mut o.dialect, optional_text(v)),
+        "the dialect in which the output is read back", "der Dialekt, in dem die Ausgabe zurückgelesen wird";
+    "FileExtension" = "nc", |o, v| put(&mut o.extension, extension(v)),
+        "extension of the files that are written", "Endung der geschriebenen Dateien";
+}
 
 impl ElementOption {
+    /// Whether the element is unknown to CamBam.
+    pub(super) fn is_own(&self) -> bool {
+        matches!(self.element, "Dialect" | "FileExtension")
+    }
+
     /// Permitted values, or `None` if any text is permitted.
     pub(super) fn expected(&self) -> Option<&'static Text> {
         // This value is rejected by all elements that restrict their values.
@@ -413,6 +187,16 @@ impl ElementOption {
 }
 
 impl Options {
+    /// The options of a definition without any of the elements.
+    pub(super) fn initial() -> Self {
+        let mut options = Self::default();
+        for option in OPTIONS {
+            // The defaults are among the permitted values.
+            _ = (option.set)(&mut options, option.default);
+        }
+        options
+    }
+
     /// Sets the option of an element. The value may be padded with blanks.
     pub(super) fn set(&mut self, element: &str, text: &str) -> Result<(), Refusal> {
         let option = OPTIONS.iter().find(|option| option.element == element).ok_or(Refusal::Unknown)?;
@@ -430,8 +214,20 @@ fn put<T>(option: &mut T, value: OptionResult<T>) -> OptionResult<()> {
 /// Compares without regard to case and blanks, because files spell `Convert To Lines` in several ways.
 fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> OptionResult<T> {
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
-    let found = choices.iter().find(|(name, _)| plain(name) == plain(value));
+    let found = choices.iter().find(|(name, _)| plain(name) == plain(value.trim()));
     found.map(|(_, choice)| *choice).ok_or(Refusal::Expected(expected))
+}
+
+fn text(value: &str) -> OptionResult<Box<str>> {
+    Ok(value.trim().into())
+}
+
+fn optional_text(value: &str) -> OptionResult<Option<Box<str>>> {
+    text(value).map(|text| (!text.is_empty()).then_some(text))
+}
+
+fn rotary_axis(value: &str) -> OptionResult<usize> {
+    choice(value, &Text { en: "A, B or C", de: "A, B oder C" }, &[("A", 0), ("B", 1), ("C", 2)])
 }
 
 fn axis(value: &str) -> OptionResult<usize> {
@@ -459,7 +255,7 @@ fn centre_mode(value: &str) -> OptionResult<bool> {
 }
 
 fn pattern(value: &str) -> OptionResult<NumberFormat> {
-    value.parse().map_err(|()| {
+    value.trim().parse().map_err(|()| {
         Refusal::Expected(&Text {
             en: "a pattern of 0, # and at most one point",
             de: "ein Muster aus 0, # und höchstens einem Punkt",
@@ -468,11 +264,11 @@ fn pattern(value: &str) -> OptionResult<NumberFormat> {
 }
 
 fn count(value: &str) -> OptionResult<u32> {
-    value.parse().map_err(|_| Refusal::Expected(&Text { en: "a whole number", de: "eine ganze Zahl" }))
+    value.trim().parse().map_err(|_| Refusal::Expected(&Text { en: "a whole number", de: "eine ganze Zahl" }))
 }
 
 fn length(value: &str) -> OptionResult<f64> {
-    let number = value.parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
+    let number = value.trim().parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
     number.ok_or(Refusal::Expected(&Text { en: "a number from 0", de: "eine Zahl ab 0" }))
 }
 
@@ -502,6 +298,6 @@ fn end_of_line(text: &str) -> OptionResult<Box<str>> {
 }
 
 fn extension(value: &str) -> OptionResult<Box<str>> {
-    crate::extension(value)
+    crate::extension(value.trim())
         .ok_or(Refusal::Expected(&Text { en: "a file name's extension", de: "die Endung eines Dateinamens" }))
 }

@@ -19,7 +19,7 @@ pub(crate) fn sections(lang: Lang) -> Vec<Row> {
 /// Elements that contain a value: name, permitted values, default, meaning.
 pub(crate) fn options(lang: Lang) -> Vec<Row> {
     let row = |option: &super::options::ElementOption| {
-        let own = if option.is_own { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
+        let own = if option.is_own() { format!("{}: ", OWN.in_lang(lang)) } else { String::new() };
         let about = format!("{own}{}", option.about.in_lang(lang));
         vec![
             code(option.element),

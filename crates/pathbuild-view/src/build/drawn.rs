@@ -3,13 +3,15 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::ElementId;
+use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{
-    AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, Placement, Position,
-    RawPath, Role, Shape as DrawnShape, SourceMap, Xy,
+    Arc, AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, Placement, Position,
+    RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy,
 };
 
+use crate::ArcShape;
 use crate::scene::{
-    Arc, Element, ElementKind, EmbeddedPath, KeepOut, Label, Parameter, Point, ScenePath, Shape,
+    Element, ElementKind, EmbeddedPath, KeepOut, Label, OtherShape, Parameter, Point, ScenePath, Shape,
 };
 
 /// A path as it is drawn.
@@ -203,7 +205,7 @@ fn placed(shape: &DrawnShape, placement: &Placement) -> Shape {
 pub(super) fn curve_shape(curve: &Curve) -> Shape {
     match curve {
         Curve::Line(line) => Shape::Line { from: pair(line.start), to: pair(line.end) },
-        Curve::Arc(arc) => Shape::Arc(Arc {
+        Curve::Arc(arc) => Shape::Arc(ArcShape {
             from: pair(arc.start),
             to: pair(arc.end),
             centre: pair(arc.centre),
@@ -220,4 +222,43 @@ pub(super) fn pair(point: Xy) -> Point {
 
 pub(super) fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+// Shapes on layers without a path.
+
+/// The shapes of a drawing that was read without its path layers.
+pub fn other_layers(drawing: &Drawing) -> Vec<OtherShape> {
+    drawing.entities.iter().map(|entity| other(drawing, entity)).collect()
+}
+
+fn other(drawing: &Drawing, entity: &Entity) -> OtherShape {
+    let layer = drawing.layers[entity.layer as usize].name.to_string();
+    let text = |circle: TextCircle, text: &str, height, rotation| OtherShape::Text {
+        layer: layer.clone(),
+        text: text.to_owned(),
+        at: pair(circle.centre),
+        height,
+        rotation,
+    };
+    match &entity.geometry {
+        Geometry::Line(line) => {
+            let [from, to] = [line.start, line.end].map(|end| [end.x, end.y]);
+            OtherShape::Shape { layer, shape: Shape::Line { from, to } }
+        }
+        Geometry::Arc(arc) => {
+            let centre = Xy::new(arc.centre.x, arc.centre.y);
+            let arc = Arc::from_angles(centre, arc.radius, arc.start_angle, arc.end_angle, arc.clockwise);
+            OtherShape::Shape { layer, shape: curve_shape(&Curve::Arc(arc)) }
+        }
+        Geometry::Circle(circle) => {
+            let centre = [circle.centre.x, circle.centre.y];
+            OtherShape::Shape { layer, shape: Shape::Circle { centre, radius: circle.radius } }
+        }
+        Geometry::Text(entity) => {
+            text(TextCircle::of_text(entity), &entity.string, entity.height, entity.rotation)
+        }
+        Geometry::MText(entity) => {
+            text(TextCircle::of_mtext(entity), &entity.plain, entity.height, entity.rotation)
+        }
+    }
 }

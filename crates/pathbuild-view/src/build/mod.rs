@@ -1,14 +1,36 @@
 //! Scenes from programs, drawings and G-code.
 
 mod drawn;
-mod finding;
-mod gcode;
-mod lines;
-mod other;
 mod program;
 
-pub use drawn::{DrawnSource, drawn_path, keep_out};
-pub use finding::findings;
-pub use gcode::{GcodeSource, gcode_path};
-pub use other::other_layers;
-pub use program::{EmittedText, ProgramSource, program_path};
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+
+use crate::scene::{BilingualText, Finding};
+
+pub use drawn::{DrawnSource, drawn_path, keep_out, other_layers};
+pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
+
+// Findings with their places.
+
+/// Numbers findings. `file` is the drawing shown: a finding in another drawing is placed where that is embedded.
+pub fn findings(diagnostics: &[Diagnostic], file: &str) -> Vec<Finding> {
+    (1..).zip(diagnostics).map(|(number, diagnostic)| finding(number, diagnostic, file)).collect()
+}
+
+fn finding(number: usize, diagnostic: &Diagnostic, file: &str) -> Finding {
+    let is_here = diagnostic.file.as_ref().is_some_and(|found| found == file);
+    let outermost = diagnostic.trace.first().filter(|step| step.file == file).map(|step| step.point);
+    let own = diagnostic.place.point.filter(|_| is_here);
+    let help = |lang| diagnostic.help(lang).unwrap_or_default();
+    Finding {
+        number,
+        code: diagnostic.code().to_string(),
+        is_error: diagnostic.is_error(),
+        message: BilingualText { en: diagnostic.text(Lang::En), de: diagnostic.text(Lang::De) },
+        help: BilingualText { en: help(Lang::En), de: help(Lang::De) },
+        file: diagnostic.file.as_ref().map(|file| shown::line(file.as_str()).into_owned()),
+        path: diagnostic.path.as_deref().map(str::to_owned),
+        line: diagnostic.place.line,
+        at: own.or(outermost).map(|point| [point.x.0, point.y.0]),
+    }
+}

@@ -1,16 +1,16 @@
 //! Scenes of paths with their programs.
 
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
 use pathbuild_gcode::statistics::statistics;
-use pathbuild_motion as motion;
+use pathbuild_gcode::summary::Summary;
+use pathbuild_motion::{Axes, Move, Pace, Position, Step};
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
 use pathbuild_toolpath::{Occurrence, Program, StepOrigin, Trace, support_bars};
 
 use super::drawn::{DrawnSource, curve_shape, pair};
-use super::gcode::plain_lines;
-use super::lines::lines_of_moves;
 use crate::scene::{
-    Bar, ElementKind, EmbeddedPath, Move, MoveKind, NativeText, ProbeMark, ScenePath, Totals,
+    Bar, ElementKind, EmbeddedPath, MoveKind, NativeText, ProbeMark, SceneMove, ScenePath, Totals,
 };
 
 /// The number of the parameter for the first probe.
@@ -158,9 +158,9 @@ impl Builder {
         }
     }
 
-    fn moves(&mut self, ways: &[(u32, motion::Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
+    fn moves(&mut self, ways: &[(u32, Move)], trace: &Trace<usize>, lines: &[Option<u32>]) {
         for ((step, way), line) in ways.iter().zip(lines) {
-            let mut movement = Move::new(*way, *line);
+            let mut movement = SceneMove::new(*way, *line);
             let step = *step as usize - 1;
             movement.element = trace.steps.get(step).and_then(|drawn| self.element(*drawn));
             let kind = movement.element.map(|element| self.scene.elements[element as usize].kind);
@@ -189,4 +189,133 @@ impl Builder {
 fn circle(centre: Xy, radius: f64) -> Curve {
     let low = Xy::new(centre.x, centre.y - radius);
     Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })
+}
+
+// Scenes of G-code programs.
+
+/// A G-code program that was read.
+#[derive(Clone, Copy, Debug)]
+pub struct GcodeSource<'a> {
+    /// The display name of its file.
+    pub file: &'a str,
+    /// Its interpreted steps.
+    pub steps: &'a [Step],
+    /// Its text; invalid UTF-8 is replaced.
+    pub text: &'a [u8],
+    /// Cutter diameter in mm, if known.
+    pub tool: Option<f64>,
+    /// The value of `--rapid` in mm/min.
+    pub rapid: Option<f64>,
+}
+
+/// Converts line ends to LF, so that lines are the ones that the reader counts.
+fn plain_lines(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text);
+    if text.contains('\n') { text.replace("\r\n", "\n").replace('\r', " ") } else { text.replace('\r', "\n") }
+}
+
+/// The scene of a program, without elements.
+pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
+    let moves = source.steps.iter().filter_map(Step::as_move);
+    let summary = Summary::of(source.steps, false).total;
+    ScenePath {
+        name: source.file.to_owned(),
+        file: source.file.to_owned(),
+        tool: source.tool,
+        moves: moves.map(|(line, way)| SceneMove::new(way, Some(line))).collect(),
+        totals: Some(Totals {
+            milling: summary.milling.total.length,
+            drilling: summary.drilling.total.length,
+            sweeps: summary.rapid.total.length,
+            minutes: source
+                .rapid
+                .map(|rapid| summary.sum(rapid).minutes())
+                .filter(|minutes| minutes.is_finite()),
+        }),
+        gcode: Some(plain_lines(source.text)),
+        ..ScenePath::default()
+    }
+}
+
+// Matches the moves of a program with lines of its text. A post may write other rapid moves than the native program, cycles for holes, and
+// several lines for a move, so lines are matched by the ends of moves.
+
+/// Tolerance in mm within which two ends are the same: larger than the rounding error of inches with four decimals.
+const SAME_PLACE: f64 = 0.006;
+
+/// Maximum number of moves in the text that are searched for the end of one move.
+const SEARCHED: usize = 4096;
+
+/// For each move of a program, its line in the text that was written from it; `None` if there is none.
+fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u32>> {
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let mut written: Vec<(u32, Move)> = Vec::new();
+    interpret_each(text, dialect, &options, &mut |step| {
+        // Moves before the first fully known position belong to the frame.
+        if let Some((line, movement)) = step.as_move()
+            && (!written.is_empty() || movement.from.known == Axes::ALL)
+        {
+            written.push((line, movement));
+        }
+    });
+    let mut finder = Finder { written: &written, next: 0, last: None };
+    moves.iter().map(|movement| finder.line(movement)).collect()
+}
+
+struct Finder<'a> {
+    written: &'a [(u32, Move)],
+    /// Index of the first written move that is not matched yet.
+    next: usize,
+    last: Option<u32>,
+}
+
+impl Finder<'_> {
+    fn line(&mut self, movement: &Move) -> Option<u32> {
+        match movement.pace {
+            Pace::Rapid => self.rapid(movement),
+            Pace::Feed(_) | Pace::Probe { .. } => self.cut(movement),
+        }
+    }
+
+    /// The first line of a cut. The cut ends where its last piece ends.
+    fn cut(&mut self, movement: &Move) -> Option<u32> {
+        let is_cut = |(_, written): &(u32, Move)| !matches!(written.pace, Pace::Rapid);
+        let rest = &self.written[self.next..self.written.len().min(self.next + SEARCHED)];
+        let ends =
+            |candidate: &(u32, Move)| is_cut(candidate) && is_same(&candidate.1.to, &movement.to, Axes::ALL);
+        let end = rest.iter().position(ends)?;
+        let first = rest[..=end].iter().find(|candidate| is_cut(candidate))?.0;
+        self.next += end + 1;
+        self.last = Some(first);
+        Some(first)
+    }
+
+    /// The line of a rapid move before the next cut: one with the same ends, or else with the same end, or else in the same direction. If
+    /// one line stands for several moves, it is the line of the move before.
+    fn rapid(&mut self, movement: &Move) -> Option<u32> {
+        let rest = &self.written[self.next..];
+        let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
+        let rapids: Vec<&Move> = rapids.take(SEARCHED).map(|(_, written)| written).collect();
+        let moved = if movement.is_upright() { Axes::Z } else { Axes::XY };
+        let has_both = |written: &&Move| {
+            is_same(&written.from, &movement.from, Axes::ALL) && is_same(&written.to, &movement.to, Axes::ALL)
+        };
+        let has_end = |written: &&Move| is_same(&written.to, &movement.to, Axes::ALL);
+        let has_part = |written: &&Move| is_same(&written.to, &movement.to, moved);
+        let found = rapids.iter().position(has_both);
+        let found = found.or_else(|| rapids.iter().position(has_end));
+        let found = found.or_else(|| rapids.iter().position(has_part));
+        if let Some(found) = found {
+            self.last = Some(rest[found].0);
+            self.next += found + 1;
+        }
+        self.last
+    }
+}
+
+/// Whether two places are the same along some axes.
+fn is_same(a: &Position, b: &Position, axes: Axes) -> bool {
+    (0..3).filter(|axis| axes.has(Axes::of(*axis))).all(|axis| {
+        a.known.and(b.known).has(Axes::of(axis)) && libm::fabs(a.at[axis] - b.at[axis]) < SAME_PLACE
+    })
 }

@@ -2,12 +2,12 @@
 
 use pathbuild_diagnostic::Lang;
 
-use super::canvas::{Anchor, Canvas, n};
+use super::canvas::{Anchor, BAR, Canvas, INK, OTHER, RAPID, n};
 use super::frame::{Frame, PageTransform, widen};
 use super::moves::data;
-use super::palette::{BAR, INK, OTHER, RAPID};
-use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
-use crate::scene::{Move, MoveKind, Point};
+use crate::changes::{Change, ChangeKind, Group, moves, phrase};
+use crate::groups;
+use crate::scene::{MoveKind, Point, SceneMove};
 
 /// Added moves are blue, removed ones vermilion and dashed. The dashes also distinguish them for the colour-blind.
 const ADDED: &str = "#0072b2";
@@ -32,13 +32,19 @@ pub enum Picture {
 /// The programs of a path before and after a change, and the differences between them.
 #[derive(Clone, Copy, Debug)]
 struct Pair<'a> {
-    old: &'a [Move],
-    new: &'a [Move],
+    old: &'a [SceneMove],
+    new: &'a [SceneMove],
     changes: &'a [Change],
 }
 
 /// Draws a change. All pictures of a change have the same size and scale.
-pub fn changes_svg(old: &[Move], new: &[Move], changes: &[Change], picture: Picture, lang: Lang) -> String {
+pub fn changes_svg(
+    old: &[SceneMove],
+    new: &[SceneMove],
+    changes: &[Change],
+    picture: Picture,
+    lang: Lang,
+) -> String {
     let frame = frame(old.iter().chain(new));
     let place = frame.of_drawing();
     let pair = Pair { old, new, changes };
@@ -90,13 +96,13 @@ impl Pair<'_> {
 
 const DASHES: &str = " stroke-dasharray=\"5 4\"";
 
-fn all(canvas: &mut Canvas, moves: &[Move], place: &PageTransform, color: &str) {
+fn all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &str) {
     for movement in moves {
         stroke(canvas, movement, place, color, "");
     }
 }
 
-fn stroke(canvas: &mut Canvas, movement: &Move, place: &PageTransform, color: &str, dashes: &str) {
+fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str, dashes: &str) {
     if !movement.is_placed() || movement.kind == MoveKind::Lift {
         return;
     }
@@ -139,9 +145,9 @@ fn entry(canvas: &mut Canvas, group: &Group, top: f64, lang: Lang) {
     canvas.text([86.0, middle + LETTERS / 3.0], LETTERS, Anchor::Start, &format!("fill=\"{INK}\""), &text);
 }
 
-fn frame<'a>(moves: impl Iterator<Item = &'a Move>) -> Frame {
+fn frame<'a>(moves: impl Iterator<Item = &'a SceneMove>) -> Frame {
     let mut corners: Option<[Point; 2]> = None;
-    for extent in moves.filter_map(Move::extent) {
+    for extent in moves.filter_map(SceneMove::extent) {
         widen(&mut corners, extent);
     }
     Frame::around(corners)

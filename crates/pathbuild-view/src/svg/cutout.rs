@@ -1,10 +1,9 @@
 //! Cut-outs of a drawing around a finding.
 
-use super::canvas::{Anchor, Canvas};
-use super::frame::{Frame, PageTransform, widen};
-use super::palette::{ERROR, INK, TEXT, WARNING};
-use super::room::Room;
-use super::{VisibleParts, things};
+use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING};
+use super::frame::VisibleParts;
+use super::frame::{Frame, PageTransform, Room, widen};
+use super::things;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
 

@@ -1,9 +1,8 @@
 //! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
-use super::VisibleParts;
-use super::canvas::{Anchor, Canvas, n};
+use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, n};
 use super::frame::Frame;
-use super::palette::{BAR, Depths, ERROR, INK, PROBE, TEXT, WARNING, color};
+use super::frame::VisibleParts;
 use super::things::SWEEP;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;

@@ -5,11 +5,10 @@ use std::fmt::Write;
 
 use pathbuild_motion::Path;
 
-use super::VisibleParts;
-use super::canvas::{Canvas, n};
+use super::canvas::{Canvas, Depths, KERF, RAPID, n};
 use super::frame::PageTransform;
-use super::palette::{Depths, KERF, RAPID};
-use crate::scene::{Move, MoveKind, Point, ScenePath};
+use super::frame::VisibleParts;
+use crate::scene::{MoveKind, Point, SceneMove, ScenePath};
 
 /// Minimum length in px of a move with an arrow.
 const ROOM_FOR_ARROW: f64 = 26.0;
@@ -19,7 +18,7 @@ const PIECES: u32 = 24;
 
 /// All moves along one line, regardless of direction: the direction of the first and the depth of the deepest.
 struct Cut<'a> {
-    way: &'a Move,
+    way: &'a SceneMove,
     depth: Option<f64>,
 }
 
@@ -80,7 +79,7 @@ fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransfo
 }
 
 /// Whether a plunge makes up its whole element. Without elements, every plunge looks like a hole.
-fn is_hole(movement: &Move, path: &ScenePath) -> bool {
+fn is_hole(movement: &SceneMove, path: &ScenePath) -> bool {
     movement.element.is_none_or(|element| {
         matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
     })
@@ -120,7 +119,7 @@ fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 /// Key that is equal for moves along the same line: the ends in either order, and the centre.
-fn line_of(movement: &Move) -> Vec<i64> {
+fn line_of(movement: &SceneMove) -> Vec<i64> {
     let mut ends = [movement.from(), movement.to()].map(|end| end.map(micrometres));
     ends.sort_unstable();
     let mut line: Vec<i64> = ends.concat();
@@ -159,7 +158,7 @@ fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: V
 }
 
 /// Draws a small triangle in the middle of a move, pointing in its direction.
-fn arrow(canvas: &mut Canvas, movement: &Move, place: &PageTransform, color: &str) {
+fn arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str) {
     let (before, at) = (place.at(along(movement, 0.59)), place.at(along(movement, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
     let length = libm::hypot(dx, dy);
@@ -175,13 +174,13 @@ fn arrow(canvas: &mut Canvas, movement: &Move, place: &PageTransform, color: &st
 }
 
 /// The point at a fraction (0 to 1) of a move.
-pub(super) fn along(movement: &Move, share: f64) -> Point {
+pub(super) fn along(movement: &SceneMove, share: f64) -> Point {
     let [x, y, _] = movement.way.point(share);
     [x, y]
 }
 
 /// A move as SVG path data; arcs in the plane stay arcs.
-pub(super) fn data(movement: &Move, place: &PageTransform) -> String {
+pub(super) fn data(movement: &SceneMove, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))

@@ -1,11 +1,13 @@
 //! Content of a setup sheet: checklist, facts and tables.
 
-use super::facts::{self, distinct};
+use super::data::{Sheet, SheetTool, Words, distinct};
 use super::flow::Block;
-use super::words::Words;
-use super::{Sheet, SheetTool};
 use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::legend::mm;
+use crate::svg::sheet::data::cleared;
+use crate::svg::sheet::data::feeds;
+use crate::svg::sheet::data::outline;
+use crate::svg::sheet::data::rapid_heights;
 
 /// Steps before running the program, in the order in which they are carried out.
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
@@ -109,7 +111,7 @@ fn cutter(sheet: &Sheet, words: Words) -> String {
 /// The position of the zero point.
 fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     let mut checks = Vec::new();
-    if let Some([low, _]) = facts::cleared(sheet) {
+    if let Some([low, _]) = cleared(sheet) {
         let (across, up) = (words.beside(low[0], true), words.beside(low[1], false));
         checks.push(words.either(
             format!("X0 Y0 is set (G54): {across} and {up} of the dashed rectangle"),
@@ -141,7 +143,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
         facts.fact("spindle", "Spindel", spindle(tool, words));
     }
     facts.heading("Feeds in mm/min", "Vorschübe in mm/min");
-    let feeds = |is_meant: fn(MoveKind) -> bool| listed(&facts::feeds(sheet, is_meant));
+    let feeds = |is_meant: fn(MoveKind) -> bool| listed(&feeds(sheet, is_meant));
     facts.fact("milling", "Fräsen", feeds(|kind| kind == MoveKind::Mill));
     facts.fact("marking", "Markieren", feeds(|kind| kind == MoveKind::Mark));
     facts.fact("plunging", "Eintauchen", feeds(|kind| kind == MoveKind::Plunge));
@@ -154,7 +156,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
         facts.fact(axis, axis, extent.map(range));
     }
     facts.fact("deepest", "am tiefsten", sheet.cutting_box[2].map(|(low, _)| format!("Z {}", mm(low))));
-    let rapids = facts::rapid_heights(sheet);
+    let rapids = rapid_heights(sheet);
     facts.fact("lowest rapid", "tiefster Eilgang", rapids.lowest().map(|z| format!("Z {}", mm(z))));
     facts.fact("rapid across", "Eilgang quer", listed(&rapids.across).map(|heights| format!("Z {heights}")));
     facts.fact("rapid down to", "Eilgang hinab", rapids.down.map(|z| format!("Z {}", mm(z))));
@@ -250,7 +252,7 @@ fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
 fn clamps(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
     let to = words.either("to", "bis");
     let row = |clamp: &crate::scene::KeepOut| {
-        let [low, high]: [Point; 2] = facts::outline(clamp);
+        let [low, high]: [Point; 2] = outline(clamp);
         let range = |axis: usize| format!("{} {to} {}", mm(low[axis]), mm(high[axis]));
         vec![clamp.layer.clone(), range(0), range(1), mm(clamp.height)]
     };
@@ -313,7 +315,7 @@ fn thicknesses(sheet: &Sheet) -> Option<String> {
 
 /// The size of the removed material in X and Y.
 fn size(sheet: &Sheet) -> Option<String> {
-    let [low, high] = facts::cleared(sheet)?;
+    let [low, high] = cleared(sheet)?;
     Some(format!("{} × {} mm", mm(high[0] - low[0]), mm(high[1] - low[1])))
 }
 

@@ -1,11 +1,15 @@
 //! Lays out blocks of text in columns and on pages.
 
-use super::page::Item;
 use crate::scene::Point;
+use crate::svg::canvas::OTHER;
+use crate::svg::canvas::{Anchor, Canvas, INK, n};
 
 /// Letter size and line height in units of the page.
 pub(super) const LETTERS: f64 = 10.0;
 pub(super) const LINE: f64 = 13.5;
+
+/// Maximum height of the picture on the first page; the rest is for checklist and facts.
+pub(super) const PICTURE: f64 = 440.0;
 
 /// Space above a heading and below a block.
 const ABOVE_HEADING: f64 = 8.0;
@@ -176,5 +180,60 @@ fn advance(letter: char) -> f64 {
 impl Column {
     pub(super) fn new([left, top]: Point, [right, bottom]: Point) -> Self {
         Self { left, width: right - left, top, bottom }
+    }
+}
+
+/// A positioned item on a page.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Item {
+    Text {
+        at: Point,
+        size: f64,
+        text: String,
+        is_bold: bool,
+    },
+    Rule {
+        from: Point,
+        to: Point,
+    },
+    /// A box to tick, given by its upper left corner.
+    Tick(Point),
+}
+
+impl Item {
+    pub(super) fn text(at: Point, size: f64, text: &str) -> Self {
+        Self::Text { at, size, text: text.to_owned(), is_bold: false }
+    }
+
+    pub(super) fn rule(from: Point, to: Point) -> Self {
+        Self::Rule { from, to }
+    }
+
+    pub(super) fn bold(mut self) -> Self {
+        self.make_bold();
+        self
+    }
+
+    fn make_bold(&mut self) {
+        if let Self::Text { is_bold, .. } = self {
+            *is_bold = true;
+        }
+    }
+
+    pub(super) fn draw(&self, canvas: &mut Canvas) {
+        match self {
+            Self::Text { at, size, text, is_bold } => {
+                let weight = if *is_bold { " font-weight=\"bold\"" } else { "" };
+                canvas.text(*at, *size, Anchor::Start, &format!("fill=\"{INK}\"{weight}"), text);
+            }
+            Self::Rule { from, to } => {
+                canvas.line(*from, *to, &format!("stroke=\"{OTHER}\" stroke-width=\"0.8\""));
+            }
+            Self::Tick([x, y]) => canvas.raw(&format!(
+                "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"none\" stroke=\"{INK}\"/>",
+                n(*x),
+                n(*y)
+            )),
+        }
     }
 }

@@ -3,12 +3,10 @@
 //! [`Sheet`] is the data; it becomes blocks, which are laid out on pages and drawn as SVG.
 
 mod blocks;
-mod facts;
+mod data;
 mod flow;
-mod measures;
 mod page;
 mod picture;
-mod words;
 
 use std::fmt::Write;
 
@@ -16,79 +14,10 @@ use pathbuild_diagnostic::Lang;
 #[cfg(not(feature = "pictures"))]
 use pathbuild_diagnostic::{Value, reasons::WITHOUT_PICTURES};
 
-use crate::scene::{BilingualText, Point, Scene};
 use crate::svg::canvas::escaped;
 
-/// The size of a page in mm.
-pub(super) const PAPER: Point = [210.0, 297.0];
-
-/// Units of a page's SVG per mm of paper: letters of 10 units have 9.4 pt.
-pub(super) const UNITS: f64 = 3.0;
-
-/// The data of a setup sheet. Lengths are in mm.
-#[derive(Clone, Debug)]
-pub struct Sheet {
-    /// The path's name, or the name given to joined paths.
-    pub title: String,
-    /// The drawings of the paths, without directories.
-    pub drawings: Vec<String>,
-    /// The names of the programs, in the order in which the machine runs them.
-    pub programs: Vec<String>,
-    /// The file for measured heights.
-    pub values: Option<String>,
-    /// The line of provenance in the programs' headers, and the line with the title.
-    pub head: [String; 2],
-    /// The hashes in that line.
-    pub hashes: String,
-    /// The scene in coordinates of the program.
-    pub scene: Scene,
-    /// The cutters in order of use.
-    pub tools: Vec<SheetTool>,
-    /// Whether the program starts the spindle.
-    pub starts_spindle: bool,
-    /// Ranges of X, Y and Z of the tool tip while cutting.
-    pub cutting_box: [Option<(f64, f64)>; 3],
-    /// The length of the program.
-    pub length: f64,
-    /// The duration; `None` if the rapid feed is unknown.
-    pub minutes: Option<f64>,
-    /// Rapid feed in mm/min.
-    pub rapid: Option<f64>,
-    /// Z-probes in measuring order.
-    pub probes: Vec<SheetProbe>,
-    /// Elements on the paths' layers that are not part of the programs.
-    pub left_out: Vec<BilingualText>,
-}
-
-/// A cutter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SheetTool {
-    /// Its diameter O.
-    pub diameter: f64,
-    /// Its tool number T in the machine.
-    pub number: Option<u32>,
-    /// Its name in the configuration.
-    pub name: Option<String>,
-    /// Spindle speed in revolutions per minute.
-    pub speed: Option<f64>,
-    /// Whether the spindle turns clockwise.
-    pub clockwise: Option<bool>,
-    /// The paths milled with it.
-    pub paths: Vec<String>,
-}
-
-/// A point that is measured before milling.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SheetProbe {
-    /// The parameter that holds its height: 51 for #51.
-    pub number: usize,
-    /// The text before its value in the file for measured heights.
-    pub name: String,
-    /// The position in the program.
-    pub at: Point,
-    /// The expected height.
-    pub height: f64,
-}
+use data::PAPER;
+pub use data::{Sheet, SheetProbe, SheetTool};
 
 /// The pages, each as an SVG file.
 pub fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {

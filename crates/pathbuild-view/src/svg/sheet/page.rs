@@ -3,13 +3,11 @@
 use pathbuild_diagnostic::Lang;
 
 use super::blocks;
-use super::flow::{Block, Column, LETTERS, breadth, lay, wrapped};
+use super::data::{PAPER, Sheet, UNITS, Words};
+use super::flow::{Block, Column, Item, LETTERS, PICTURE, breadth, lay, wrapped};
 use super::picture::{self, PlacedPicture};
-use super::words::Words;
-use super::{PAPER, Sheet, UNITS};
 use crate::scene::Point;
-use crate::svg::canvas::{Anchor, Canvas, n};
-use crate::svg::palette::{INK, OTHER, TEXT};
+use crate::svg::canvas::{Anchor, Canvas, INK, TEXT, n};
 
 /// The size of a page in units, and its margins.
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
@@ -21,9 +19,6 @@ const BOTTOM: f64 = FOOT - 16.0;
 
 /// The top of the text below the title.
 const BELOW_TITLE: f64 = TOP + 32.0;
-
-/// Maximum height of the picture on the first page; the rest is for checklist and facts.
-pub(super) const PICTURE: f64 = 440.0;
 
 /// Space between the columns of the first page.
 const GUTTER: f64 = 18.0;
@@ -39,61 +34,6 @@ const CHECKLIST: f64 = 0.54;
 pub(super) struct Page {
     pub(super) items: Vec<Item>,
     pub(super) picture: Option<PlacedPicture>,
-}
-
-/// A positioned item on a page.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Item {
-    Text {
-        at: Point,
-        size: f64,
-        text: String,
-        is_bold: bool,
-    },
-    Rule {
-        from: Point,
-        to: Point,
-    },
-    /// A box to tick, given by its upper left corner.
-    Tick(Point),
-}
-
-impl Item {
-    pub(super) fn text(at: Point, size: f64, text: &str) -> Self {
-        Self::Text { at, size, text: text.to_owned(), is_bold: false }
-    }
-
-    pub(super) fn rule(from: Point, to: Point) -> Self {
-        Self::Rule { from, to }
-    }
-
-    pub(super) fn bold(mut self) -> Self {
-        self.make_bold();
-        self
-    }
-
-    pub(super) fn make_bold(&mut self) {
-        if let Self::Text { is_bold, .. } = self {
-            *is_bold = true;
-        }
-    }
-
-    fn draw(&self, canvas: &mut Canvas) {
-        match self {
-            Self::Text { at, size, text, is_bold } => {
-                let weight = if *is_bold { " font-weight=\"bold\"" } else { "" };
-                canvas.text(*at, *size, Anchor::Start, &format!("fill=\"{INK}\"{weight}"), text);
-            }
-            Self::Rule { from, to } => {
-                canvas.line(*from, *to, &format!("stroke=\"{OTHER}\" stroke-width=\"0.8\""));
-            }
-            Self::Tick([x, y]) => canvas.raw(&format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"none\" stroke=\"{INK}\"/>",
-                n(*x),
-                n(*y)
-            )),
-        }
-    }
 }
 
 /// The pages of a sheet as SVG.

@@ -2,16 +2,14 @@
 
 use pathbuild_diagnostic::Lang;
 
-use super::facts::{Corners, cleared, seen};
-use super::flow::Column;
-use super::words::Words;
-use super::{Sheet, UNITS, measures};
 use crate::scene::{Point, Scene};
-use crate::svg::canvas::{Anchor, Canvas, n};
-use crate::svg::frame::Frame;
-use crate::svg::palette::{Depths, INK, PROBE, TEXT};
-use crate::svg::room::Room;
-use crate::svg::{VisibleParts, legend, marks, moves, things};
+use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, n};
+use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
+use crate::svg::legend::{self, mm};
+use crate::svg::{moves, things};
+
+use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
+use super::flow::{Column, PICTURE, breadth};
 
 /// Margins around the drawing in units: dimensions are to the left and below, and their last numbers extend to the right.
 const LEFT: f64 = 56.0;
@@ -57,7 +55,6 @@ impl Scale {
     }
 
     fn text(self) -> String {
-        let mm = legend::mm;
         if self.0 >= 1.0 { format!("{}:1", mm(self.0)) } else { format!("1:{}", mm(1.0 / self.0)) }
     }
 }
@@ -77,7 +74,7 @@ pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
     let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..first(sheet, beneath) };
     let placed = if turned.scale.0 > upright.scale.0 { turned } else { upright };
-    let on_first = first(sheet, Column { bottom: area.top + super::page::PICTURE, ..area });
+    let on_first = first(sheet, Column { bottom: area.top + PICTURE, ..area });
     (placed.scale.0 > on_first.scale.0).then_some(placed)
 }
 
@@ -153,7 +150,7 @@ impl PlacedPicture {
         drawing(canvas, &sheet.scene, &frame, &depths, shown, room);
         canvas.close();
         if let Some(box_) = cleared(sheet) {
-            measures::draw(canvas, box_, &place, [left, bottom]);
+            draw(canvas, box_, &place, [left, bottom]);
         }
         if self.has_inset {
             self.inset(canvas, sheet, lang);
@@ -209,10 +206,10 @@ fn drawing(
     for path in &scene.paths {
         let place = frame.of_path(path);
         moves::draw(canvas, path, &place, depths, shown);
-        marks::reserve(path, &place, &mut room);
+        things::reserve(path, &place, &mut room);
         things::over(canvas, path, &place, shown, &mut room);
     }
-    marks::findings(canvas, scene, frame, &mut room);
+    things::findings(canvas, scene, frame, &mut room);
 }
 
 /// Draws the lines X0 and Y0.
@@ -232,4 +229,86 @@ fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corn
         n(top - 2.0)
     ));
     canvas.close();
+}
+
+// Dimensions of the removed material: its size, and the distance of its edges from X0 Y0.
+
+/// Letter size of the numbers, and the minimum distance between two of them.
+const SIZE: f64 = 9.5;
+const APART: f64 = 11.0;
+
+/// Distance from the picture to the dimension lines.
+const AWAY: f64 = 22.0;
+
+/// Draws the dimensions of a rectangle, to the left of and below a corner of the page.
+pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
+    let ([x0, y1], [x1, y0]) = (place.at(low), place.at(high));
+    canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.7\""));
+    canvas.raw(&format!(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke-dasharray=\"5 3\"/>",
+        n(x0),
+        n(y0),
+        n(x1 - x0),
+        n(y1 - y0)
+    ));
+    let y = bottom + AWAY;
+    arrows(canvas, [x0, y], [x1, y]);
+    extension(canvas, [x0, y1], [x0, y + 4.0]);
+    extension(canvas, [x1, y1], [x1, y + 4.0]);
+    let x = left - AWAY;
+    arrows(canvas, [x, y1], [x, y0]);
+    extension(canvas, [x0, y1], [x - 4.0, y1]);
+    extension(canvas, [x0, y0], [x - 4.0, y0]);
+    canvas.close();
+    let number = |axis: usize, value: f64| format!("{}{}", ["X", "Y"][axis], mm(value));
+    canvas.open(&format!("id=\"numbers\" fill=\"{INK}\""));
+    let size = mm(high[0] - low[0]);
+    let has_room = breadth(&size, SIZE) < x1 - x0 - 12.0;
+    let down = if has_room { 12.0 } else { 23.0 };
+    text(canvas, [f64::midpoint(x0, x1), y + down], Side::Middle, &size);
+    text(canvas, [x0 - 3.0, y + 12.0], Side::End, &number(0, low[0]));
+    text(canvas, [x1 + 3.0, y + 12.0], Side::Start, &number(0, high[0]));
+    let middle = f64::midpoint(y0, y1);
+    let third = SIZE / 3.0;
+    text(canvas, [x - 4.0, middle + third], Side::End, &mm(high[1] - low[1]));
+    text(canvas, [x - 6.0, y0.min(middle - APART) + third], Side::End, &number(1, high[1]));
+    text(canvas, [x - 6.0, y1.max(middle + APART) + third], Side::End, &number(1, low[1]));
+    canvas.close();
+}
+
+#[derive(Clone, Copy)]
+enum Side {
+    Start,
+    Middle,
+    End,
+}
+
+fn text(canvas: &mut Canvas, at: Point, side: Side, text: &str) {
+    let (anchor, style) = match side {
+        Side::Start => (Anchor::Start, ""),
+        Side::Middle => (Anchor::Middle, ""),
+        Side::End => (Anchor::Start, "text-anchor=\"end\""),
+    };
+    canvas.text(at, SIZE, anchor, style, text);
+}
+
+/// A line with arrows at both ends.
+fn arrows(canvas: &mut Canvas, from: Point, to: Point) {
+    canvas.line(from, to, "");
+    let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+    if length < 12.0 {
+        return;
+    }
+    let [dx, dy] = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+    for (tip, sign) in [(from, 1.0), (to, -1.0)] {
+        let foot = [tip[0] + sign * dx * 5.0, tip[1] + sign * dy * 5.0];
+        let points =
+            [tip, [foot[0] - dy * 1.8, foot[1] + dx * 1.8], [foot[0] + dy * 1.8, foot[1] - dx * 1.8]];
+        let [tip, left, right] = points.map(|[x, y]| format!("{} {}", n(x), n(y)));
+        canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{INK}\""));
+    }
+}
+
+fn extension(canvas: &mut Canvas, from: Point, to: Point) {
+    canvas.line(from, to, "stroke-width=\"0.4\"");
 }

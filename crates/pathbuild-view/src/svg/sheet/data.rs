@@ -1,0 +1,209 @@
+//! The data of a setup sheet, what is derived from it, and its vocabulary.
+
+use pathbuild_diagnostic::Lang;
+
+use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, Shape};
+use crate::svg::frame::widen;
+use crate::svg::legend::mm;
+
+/// The size of a page in mm.
+pub(super) const PAPER: Point = [210.0, 297.0];
+
+/// Units of a page's SVG per mm of paper: letters of 10 units have 9.4 pt.
+pub(super) const UNITS: f64 = 3.0;
+
+/// The data of a setup sheet. Lengths are in mm.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// The path's name, or the name given to joined paths.
+    pub title: String,
+    /// The drawings of the paths, without directories.
+    pub drawings: Vec<String>,
+    /// The names of the programs, in the order in which the machine runs them.
+    pub programs: Vec<String>,
+    /// The file for measured heights.
+    pub values: Option<String>,
+    /// The line of provenance in the programs' headers, and the line with the title.
+    pub head: [String; 2],
+    /// The hashes in that line.
+    pub hashes: String,
+    /// The scene in coordinates of the program.
+    pub scene: Scene,
+    /// The cutters in order of use.
+    pub tools: Vec<SheetTool>,
+    /// Whether the program starts the spindle.
+    pub starts_spindle: bool,
+    /// Ranges of X, Y and Z of the tool tip while cutting.
+    pub cutting_box: [Option<(f64, f64)>; 3],
+    /// The length of the program.
+    pub length: f64,
+    /// The duration; `None` if the rapid feed is unknown.
+    pub minutes: Option<f64>,
+    /// Rapid feed in mm/min.
+    pub rapid: Option<f64>,
+    /// Z-probes in measuring order.
+    pub probes: Vec<SheetProbe>,
+    /// Elements on the paths' layers that are not part of the programs.
+    pub left_out: Vec<BilingualText>,
+}
+
+/// A cutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetTool {
+    /// Its diameter O.
+    pub diameter: f64,
+    /// Its tool number T in the machine.
+    pub number: Option<u32>,
+    /// Its name in the configuration.
+    pub name: Option<String>,
+    /// Spindle speed in revolutions per minute.
+    pub speed: Option<f64>,
+    /// Whether the spindle turns clockwise.
+    pub clockwise: Option<bool>,
+    /// The paths milled with it.
+    pub paths: Vec<String>,
+}
+
+/// A point that is measured before milling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetProbe {
+    /// The parameter that holds its height: 51 for #51.
+    pub number: usize,
+    /// The text before its value in the file for measured heights.
+    pub name: String,
+    /// The position in the program.
+    pub at: Point,
+    /// The expected height.
+    pub height: f64,
+}
+
+/// Lower left and upper right corner.
+pub(super) type Corners = [Point; 2];
+
+/// The bounding box of the removed material seen from above; `None` without cuts.
+pub(super) fn cleared(sheet: &Sheet) -> Option<Corners> {
+    let mut corners = None;
+    for path in &sheet.scene.paths {
+        let radius = path.tool.unwrap_or_default() / 2.0;
+        let cuts = path.moves.iter().filter(|movement| movement.kind.cuts()).filter_map(SceneMove::extent);
+        for [low, high] in cuts {
+            widen(
+                &mut corners,
+                [low.map(|coordinate| coordinate - radius), high.map(|coordinate| coordinate + radius)],
+            );
+        }
+    }
+    corners
+}
+
+/// The bounding box of the picture.
+pub(super) fn seen(sheet: &Sheet) -> Corners {
+    let mut corners = cleared(sheet);
+    widen(&mut corners, [[0.0; 2]; 2]);
+    for path in &sheet.scene.paths {
+        for extent in path.moves.iter().filter_map(SceneMove::extent) {
+            widen(&mut corners, extent);
+        }
+    }
+    for at in sheet.probes.iter().map(|probe| probe.at) {
+        widen(&mut corners, [at, at]);
+    }
+    for clamp in &sheet.scene.keep_outs {
+        widen(&mut corners, outline(clamp));
+    }
+    corners.unwrap_or_default()
+}
+
+/// The bounding box of a clamp.
+pub(super) fn outline(clamp: &KeepOut) -> Corners {
+    let mut corners = None;
+    for extent in clamp.outline.iter().map(Shape::extent) {
+        widen(&mut corners, extent);
+    }
+    corners.unwrap_or_default()
+}
+
+/// The feeds in mm/min of some kinds of moves, in ascending order.
+pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f64> {
+    let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves);
+    let mut feeds: Vec<f64> = moves
+        .filter(|movement| is_meant(movement.kind))
+        .filter_map(|movement| movement.way.pace.feed())
+        .collect();
+    feeds.sort_by(f64::total_cmp);
+    feeds.dedup();
+    feeds
+}
+
+/// Heights of rapid moves.
+#[derive(Debug, PartialEq)]
+pub(super) struct RapidHeights {
+    /// Of moves in the plane, in ascending order.
+    pub(super) across: Vec<f64>,
+    /// The lowest end of moves straight down.
+    pub(super) down: Option<f64>,
+    /// The lowest end of moves straight up.
+    up: Option<f64>,
+}
+
+impl RapidHeights {
+    pub(super) fn lowest(&self) -> Option<f64> {
+        self.across.iter().copied().chain(self.down).chain(self.up).reduce(f64::min)
+    }
+}
+
+pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
+    let moves = || sheet.scene.paths.iter().flat_map(|path| &path.moves);
+    let sweeps = moves().filter(|movement| movement.kind == MoveKind::Sweep);
+    let mut across: Vec<f64> = sweeps.filter_map(SceneMove::depth).collect();
+    across.sort_by(f64::total_cmp);
+    across.dedup();
+    let lowest_end = |is_down: bool| {
+        let lifts = moves().filter(|movement| movement.kind == MoveKind::Lift);
+        let lifts = lifts.filter(|movement| (movement.way.to.z() < movement.way.from.z()) == is_down);
+        lifts.map(|movement| movement.way.to.z()).reduce(f64::min)
+    };
+    RapidHeights { across, down: lowest_end(true), up: lowest_end(false) }
+}
+
+/// The values of all paths without duplicates, in order of the paths.
+pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut distinct = Vec::new();
+    for value in values {
+        if !distinct.contains(&value) {
+            distinct.push(value);
+        }
+    }
+    distinct
+}
+
+/// Chooses words by language.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Words(pub(super) Lang);
+
+impl Words {
+    pub(super) fn either<T>(self, en: T, de: T) -> T {
+        self.0.choose(en, de)
+    }
+
+    /// The position of zero relative to the lower end of a length along X or Y.
+    pub(super) fn beside(self, low: f64, is_across: bool) -> String {
+        let (sides, edge) = match (is_across, self.0) {
+            (true, Lang::En) => (["right", "left"], "left edge"),
+            (true, Lang::De) => (["rechts", "links"], "linken Rand"),
+            (false, Lang::En) => (["above", "below"], "lower edge"),
+            (false, Lang::De) => (["über", "unter"], "unteren Rand"),
+        };
+        if low.abs() < 0.0005 {
+            return self.either(format!("on the {edge}"), format!("auf dem {edge}"));
+        }
+        let side = if low < 0.0 { sides[0] } else { sides[1] };
+        let length = mm(low.abs());
+        match (self.0, is_across) {
+            (Lang::En, true) => format!("{length} mm {side} of the {edge}"),
+            (Lang::En, false) => format!("{length} mm {side} the {edge}"),
+            (Lang::De, true) => format!("{length} mm {side} vom {edge}"),
+            (Lang::De, false) => format!("{length} mm {side} dem {edge}"),
+        }
+    }
+}
