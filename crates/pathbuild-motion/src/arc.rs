@@ -21,6 +21,11 @@ pub struct Arc {
 /// full circle, as in GRBL.
 const SAME_DIRECTION: f64 = 5e-7;
 
+/// Whether two directions that are this many radians apart are equal.
+pub fn is_same_direction(apart: f64) -> bool {
+    (apart - TAU * libm::round(apart / TAU)).abs() <= SAME_DIRECTION
+}
+
 /// The angle in radians from one direction to another in the direction of travel: greater than 0, and a full turn if they are equal.
 pub fn turn([a, b]: [f64; 2], [c, d]: [f64; 2], clockwise: bool) -> f64 {
     let counterclockwise = libm::atan2(a * d - b * c, a * c + b * d);

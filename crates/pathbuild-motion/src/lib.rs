@@ -9,7 +9,7 @@ mod position;
 mod step;
 mod written_arc;
 
-pub use arc::{Arc, Course, turn, widest_chord};
+pub use arc::{Arc, Course, is_same_direction, turn, widest_chord};
 pub use moves::{Move, Named, Pace, Path};
 pub use position::{Axes, Plane, Position};
 pub use step::{

@@ -1,6 +1,7 @@
 //! Lines, arcs and circles in the plane, and the placement of embedded paths.
 
 use nalgebra::{Point2, UnitComplex, Vector2};
+use pathbuild_motion::is_same_direction;
 
 use crate::approx::coincide;
 
@@ -48,9 +49,6 @@ pub struct Placement {
     turn: UnitComplex<f64>,
     shift: Vector2<f64>,
 }
-
-/// Tolerance in turns within which an arc counts as a full circle.
-const WHOLE_TURN: f64 = 1e-9;
 
 impl Curve {
     /// The start.
@@ -109,12 +107,11 @@ impl Arc {
     /// circle.
     pub fn from_angles(centre: Xy, radius: f64, start_angle: f64, end_angle: f64, clockwise: bool) -> Self {
         let ahead = if clockwise { start_angle - end_angle } else { end_angle - start_angle };
-        let turns = ahead / 360.0;
         let start = on_circle(centre, radius, start_angle);
-        if (turns - turns.round()).abs() <= WHOLE_TURN {
+        if is_same_direction(ahead.to_radians()) {
             return Self { centre, radius, start, end: start, clockwise, degrees: 360.0 };
         }
-        let end = on_circle(centre, radius, end_angle);
+        let (end, turns) = (on_circle(centre, radius, end_angle), ahead / 360.0);
         Self { centre, radius, start, end, clockwise, degrees: 360.0 * (turns - turns.floor()) }
     }
 

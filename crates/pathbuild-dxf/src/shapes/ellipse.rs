@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use pathbuild_motion::is_same_direction;
+
 use crate::curves::{Curve, NoPieces, Tolerance, Vector, approximate};
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
@@ -89,12 +91,13 @@ impl Ellipse {
     }
 }
 
-/// Range of the parameter. A full turn up to rounding counts as a full turn.
+/// Range of the parameter: greater than 0, and a full turn if both ends are in the same direction.
 fn sweep(start: f64, end: f64) -> f64 {
-    const ROUNDED: f64 = 1e-9;
+    if is_same_direction(end - start) {
+        return TAU;
+    }
     let turn = libm::fmod(end - start, TAU);
-    let turn = if turn <= ROUNDED { turn + TAU } else { turn };
-    if (turn - TAU).abs() <= ROUNDED { TAU } else { turn }
+    if turn < 0.0 { turn + TAU } else { turn }
 }
 
 impl Curve for Ellipse {

@@ -156,12 +156,24 @@ fn a_part_of_an_ellipse_has_its_ends() {
     }
 }
 
+/// The distance between the start of the first and the end of the last piece.
+fn gap(drawing: &Drawing) -> f64 {
+    let ends = [(drawing.entities.first(), 0.0), (drawing.entities.last(), 1.0)];
+    let [start, end] = ends.map(|(entity, part)| at(&entity.expect("there are pieces").geometry, part));
+    distance(start, end)
+}
+
 #[test]
 fn a_full_turn_may_be_rounded() {
-    for end in ["6.28318530717959", "6.283185307179586", "6.2831853071", "0", "12.566370614359172"] {
+    for end in
+        ["6.28318530717959", "6.283185307179586", "6.2831853071", "6.283185", "0", "12.566370614359172"]
+    {
         let drawing = approximated(&ellipse(&format!("40 0.4\n41 0\n42 {end}")), 0.01);
         check(&drawing, 0.01, |part| on_ellipse(0.4, part * TAU));
+        assert!(gap(&drawing) < 1e-9, "{end}");
     }
+    let drawing = approximated(&ellipse("40 0.4\n41 0\n42 6.283184"), 0.01);
+    assert!(gap(&drawing) > 1e-6);
 }
 
 #[test]

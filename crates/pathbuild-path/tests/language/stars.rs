@@ -34,13 +34,13 @@ fn orders_decide_first() {
 /// The default order is 9998: before 9999, after 9997.
 #[test]
 fn unnumbered_segments_have_the_order_9998() {
-    let star = |number: &str| {
-        let statements =
-            format!("mill 0,0 40,0 \"N{number}\"\nmill 40,0 0,0.00001\nmill 0,0 20,20 0,0\nend 0,0");
-        walked(&statements)[0].split(", ").next().unwrap().to_owned()
+    let first = |statements: &str| {
+        walked(&format!("{statements}\nend 0,0"))[0].split(", ").next().unwrap().to_owned()
     };
-    assert_eq!(star("9997"), "[0,0 40,0");
-    assert_eq!(star("9999"), "[0,0 20,20");
+    // With equal orders, the shorter would come first, and what is milled before sweeps.
+    assert_eq!(first("mill 0,0 40,0 0,0 \"N9997\"\nmill 0,0 20,20 0,0"), "[0,0 40,0");
+    assert_eq!(first("mill 0,0 10,0 0,0 \"N9999\"\nmill 0,0 20,20 0,0"), "[0,0 20,20");
+    assert_eq!(first("mill 0,0 10,0 0,0 \"N9999\"\nline HIDDEN 0,0 20,20 0,0"), "sweep 0,0 20,20");
 }
 
 #[test]

@@ -93,6 +93,13 @@ fn a_hole_on_the_way_ends_the_chain_of_the_way_back() {
     );
 }
 
+/// With equal orders, the shorter segment would come first.
+#[test]
+fn an_unnumbered_dead_end_comes_before_what_has_the_order_9999() {
+    let walked = walked("mill 0,0 20,0 20,10\nmill 20,0 25,0 \"N9999\"\nturn 20,10\nend 25,0");
+    assert_eq!(walked, ["[0,0 20,0, 20,0 20,10, 20,10 20,0 back, 20,0 25,0]"]);
+}
+
 #[test]
 fn without_a_marker_a_dead_end_is_an_error() {
     let dead_end = "mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nend 40,0";
