@@ -11,6 +11,7 @@ pub mod findings;
 mod inputs;
 pub mod list;
 pub mod machine;
+pub mod memo;
 pub mod posting;
 mod reporter;
 pub mod session;

@@ -4,22 +4,58 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::Db;
 use pathbuild_db::system::join;
-use pathbuild_db::{Db, Trace};
 
 use super::EarlierFiles;
-use crate::session::{Coverage, Dependencies, Session};
+use crate::memo::{Answer, Coverage, Dependencies, DrawingResult, Memo};
+use crate::session::Session;
+
+/// Selects the results that are shown.
+pub(super) struct ChangeFilter<'a> {
+    session: &'a Session<'a>,
+    memo: &'a Memo,
+    /// `None` shows all results.
+    changed: Option<ChangedDrawings>,
+}
+
+impl<'a> ChangeFilter<'a> {
+    /// If `past` is given, selects those of the results that depend on files changed since then.
+    pub(super) fn new<'r>(
+        session: &'a Session<'a>,
+        memo: &'a Memo,
+        past: Option<&dyn EarlierFiles>,
+        results: impl Iterator<Item = &'r Answer<DrawingResult>>,
+    ) -> Self {
+        let changed = past.map(|past| {
+            let mut reached = ReachedInputs::default();
+            for answer in results {
+                if let Some(inputs) = memo.dependencies(session.db(), answer) {
+                    reached.add(&inputs);
+                }
+            }
+            ChangedDrawings::new(session, past, reached)
+        });
+        Self { session, memo, changed }
+    }
+
+    pub(super) fn contains(&self, answer: &Answer<DrawingResult>) -> bool {
+        let Some(changed) = &self.changed else { return true };
+        let inputs = self.memo.dependencies(self.session.db(), answer);
+        inputs.is_none_or(|inputs| changed.affects(&inputs))
+    }
+}
 
 /// Inputs of results that may have changed.
 #[derive(Debug, Default)]
-pub(super) struct ReachedInputs {
+struct ReachedInputs {
     files: BTreeSet<Utf8PathBuf>,
     /// Directories in which lookups were made.
     directories: BTreeSet<Utf8PathBuf>,
 }
 
 /// Drawings that were changed, added or removed.
-pub(super) struct ChangedDrawings {
+struct ChangedDrawings {
     files: BTreeSet<Utf8PathBuf>,
     /// File names of these drawings, by directory.
     names: BTreeMap<Utf8PathBuf, Vec<String>>,
@@ -27,17 +63,8 @@ pub(super) struct ChangedDrawings {
 }
 
 impl ReachedInputs {
-    /// Adds the inputs of a result computed in this run.
-    pub(super) fn add(&mut self, session: &Session<'_>, traces: &[Trace]) {
-        for trace in traces {
-            trace.files.iter().for_each(|file| add(&mut self.files, file.path(session.db())));
-            let directories = trace.lookups.iter().flat_map(|lookup| &lookup.directories);
-            directories.for_each(|directory| add(&mut self.directories, directory));
-        }
-    }
-
-    /// Adds the inputs of a cached result.
-    pub(super) fn add_cached(&mut self, facts: &Dependencies<'_>) {
+    /// Adds the inputs of a result.
+    fn add(&mut self, facts: &Dependencies<'_>) {
         facts.files.iter().for_each(|file| add(&mut self.files, file));
         facts.lookups.iter().for_each(|(directory, _)| add(&mut self.directories, directory));
     }
@@ -52,7 +79,7 @@ fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
 
 impl ChangedDrawings {
     /// Those of the given inputs that have changed since `past`.
-    pub(super) fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
+    fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
         let ReachedInputs { mut files, directories } = reached;
         let mut gone = BTreeSet::new();
         for directory in &directories {
@@ -68,19 +95,8 @@ impl ChangedDrawings {
         Self { names: by_directory(&files), files, coverage: Coverage::new(session.workspace()) }
     }
 
-    /// Whether a result computed in this run depends on one of the drawings.
-    pub(super) fn affects(&self, session: &Session<'_>, traces: &[Trace]) -> bool {
-        let db = session.db();
-        traces.iter().any(|trace| {
-            trace.files.iter().any(|file| self.files.contains(file.path(db)))
-                || trace.lookups.iter().any(|lookup| {
-                    lookup.directories.iter().any(|directory| self.answers(directory, lookup.name.as_str()))
-                })
-        })
-    }
-
-    /// Whether a cached result depends on one of the drawings.
-    pub(super) fn affects_cached(&self, facts: &Dependencies<'_>) -> bool {
+    /// Whether a result depends on one of the drawings.
+    fn affects(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
             || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
     }

@@ -1,31 +1,25 @@
 //! `check`: checks drawings, paths and directories, without writing anything. (book: reference/commands, `check`)
 
 mod changed;
-mod drawings;
-mod results;
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Debug;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::Listings;
-use pathbuild_db::SourceFile;
+use pathbuild_db::{Database, Db, Role, SourceFile, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use crate::Inputs;
 use crate::config::ResultKind;
-use crate::session::timings::FINDING;
+use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings, subject};
+use crate::session::timings::{FINDING, KEEPING, VERIFYING};
 use crate::session::{
-    ArgumentMatches, CacheQuery, DrawingResult, FreshResult, ResultStore, Scope, SelectedPath, Selection,
-    Session, by_place, relative,
+    ArgumentMatches, Checker, Pair, SelectedPath, Selection, Session, by_place, q_project_pairs, relative,
 };
 use crate::workspace::Workspace;
 
-pub use drawings::check_drawings;
-use drawings::check_paths;
-use results::{ChangeFilter, Results, subject};
+use changed::ChangeFilter;
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -70,6 +64,7 @@ pub struct CheckedFile {
 }
 
 /// A drawing, or some of its paths.
+#[derive(Debug)]
 struct CheckTarget {
     drawing: Utf8PathBuf,
     /// `None` means all paths.
@@ -77,8 +72,8 @@ struct CheckTarget {
 }
 
 impl CheckTarget {
-    fn file(&self, session: &Session<'_>) -> SourceFile {
-        session.file(&self.drawing)
+    fn subject(&self) -> Box<str> {
+        subject(&self.drawing, self.names.as_deref())
     }
 }
 
@@ -105,111 +100,112 @@ impl Request<'_> {
             session.prefetch(self.inputs, &|_| false);
         }
         let mut matches = session.timings().measure(&FINDING, || session.match_arguments(self.inputs));
-        let results = Results::open(session, self, &mut matches);
-        let mut checked = check(session, self, &matches, &results)?;
+        let query = query(self.with_all_values);
+        let open = || Memo::open(session, ResultKind::Check, &query, self.inputs, &mut matches);
+        let memo = session.timings().measure(&VERIFYING, open);
+        let mut checked = self.check(session, &matches, &memo)?;
         checked.diagnostics = session.with_hints(checked.diagnostics);
-        leak((results, matches));
+        leak((memo, matches));
         Ok(checked)
     }
-}
 
-/// Checks whatever the cache does not answer.
-fn check(
-    session: &mut Session<'_>,
-    request: &Request<'_>,
-    found: &ArgumentMatches,
-    results: &Results,
-) -> Result<CheckOutcome, InputsNotDirectories> {
-    let Answers { selection, each: answers, mut fresh } =
-        session.with_stable_files(|session| answers(session, request, found, results));
-    if request.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
-        return Err(InputsNotDirectories);
-    }
-    let (q_projects, fresh_pairs) =
-        session.with_stable_files(|session| results.q_projects(session, &selection));
-    fresh.extend(fresh_pairs);
-    results.keep(session, &fresh);
-    let names = answers.iter().map(|(target, _)| subject(&target.drawing, target.names.as_deref()));
-    let names = names.chain(q_projects.iter().map(|(subject, _)| Cow::Borrowed(&**subject)));
-    let filter = ChangeFilter::new(session, results, &fresh, since(session, request, found), names);
-    let mut checked = CheckOutcome { diagnostics: found.problems.clone(), ..CheckOutcome::default() };
-    checked.diagnostics.extend(selection.problems);
-    if !session.is_compatible() {
-        let named = answers.iter().skip(selection.drawings.len()).take(selection.named.len());
-        checked.diagnostics.extend(named.filter_map(|(target, result)| {
-            session.no_path(&target.drawing, &result.names, &result.diagnostics)
-        }));
-    }
-    if !checked.diagnostics.iter().any(Diagnostic::is_error) {
-        let parts = answers.iter().map(|(_, result)| result.parts());
-        checked.diagnostics.extend(session.no_path_anywhere(parts));
-    }
-    for (CheckTarget { drawing, names }, result) in answers {
-        if !filter.contains(&subject(&drawing, names.as_deref())) {
-            continue;
+    /// Checks whatever no earlier run knows.
+    fn check(
+        &self,
+        session: &mut Session<'_>,
+        matches: &ArgumentMatches,
+        memo: &Memo,
+    ) -> Result<CheckOutcome, InputsNotDirectories> {
+        let Results { selection, named, each } =
+            session.with_stable_files(|session| self.results(session, matches, memo));
+        if self.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
+            return Err(InputsNotDirectories);
         }
-        checked.files.push(CheckedFile { file: drawing, paths: result.names });
-        checked.diagnostics.extend(result.diagnostics);
+        let q_projects = session.with_stable_files(|session| compare_q_projects(session, memo, &selection));
+        let answers = named.iter().chain(&each).chain(&q_projects);
+        session.timings().measure(&KEEPING, || memo.keep(session, answers.filter_map(Answer::fresh)));
+        let past = self.since(session, matches);
+        let filter = ChangeFilter::new(session, memo, past, each.iter().chain(&q_projects));
+        let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };
+        checked.diagnostics.extend(selection.problems);
+        if !session.is_compatible() {
+            let named = each.iter().skip(selection.drawings.len()).take(selection.named.len());
+            checked.diagnostics.extend(named.filter_map(|answer| {
+                session.no_path(answer.drawing(), &answer.value.names, &answer.value.diagnostics)
+            }));
+        }
+        if !checked.diagnostics.iter().any(Diagnostic::is_error) {
+            let parts = each.iter().map(|answer| answer.value.parts());
+            checked.diagnostics.extend(session.no_path_anywhere(parts));
+        }
+        for answer in each.into_iter().filter(|answer| filter.contains(answer)) {
+            let (file, DrawingResult { names, diagnostics }) = (answer.drawing().to_owned(), answer.value);
+            checked.files.push(CheckedFile { file, paths: names });
+            checked.diagnostics.extend(diagnostics);
+        }
+        checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
+        let q_projects = q_projects.into_iter().filter(|answer| filter.contains(answer));
+        checked.diagnostics.extend(q_projects.flat_map(|answer| answer.value.diagnostics));
+        Ok(checked)
     }
-    checked.files.sort_by(|a, b| by_place(&a.file, &b.file));
-    let q_projects = q_projects.into_iter().filter(|(subject, _)| filter.contains(subject));
-    checked.diagnostics.extend(q_projects.flat_map(|(_, diagnostics)| diagnostics));
-    leak(fresh);
-    Ok(checked)
+
+    /// Resolves the arguments and checks the drawings.
+    fn results(&self, session: &mut Session<'_>, matches: &ArgumentMatches, memo: &Memo) -> Results {
+        let mut named: Vec<Utf8PathBuf> =
+            matches.candidates().map(|file| file.path(session.db()).clone()).collect();
+        named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
+        named.dedup();
+        let known = |path: &Utf8PathBuf| {
+            if memo.holds(path.as_str()) { path.as_str().into() } else { subject(path, Some(&[])) }
+        };
+        let named = read_drawings(session, memo, &named, known);
+        let names =
+            |file: SourceFile| find(&named, file.path(session.db())).map_or(&[][..], |it| &it.value.names);
+        let selection = session.select_arguments(matches, &matches.arguments, &names);
+        let targets = targets(session, &selection);
+        let check = |open: &[&CheckTarget]| {
+            if memo.is_some() {
+                report_known(session.workspace(), targets.len() - open.len(), targets.len());
+            }
+            let paths = open.iter().map(|target| (session.file(&target.drawing), target.names.as_deref()));
+            let paths: Vec<(SourceFile, Option<&[PathName]>)> = paths.collect();
+            let checked = check_paths(session, &paths, self.with_all_values);
+            checked.into_iter().map(|(result, traces)| result.with_inputs(traces)).collect()
+        };
+        let each = memo.get_or(&targets, CheckTarget::subject, |_, result| Some(result), check);
+        Results { selection, named, each }
+    }
+
+    /// The state since which changed drawings are selected; `None` if everything is selected because a change affects all drawings.
+    fn since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
+        let past = self.changed?;
+        let directories: Vec<Utf8PathBuf> =
+            matches.directories().flat_map(|directory| &directory.directories).cloned().collect();
+        let Some(rule) = past.changed_rule(&directories) else { return Some(past) };
+        let context = session.workspace();
+        context.reporter.status(&context.phrase(
+            "checking everything: {} has changed since the revision",
+            "alles wird geprüft: {} hat sich seit der Revision geändert",
+            relative(&rule, &context.working_directory).as_str(),
+        ));
+        None
+    }
 }
 
-/// The state since which changed drawings are selected; `None` if everything is selected because a change affects all drawings.
-fn since<'a>(
-    session: &Session<'_>,
-    request: &Request<'a>,
-    found: &ArgumentMatches,
-) -> Option<&'a dyn EarlierFiles> {
-    let past = request.changed?;
-    let directories: Vec<Utf8PathBuf> =
-        found.directories().flat_map(|directory| &directory.directories).cloned().collect();
-    let Some(rule) = past.changed_rule(&directories) else { return Some(past) };
-    let context = session.workspace();
-    context.reporter.status(&context.phrase(
-        "checking everything: {} has changed since the revision",
-        "alles wird geprüft: {} hat sich seit der Revision geändert",
-        relative(&rule, &context.working_directory).as_str(),
-    ));
-    None
-}
-
-/// The resolved arguments, and the result of each drawing.
-struct Answers {
+/// The resolved arguments, and the results of drawings.
+struct Results {
     selection: Selection,
-    each: Vec<(CheckTarget, DrawingResult)>,
-    /// Results computed in this run.
-    fresh: Vec<FreshResult>,
+    /// Drawings that may define a named path.
+    named: Vec<Answer<DrawingResult>>,
+    /// Drawings that were to be checked.
+    each: Vec<Answer<DrawingResult>>,
 }
 
-fn answers(
-    session: &mut Session<'_>,
-    request: &Request<'_>,
-    found: &ArgumentMatches,
-    results: &Results,
-) -> Answers {
-    let (selection, mut fresh) = results.select(session, found);
-    let targets = targets(session, &selection);
-    let mut known: Vec<Option<DrawingResult>> = targets
-        .iter()
-        .map(|target| results.known(&subject(&target.drawing, target.names.as_deref())))
-        .collect();
-    let open: Vec<usize> = (0..targets.len()).filter(|index| known[*index].is_none()).collect();
-    results.report_known(session, targets.len() - open.len(), targets.len());
-    let paths: Vec<(SourceFile, Option<&[PathName]>)> =
-        open.iter().map(|index| (targets[*index].file(session), targets[*index].names.as_deref())).collect();
-    let checked = check_paths(session, &paths, request.with_all_values);
-    for ((result, traces), index) in checked.into_iter().zip(open) {
-        let CheckTarget { drawing, names } = &targets[index];
-        if session.is_traced() {
-            fresh.push(results::new(&subject(drawing, names.as_deref()), traces, &result));
-        }
-        known[index] = Some(result);
-    }
-    Answers { selection, each: targets.into_iter().zip(known.into_iter().flatten()).collect(), fresh }
+/// Reports, as a detail, how many drawings have cached results that still hold.
+fn report_known(context: &Workspace, known: usize, all: usize) {
+    let phrase =
+        context.choose("drawings whose results still hold", "Zeichnungen, deren Ergebnisse noch gelten");
+    context.reporter.detail(&format!("{phrase}: {known} / {all}"));
 }
 
 /// The targets to check: each drawing, and for paths named individually the drawings that define them, unless these are checked as a whole.
@@ -233,22 +229,119 @@ fn targets(session: &Session<'_>, selection: &Selection) -> Vec<CheckTarget> {
     targets
 }
 
-/// Results of the last checks, to explain why they no longer hold. `None` if no results are cached.
-pub fn cached_results(workspace: &Workspace) -> Option<ResultStore> {
-    open(workspace, false, Scope::All, Listings::new())
+/// Compares Q-projects with their drawings.
+fn compare_q_projects(
+    session: &Session<'_>,
+    memo: &Memo,
+    selection: &Selection,
+) -> Vec<Answer<DrawingResult>> {
+    let named = selection.named.iter().map(|file| file.path(session.db()));
+    let pairs = q_project_pairs(selection.drawings.iter().chain(named));
+    let compare = |open: &[&[&Utf8PathBuf; 2]]| {
+        let open: Vec<Pair> = open.iter().map(|pair| pair.map(|path| session.db().file(path))).collect();
+        let found = session.compare_q_projects(&open).into_iter().zip(&open);
+        let result = |(diagnostics, pair): (_, &Pair)| {
+            let trace = Trace { files: pair.to_vec(), lookups: Vec::new() };
+            DrawingResult { names: Vec::new(), diagnostics }.with_inputs(vec![trace])
+        };
+        found.map(result).collect()
+    };
+    let subject = |[drawing, q_project]: &[&Utf8PathBuf; 2]| format!("{drawing}\0{q_project}").into();
+    memo.get_or(&pairs, subject, |_, result| Some(result), compare)
 }
 
-fn open(
-    workspace: &Workspace,
-    with_all_values: bool,
-    scope: Scope,
-    listings: Listings,
-) -> Option<ResultStore> {
-    let text = format!("check {with_all_values}");
-    ResultStore::open(workspace, CacheQuery { result_kind: ResultKind::Check, text: &text, scope, listings })
+/// Results of the last checks, to explain why they no longer hold. `None` if no results are cached.
+pub fn cached_results(workspace: &Workspace) -> Option<Memo> {
+    Memo::of_all(workspace, ResultKind::Check, &query(false))
+}
+
+/// Everything that results depend on besides drawings and settings.
+fn query(with_all_values: bool) -> String {
+    format!("check {with_all_values}")
 }
 
 /// Leaks instead of dropping: freeing a million values takes longer than process exit.
 fn leak<T>(value: T) {
     std::mem::forget(value);
+}
+
+/// Number of drawings checked between evictions of parsed data.
+const BATCH: usize = 512;
+
+/// Checks all paths of the drawings. Returns each result with its inputs.
+pub fn check_drawings(
+    session: &mut Session<'_>,
+    files: &[SourceFile],
+    with_all_values: bool,
+) -> Vec<(DrawingResult, Vec<Trace>)> {
+    let targets: Vec<NamedDrawing<'_>> = files.iter().map(|file| (*file, None)).collect();
+    check_paths(session, &targets, with_all_values)
+}
+
+/// A drawing, with the requested paths unless all are requested.
+type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
+
+/// Like [`check_drawings`], for drawings of which only some paths may be requested.
+fn check_paths(
+    session: &mut Session<'_>,
+    targets: &[NamedDrawing<'_>],
+    with_all_values: bool,
+) -> Vec<(DrawingResult, Vec<Trace>)> {
+    let files: Vec<SourceFile> = targets.iter().map(|(file, _)| *file).collect();
+    session.parse_ahead(&files);
+    session.in_batches(targets, BATCH, |session, targets| {
+        session.map_with_checker(targets, |checker, target| check_drawing(checker, target, with_all_values))
+    })
+}
+
+fn check_drawing(
+    checker: &Checker<'_>,
+    (file, names): &NamedDrawing<'_>,
+    with_all_values: bool,
+) -> (DrawingResult, Vec<Trace>) {
+    let (db, file) = (checker.db(), *file);
+    let names = names.unwrap_or_else(|| path_names(db, file));
+    let mut diagnostics = Vec::new();
+    let mut reached = vec![file];
+    let mut traces = own_trace(checker.is_traced(), file);
+    for name in names {
+        let (targets, warning) = if with_all_values {
+            checker.combined_targets(file, name)
+        } else {
+            (vec![db.target(file, name.as_str(), Role::Checked)], None)
+        };
+        let checked = targets.into_iter().map(|target| checker.check(target)).collect::<Vec<_>>();
+        diagnostics.extend(warning);
+        if with_all_values {
+            diagnostics.extend(checker.merged(&checked));
+        }
+        for checked in checked {
+            if !with_all_values {
+                diagnostics.extend(checked.diagnostics);
+            }
+            reached.extend(checked.files);
+            traces.extend(checked.trace);
+        }
+    }
+    (result(db, names, diagnostics, reached), traces)
+}
+
+/// Adds to the diagnostics of a drawing's paths those of the files that the paths reach.
+fn result(
+    db: &Database,
+    names: &[PathName],
+    mut diagnostics: Vec<Diagnostic>,
+    mut reached: Vec<SourceFile>,
+) -> DrawingResult {
+    // Most files have no diagnostics; skipping them first makes the sort cheap.
+    reached.retain(|file| !check_file(db, *file).is_empty());
+    reached.sort_by(|a, b| by_place(a.path(db), b.path(db)));
+    reached.dedup();
+    diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
+    DrawingResult { names: names.to_vec(), diagnostics }
+}
+
+/// Inputs of a drawing's result that do not depend on its paths; empty if inputs are not traced.
+fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
+    if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }

@@ -8,19 +8,18 @@ use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 
-use super::deliver::cannot_write;
-use super::job::Job;
-use crate::posting::{InsertedFile, PostProcessor};
+use super::outcome::cannot_write;
+use super::plan::Job;
+use crate::posting::PostProcessor;
 use crate::session::Session;
 
-/// Writes one rule per job, from its drawings, the configuration and the post definition to its output files. `inserted` lists, for each
-/// job, the files that the post-processor inserted, relative to the definition's directory. Nothing is written if a name cannot be spelled.
-pub(super) fn write(
+/// Writes one rule per job, from its drawings, the configuration, the post definition and the files that the post-processor inserted, to its
+/// output files. Nothing is written if a name cannot be spelled.
+pub(super) fn write<'p>(
     session: &Session<'_>,
     file: &Utf8Path,
-    jobs: &[Job],
+    jobs: impl Iterator<Item = &'p Job>,
     post_processor: Option<&PostProcessor>,
-    inserted: &[&[InsertedFile]],
 ) -> Option<Diagnostic> {
     let db = session.db();
     let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
@@ -28,10 +27,11 @@ pub(super) fn write(
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));
     let file = session.normal(file);
-    for (job, inserted) in jobs.iter().zip(inserted) {
+    for job in jobs {
         let outputs: Vec<&Utf8Path> = job.files.iter().map(|(_, path)| path.as_path()).collect();
+        let inserted = job.outcome.iter().flat_map(|outcome| &outcome.inserted);
         let inserted: Vec<Utf8PathBuf> =
-            inserted.iter().map(|inserted| session.normal(&beside.join(&inserted.name))).collect();
+            inserted.map(|inserted| session.normal(&beside.join(&inserted.name))).collect();
         let sources = job.sources.iter().map(|source| source.path(db).as_path());
         let sources = sources.chain(configuration.as_deref()).chain(post.as_deref());
         let sources: Vec<&Utf8Path> = sources.chain(inserted.iter().map(Utf8PathBuf::as_path)).collect();

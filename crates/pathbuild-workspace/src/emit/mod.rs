@@ -1,51 +1,44 @@
 //! `emit`: generates the programs of paths, and writes, compares or prints them. (book: reference/commands, `emit`; book: program/gcode)
+//!
+//! One flow: [`select`] the paths, [`plan`] their programs, [`build`] what no earlier run knows, [`settle`] the files.
 
-mod compare;
-mod compatible;
-mod deliver;
+mod build;
+mod comparison;
 mod deps;
-mod drawing_comparison;
-mod generate;
-mod job;
-mod older;
 mod options;
-mod program_text;
-mod provenance;
+mod outcome;
+mod plan;
+mod select;
+mod settle;
 mod sheet;
 mod stale;
-mod store;
-mod target_patterns;
-mod targets;
-mod write_queue;
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::Target;
 use pathbuild_db::system::FileKind;
-use pathbuild_db::{SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
+use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
+use crate::memo::{Answer, ExtraInput, Memo, is_transient};
 use crate::posting::PostProcessor;
-use crate::session::{ArgumentMatches, Scope, Session};
+use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
-use deliver::OutputSettings;
-pub use deliver::{ProgramOutcome, State, Task};
-pub use drawing_comparison::{DrawingComparison, compare_with_drawing, native_text};
-use generate::{CheckedProgram, EmitContext, EmitResult, deliver};
-use job::{JobBuilder, take_clashes};
-pub use options::missing_values;
-pub use options::writing;
-pub(crate) use program_text::program_text;
-pub use provenance::Provenances;
+pub use build::Provenances;
+pub(crate) use build::program_text;
+pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
+pub use options::{missing_values, writing};
+pub use outcome::{ProgramOutcome, State, Task};
+use plan::{Job, JobBuilder, Plan, mark_clashes, plan};
+pub use select::TargetPatterns;
+use select::TargetSelection;
+use settle::deliver;
 pub use sheet::{SheetOutcome, sheet_bytes, sheet_of};
 use stale::StaleOutcome;
-use store::{RunRecord, Store};
-pub use target_patterns::TargetPatterns;
-use targets::TargetSelection;
 
 /// A request to emit programs.
 #[derive(Clone, Copy, Debug)]
@@ -102,62 +95,124 @@ impl Request<'_> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
-        let mut found = session.match_arguments(self.inputs);
-        let store = self.store(session, &mut found);
-        let context = EmitContext { request: self, store, found };
-        let result = session.with_stable_files(|session| context.make(session))?;
-        let EmitResult { selection, answers, jobs, refused, mut delivered, mut diagnostics } = result;
-        report_cached(session.workspace(), &selection, &answers);
-        for (job, delivered) in jobs.iter().zip(&mut delivered) {
-            delivered.path.clone_from(&job.path);
-        }
-        compatible::name(session.workspace(), self, &mut delivered);
-        let older = older::programs(session, self, &selection.targets, &jobs, &delivered, &mut diagnostics);
-        let problems = delivered.iter().chain(&older).flat_map(|delivered| &delivered.problems);
-        diagnostics.extend(problems.cloned());
+        let mut matches = session.match_arguments(self.inputs);
+        let memo = Memo::open(session, ResultKind::Emit, &self.query(), self.inputs, &mut matches);
+        let Run { selection, mut plans, mut diagnostics } =
+            session.with_stable_files(|session| self.perform(session, &memo, &matches))?;
+        report_cached(session.workspace(), &selection, &plans);
+        let workspace = session.workspace();
+        comparison::name_compatible(
+            workspace,
+            self,
+            plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()),
+        );
+        let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.clear_job()).collect();
+        let older = stale::older_programs(session, self, &selection.targets, &jobs, &mut diagnostics);
+        let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
+        diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
         if let Some(file) = self.deps {
-            let inserted: Vec<_> = delivered.iter().map(|delivered| &*delivered.inserted).collect();
-            diagnostics.extend(deps::write(session, file, &jobs, self.post_processor, &inserted));
+            diagnostics.extend(deps::write(session, file, jobs.iter().copied(), self.post_processor));
         }
         let stale = match self.task {
             Task::Print => Vec::new(),
-            _ => stale::stale(session, &selection, &jobs, &delivered, self.post_processor, &mut diagnostics),
+            _ => stale::stale(session, &selection, &jobs, self.post_processor, &mut diagnostics),
         };
         let StaleOutcome { removed, outdated } =
             stale::settle(session, stale, self.removes_stale, &mut diagnostics);
-        if let Some(store) = &context.store {
-            let Self { task, join, post_processor, .. } = *self;
-            let (selection, answers, jobs, delivered, refused) =
-                (&selection, &answers, &jobs, &delivered, &refused);
-            store.keep(
-                session,
-                &RunRecord { task, join, post_processor, selection, answers, jobs, delivered, refused },
-            );
+        for answer in &mut plans {
+            self.complete_inputs(session, answer);
         }
+        let drawings = selection.drawings().filter_map(Answer::fresh);
+        memo.keep(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
+        let mut delivered: Vec<ProgramOutcome> =
+            plans.into_iter().filter_map(|plan| plan.value.outcome()).collect();
         delivered.extend(older);
         Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
     }
 
-    /// Loads the cached results of the drawings that the request may select.
-    fn store(&self, session: &Session<'_>, found: &mut ArgumentMatches) -> Option<Store> {
-        if !session.is_traced() {
-            return None;
+    /// Selects the paths, plans their programs, and builds and settles those that no earlier run knows.
+    fn perform(
+        &self,
+        session: &mut Session<'_>,
+        memo: &Memo,
+        matches: &ArgumentMatches,
+    ) -> Result<Run, String> {
+        let mut diagnostics = matches.problems.clone();
+        let workspace = session.workspace();
+        let selection = TargetSelection::new(session, memo, matches, self.join.is_some(), &mut diagnostics)
+            .ok_or_else(|| nothing_to_emit(workspace))?;
+        let is_printed = self.task == Task::Print;
+        if is_printed && self.join.is_none() && selection.targets.len() > 1 {
+            let reason = workspace.choose(
+                "`-o -` writes a single program: name a single path",
+                "`-o -` schreibt ein einzelnes Programm: nur einen Pfad nennen",
+            );
+            return Err(reason.to_owned());
         }
-        let (scope, listings) = (Scope::of(session, found), std::mem::take(&mut found.listings));
-        let store = Store::open(session.workspace(), self.post_processor, scope, listings);
-        let is_known = |file: SourceFile| {
-            store.as_ref().is_some_and(|store| store.drawing(file.path(session.db())).is_some())
-        };
-        session.prefetch(self.inputs, &is_known);
-        store
+        let mut plans = plan(session, self, memo, &selection.targets, &mut diagnostics)?;
+        diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
+        if is_printed && plans.iter().filter_map(|plan| plan.value.clear_job()).any(|job| job.files.len() > 1)
+        {
+            let reason = workspace.choose(
+                "`-o -` writes a single file: the program of this path has Z-probes and consists of several files",
+                "`-o -` schreibt eine einzelne Datei: das Programm dieses Pfads hat Z-Proben und besteht aus mehreren Dateien",
+            );
+            return Err(reason.to_owned());
+        }
+        let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
+        deliver(session, jobs, self.task, self.post_processor);
+        Ok(Run { selection, plans, diagnostics })
+    }
+
+    /// Everything that a program depends on besides drawings and settings.
+    fn query(&self) -> String {
+        let Some(post_processor) = self.post_processor else { return "emit".to_owned() };
+        let identity = blake3::hash(&post_processor.identity()).to_hex();
+        format!("emit {:?} {identity}", post_processor.file())
+    }
+
+    /// Adds to the inputs of a plan those of its program, and the files that were generated from it.
+    fn complete_inputs(&self, session: &Session<'_>, answer: &mut Answer<Plan>) {
+        let Some(inputs) = &mut answer.inputs else { return };
+        let job = answer.value.clear_job();
+        let outcome = job.and_then(|job| job.outcome.as_ref());
+        let problems = outcome.into_iter().flat_map(|outcome| &outcome.problems);
+        inputs.is_transient |= answer.value.problems().chain(problems).any(is_transient);
+        let (Some(job), Some(outcome)) = (job, outcome) else { return };
+        inputs.further = self.inserted(session, outcome);
+        if outcome.is_complete(job.files.len()) {
+            inputs.outputs = outcome.generated(self.task);
+        } else {
+            // The post-processor may accept the program once other files change. Writing that failed may succeed another time.
+            inputs.is_transient |= !outcome.is_refused;
+        }
+    }
+
+    /// The files that the post-processor inserted or failed to insert, with their hashes.
+    fn inserted(&self, session: &Session<'_>, outcome: &ProgramOutcome) -> Vec<ExtraInput> {
+        let Some(post) = self.post_processor.and_then(PostProcessor::file) else { return Vec::new() };
+        let beside = post.parent().unwrap_or(Utf8Path::new(""));
+        let inserted = outcome.inserted.iter();
+        inserted
+            .map(|file| ExtraInput { path: session.normal(&beside.join(&file.name)), hash: file.hash })
+            .collect()
     }
 }
 
+/// The paths of a run and what became of them.
+struct Run {
+    selection: TargetSelection,
+    plans: Vec<Answer<Plan>>,
+    diagnostics: Vec<Diagnostic>,
+}
+
 /// Reports, as a detail, how much was cached.
-fn report_cached(context: &Workspace, selection: &TargetSelection, answers: &[CheckedProgram]) {
-    let open: usize = answers.iter().map(|answer| answer.checked.len()).sum();
+fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answer<Plan>]) {
+    // A plan is for one path, or for all of them if they are joined.
+    let paths = selection.targets.len() / plans.len().max(1);
+    let open = paths * plans.iter().filter(|plan| plan.inputs.is_some()).count();
     let drawings = selection.drawings().count();
-    let read = selection.drawings().filter(|drawing| drawing.is_read).count();
+    let read = selection.drawings().filter(|drawing| drawing.inputs.is_some()).count();
     let known = [(selection.targets.len() - open, selection.targets.len()), (drawings - read, drawings)];
     let phrases = [
         context.choose("paths whose results still hold", "Pfade, deren Ergebnisse noch gelten"),
@@ -176,13 +231,12 @@ pub(crate) fn on_disk(
 ) -> HashMap<Target, Result<bool, Vec<Diagnostic>>> {
     let checked = session.check(targets);
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let built = checked.chunks(1).filter_map(|checked| builder.job(checked).ok().flatten());
-    let mut jobs: Vec<_> = built.collect();
-    let system = Arc::clone(&session.workspace().system);
-    jobs.retain(|job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File));
-    let settings = OutputSettings::new(session.workspace(), post_processor);
-    let delivered = deliver(session, &jobs, Task::Compare { moves_only: false }, &settings);
-    jobs.iter().zip(delivered).map(|(job, delivered)| (job.targets[0], is_current(delivered))).collect()
+    let jobs = checked.chunks(1).filter_map(|checked| builder.job(checked).ok().flatten());
+    let system = &*session.workspace().system;
+    let is_there = |job: &Job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File);
+    let mut jobs: Vec<Job> = jobs.filter(is_there).collect();
+    deliver(session, jobs.iter_mut(), Task::Compare { moves_only: false }, post_processor);
+    jobs.into_iter().map(|job| (job.targets[0], is_current(job.outcome.unwrap_or_default()))).collect()
 }
 
 /// Whether all files of a program are up to date.
@@ -218,21 +272,26 @@ pub fn write(
         if let Some(refusal) = options::missing(context, task, &checked) {
             return Err(refusal);
         }
-        let mut diagnostics = Vec::new();
-        let builder =
-            JobBuilder { session, post_processor, join: None, sheet: task.sheets(&context.settings) };
-        let mut jobs = Vec::new();
-        for checked in checked.chunks(1) {
-            match builder.job(checked) {
-                Ok(job) => jobs.extend(job),
-                Err(problems) => diagnostics.extend(problems),
-            }
+        let sheet = task.sheets(&context.settings);
+        let builder = JobBuilder { session, post_processor, join: None, sheet };
+        let mut plans: Vec<Plan> = checked.chunks(1).map(|checked| builder.plan(checked)).collect();
+        let mut diagnostics: Vec<Diagnostic> =
+            plans.iter().flat_map(|plan| &plan.refusals).cloned().collect();
+        mark_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
+        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()).filter(|job| !job.clashes) {
+            job.clashes = !job.claim(session, owners, &mut diagnostics);
         }
-        take_clashes(session, &mut jobs, &mut diagnostics);
-        jobs.retain(|job| job.claim(session, owners, &mut diagnostics));
-        let settings = OutputSettings::new(context, post_processor);
-        let delivered = deliver(session, &jobs, task, &settings);
+        deliver(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), task, post_processor);
+        let delivered: Vec<ProgramOutcome> = plans.into_iter().filter_map(Plan::outcome).collect();
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
         Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })
     })
+}
+
+fn nothing_to_emit(workspace: &Workspace) -> String {
+    let reason = workspace.choose(
+        "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
+        "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
+    );
+    reason.to_owned()
 }

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::native::{Charset, WriteOptions};
 use pathbuild_toolpath::{Correction, ZModel};
 
-use super::deliver::Task;
+use super::outcome::Task;
 use crate::config::types;
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;

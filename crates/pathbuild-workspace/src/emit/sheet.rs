@@ -13,9 +13,10 @@ use pathbuild_post::ToolTable;
 use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, SheetTool};
 
-use super::deliver::{OutputSettings, Task, make};
-use super::job::{Job, JobBuilder};
-use super::{generate, options};
+use super::build::{OutputSettings, build, total};
+use super::options;
+use super::outcome::{Task, cannot_write};
+use super::plan::{Job, JobBuilder, Plan};
 use crate::config;
 use crate::config::types::SheetFormat;
 use crate::posting::PostProcessor;
@@ -95,16 +96,12 @@ fn of_target(
 ) -> Result<SheetOutcome, String> {
     let context = session.workspace();
     let checked = session.check(&[target]);
-    let mut diagnostics: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| generate::found(session, checked)).collect();
     if let Some(refusal) = options::missing(context, Task::Write { force: false }, &checked) {
         return Err(refusal);
     }
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let job = builder.job(&checked).unwrap_or_else(|problems| {
-        diagnostics.extend(problems);
-        None
-    });
+    let Plan { mut diagnostics, refusals, job } = builder.plan(&checked);
+    diagnostics.extend(refusals);
     let sheet = job.and_then(|job| of_job(session, &job, post_processor, &mut diagnostics));
     Ok(SheetOutcome { sheet, diagnostics: session.with_hints(diagnostics) })
 }
@@ -118,9 +115,9 @@ fn of_job(
 ) -> Option<Sheet> {
     let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &&Job| {
-        let result = make(db, job, &settings);
-        let sheet = if result.delivered.is_refused { Ok(None) } else { sheet(db, job, &settings) };
-        (result.delivered.problems, sheet)
+        let result = build(db, job, &settings);
+        let sheet = if result.outcome.is_refused { Ok(None) } else { sheet(db, job, &settings) };
+        (result.outcome.problems, sheet)
     };
     let result = session.map_guarded(&[job], work).pop()?;
     let sheet = result.and_then(|(problems, sheet)| {
@@ -146,7 +143,7 @@ pub(super) fn bytes(
     let Some(sheet) = sheet(db, job, settings)? else { return Ok(None) };
     sheet_bytes(&sheet, format, settings.sheets.lang)
         .map(Some)
-        .map_err(|reason| Box::new(super::deliver::cannot_write(&job.path, reason)))
+        .map_err(|reason| Box::new(cannot_write(&job.path, reason)))
 }
 
 /// Renders a sheet.
@@ -172,7 +169,7 @@ fn sheet(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Opti
         programs.push(program);
     }
     let provenance = settings.provenances.of(&programs);
-    let total = super::deliver::total(&programs, settings.writing.options.rapid);
+    let total = total(&programs, settings.writing.options.rapid);
     let drawings = job.targets.iter().map(|target| file_name(db, target.file(db)));
     let mut drawings: Vec<String> = drawings.collect();
     drawings.dedup();

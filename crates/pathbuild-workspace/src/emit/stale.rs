@@ -1,4 +1,5 @@
-//! Stale programs: G-code that was written earlier and that no path yields any more. (PB520, book: reference/commands)
+//! Stale programs: G-code that was written earlier and that no path yields any more (PB520), or whose paths could not be written now: these
+//! show an earlier state of the drawing (PB522). (book: reference/commands)
 //!
 //! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run
 //! knows every drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of
@@ -8,19 +9,21 @@ use std::cell::LazyCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::Db;
-use pathbuild_db::system::join;
+use pathbuild_db::system::{Names, join};
+use pathbuild_db::{Db, Target};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
-use super::deliver::ProgramOutcome;
-use super::job::Job;
-use super::targets::TargetSelection;
+use super::Request;
+use super::outcome::{ProgramOutcome, State, Task};
+use super::plan::{Job, output_directory, program_name};
+use super::select::TargetSelection;
+use crate::memo::{Answer, DrawingResult};
 use crate::posting::PostProcessor;
-use crate::session::{Drawing, OutputKind, Session};
+use crate::session::{OutputKind, Session};
 
 /// A program that must not be taken to the machine.
 #[derive(Debug)]
@@ -105,18 +108,17 @@ pub(super) fn settle(
     dealt
 }
 
-/// Finds the stale programs. `delivered` has the outcome of each job.
+/// Finds the stale programs: among all files of the searched directories, and among the former files of paths that lie elsewhere.
 pub(super) fn stale(
     session: &Session<'_>,
     selection: &TargetSelection,
-    jobs: &[Job],
-    delivered: &[ProgramOutcome],
+    jobs: &[&Job],
     post_processor: Option<&PostProcessor>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<StaleProgram> {
     let settings = &session.workspace().settings;
     let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
-    let is_wide = selection.covered.iter().len() > 0 || !selection.directories.is_empty();
+    let is_wide = !selection.covered.is_empty() || !selection.directories.is_empty();
     let directories: &[Utf8PathBuf] = match &out_dir {
         _ if !is_wide => &[],
         Some(directory) => std::slice::from_ref(directory),
@@ -127,7 +129,6 @@ pub(super) fn stale(
         post_processor,
         jobs,
         outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
-        delivered,
         by_stem: LazyCell::new(Box::new(|| {
             jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
         })),
@@ -135,12 +136,14 @@ pub(super) fn stale(
     };
     let mut stale = Vec::new();
     for directory in directories {
-        match finding.in_directory(directory) {
-            Ok(found) => stale.extend(found),
+        match session.file_names_in(directory) {
+            Ok(names) => stale.extend(
+                finding.candidates(directory, &names).filter_map(|path| finding.judge(path, Some(&names))),
+            ),
             Err(problem) => diagnostics.push(*problem),
         }
     }
-    stale.extend(finding.individual_paths(directories));
+    stale.extend(finding.former_files(directories).filter_map(|path| finding.judge(path, None)));
     stale
 }
 
@@ -159,57 +162,49 @@ type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 struct StaleSearch<'a> {
     session: &'a Session<'a>,
     post_processor: Option<&'a PostProcessor>,
-    jobs: &'a [Job],
+    jobs: &'a [&'a Job],
     outputs: HashSet<&'a Utf8Path>,
-    delivered: &'a [ProgramOutcome],
     /// Index of each job by the stem of its file names.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
     writers: Lazy<'a, Writers>,
 }
 
 impl<'a> StaleSearch<'a> {
-    fn in_directory(&self, directory: &Utf8Path) -> Result<Vec<StaleProgram>, Box<Diagnostic>> {
-        let names = self.session.file_names_in(directory)?;
+    /// The programs and setup sheets in a directory that the run does not generate.
+    fn candidates(&self, directory: &Utf8Path, names: &Names) -> impl Iterator<Item = Utf8PathBuf> {
         let programs = names.iter().filter(|name| is_gcode(name, self.post_processor) || is_sheet(name));
         let programs = programs.map(|name| join(directory, name));
         let mut programs: Vec<Utf8PathBuf> =
             programs.filter(|path| !self.outputs.contains(&**path)).collect();
         programs.sort_unstable();
-        let stale = |path: Utf8PathBuf| {
-            let (found, title) = self.provenance(&path)?;
-            match self.own(&path) {
-                Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
-                _ => self.of_other_post(&path, &found, &title).or_else(|| {
-                    let is_left = self.writers.are_gone(directory, &title, names.iter());
-                    is_left.then_some(StaleProgram { path, reason: Reason::Left })
-                }),
-            }
-        };
-        Ok(programs.into_iter().filter_map(stale).collect())
+        programs.into_iter()
     }
 
-    /// Checks paths that were named individually: only the names that their own files would have.
-    fn individual_paths(&self, directories: &[Utf8PathBuf]) -> Vec<StaleProgram> {
+    /// The names that former files of paths outside the searched directories would have.
+    fn former_files(&self, directories: &[Utf8PathBuf]) -> impl Iterator<Item = Utf8PathBuf> {
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
-        let is_elsewhere = |job: &&Job| job.stem.parent().is_none_or(|parent| !searched.contains(parent));
-        let stems = self.jobs.iter().filter(is_elsewhere).map(|job| &job.stem);
+        let stems = self.jobs.iter().map(|job| &job.stem);
+        let stems = stems.filter(move |stem| stem.parent().is_none_or(|parent| !searched.contains(parent)));
         let paths = stems.flat_map(|stem| {
             let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
             let posted =
                 EXTENSIONS[1..].iter().map(move |extension| format!("{stem}_Milling.{extension}").into());
             native.into_iter().chain(posted)
         });
-        let stale = |path: Utf8PathBuf| {
-            if self.outputs.contains(&*path) {
-                return None;
-            }
-            let (found, title) = self.provenance(&path)?;
-            match self.own(&path) {
-                Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
-                _ => self.of_other_post(&path, &found, &title),
-            }
-        };
-        paths.filter_map(stale).collect()
+        paths.filter(|path| !self.outputs.contains(&**path))
+    }
+
+    /// Whether a program is stale. `beside` lists the files in its directory if programs of removed paths count.
+    fn judge(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
+        let (found, title) = self.provenance(&path)?;
+        match self.own(&path) {
+            Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
+            _ => self.of_other_post(&path, &found, &title).or_else(|| {
+                let directory = path.parent().unwrap_or(Utf8Path::new(""));
+                let is_left = self.writers.are_gone(directory, &title, beside?.iter());
+                is_left.then_some(StaleProgram { path, reason: Reason::Left })
+            }),
+        }
     }
 
     /// A program of one of the run's paths that was written through another post-processor, or natively, if the path has other moves now.
@@ -217,7 +212,8 @@ impl<'a> StaleSearch<'a> {
         let name = path.with_extension("");
         let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
-        let (job, now) = (&self.jobs[number], self.delivered[number].provenance.as_ref()?);
+        let job = self.jobs[number];
+        let now = job.outcome.as_ref()?.provenance.as_ref()?;
         let is_meant = is_of(job, self.session, title) && now.moves != found.moves;
         let program = job.files.first()?.1.clone();
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
@@ -231,8 +227,8 @@ impl<'a> StaleSearch<'a> {
         let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
         let (kind, stem) = OutputKind::ALL.into_iter().find_map(of_kind)?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
-        let job = &self.jobs[number];
-        let provenance = self.delivered[number].provenance.as_ref()?;
+        let job = self.jobs[number];
+        let provenance = job.outcome.as_ref()?.provenance.as_ref()?;
         job.files.iter().all(|(present, _)| *present != kind).then_some(FormerFile { job, kind, provenance })
     }
 
@@ -291,7 +287,7 @@ const EXTENSIONS: [&str; 4] = ["gcode", "nc", "ngc", "tap"];
 /// Endings of program names, without extension.
 const PROGRAMS: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
-pub(super) fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
+fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
     let is_like = |extension: &str, other: &str| extension.eq_ignore_ascii_case(other);
     Utf8Path::new(name).extension().is_some_and(|extension| {
         EXTENSIONS.iter().any(|known| is_like(extension, known))
@@ -330,7 +326,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(session: &Session<'_>, selection: &TargetSelection, jobs: &[Job]) -> Self {
+    fn new(session: &Session<'_>, selection: &TargetSelection, jobs: &[&Job]) -> Self {
         let db = session.db();
         let out_dir = session.workspace().settings.general.out_dir.value.as_ref();
         let out_dir = out_dir.map(|directory| session.normal(directory));
@@ -342,19 +338,17 @@ impl Writers {
         let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
         let generated: BTreeSet<Title> =
             jobs.iter().map(|job| path(job.drawing(db).path(db), &job.path)).collect();
-        let of_covered = selection
-            .covered
-            .iter()
-            .flat_map(|drawing| drawing.result.names.iter().map(|name| path(&drawing.path, name.as_str())));
-        let (broken, sound): (Vec<&Drawing>, Vec<&Drawing>) = selection
-            .covered
-            .iter()
-            .partition(|drawing| drawing.result.diagnostics.iter().any(Diagnostic::is_error));
-        let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| &*drawing.path).collect();
+        let of_covered = selection.covered.iter().flat_map(|drawing| {
+            drawing.value.names.iter().map(|name| path(drawing.drawing(), name.as_str()))
+        });
+        let is_broken =
+            |drawing: &&Answer<DrawingResult>| drawing.value.diagnostics.iter().any(Diagnostic::is_error);
+        let (broken, sound): (Vec<_>, Vec<_>) = selection.covered.iter().partition(is_broken);
+        let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| drawing.drawing()).collect();
         let has_library = session.has_library();
         let (library, problems) = if has_library { session.library() } else { Default::default() };
         let others = library.iter().filter(|drawing| !covered.contains(&***drawing));
-        let others = others.map(|drawing| &**drawing).chain(broken.iter().map(|drawing| &*drawing.path));
+        let others = others.map(|drawing| &**drawing).chain(broken.iter().map(|drawing| drawing.drawing()));
         Self {
             idle: of_covered.filter(|title| !generated.contains(title)).collect(),
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
@@ -381,4 +375,118 @@ impl Writers {
         // A drawing that exists but is unknown to the run, such as an ignored one, is left alone.
         self.covered.contains(&drawing) || (self.knows_all && !is_beside)
     }
+}
+
+/// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison counts
+/// it as out of date.
+pub(super) fn older_programs(
+    session: &Session<'_>,
+    request: &Request<'_>,
+    targets: &[Target],
+    jobs: &[&Job],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<ProgramOutcome> {
+    let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
+    match (request.task, request.join, request.post_processor) {
+        (Task::Print, ..) => Vec::new(),
+        (task, Some(name), Some(post_processor)) => {
+            let joined = targets.first().filter(|_| !jobs.iter().any(|job| is_done(&job)));
+            let program = joined.and_then(|first| of_joined(session, *first, name, post_processor));
+            program.map(|program| older(program, name, task)).into_iter().collect()
+        }
+        (task, _, post_processor) => {
+            let done = jobs.iter().filter(is_done);
+            let done: HashSet<Target> = done.flat_map(|job| job.targets.iter().copied()).collect();
+            let open = targets.iter().filter(|target| !done.contains(target));
+            let mut listings = Listings::default();
+            let older = |target: &Target| {
+                let programs = of_target(session, *target, post_processor, &mut listings).into_iter();
+                programs.map(|program| older(program, target.name(session.db()), task)).collect::<Vec<_>>()
+            };
+            let older = open.flat_map(older).collect();
+            diagnostics.append(&mut listings.problems);
+            older
+        }
+    }
+}
+
+/// Programs in output directories, each of which is listed once.
+#[derive(Default)]
+struct Listings {
+    programs: HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>,
+    problems: Vec<Diagnostic>,
+}
+
+impl Listings {
+    /// Programs in a directory whose names begin with `stem`, ignoring case.
+    fn beginning(
+        &mut self,
+        (session, post_processor): (&Session<'_>, Option<&PostProcessor>),
+        directory: &Utf8PathBuf,
+        stem: &str,
+    ) -> impl Iterator<Item = &Utf8PathBuf> {
+        let programs = self.programs.entry(directory.clone()).or_insert_with(|| {
+            let names = session.file_names_in(directory).unwrap_or_else(|problem| {
+                self.problems.push(*problem);
+                Names::default()
+            });
+            let programs = names.iter().filter(|name| is_gcode(name, post_processor));
+            let mut programs: Vec<_> =
+                programs.map(|name| (name.to_lowercase(), join(directory, name))).collect();
+            programs.sort_unstable();
+            programs
+        });
+        let stem = stem.to_lowercase();
+        let first = programs.partition_point(|(name, _)| *name < stem);
+        programs[first..]
+            .iter()
+            .take_while(move |(name, _)| name.starts_with(&stem))
+            .map(|(_, program)| program)
+    }
+}
+
+fn older(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutcome {
+    let problem = Diagnostic::new(&messages::OLDER_OUTPUT)
+        .quoting("name", program.file_name().unwrap_or_default())
+        .quoting("path", path)
+        .in_file(&program);
+    let is_compared = matches!(task, Task::Compare { .. });
+    let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();
+    ProgramOutcome { path: path.into(), files, problems: vec![problem], ..ProgramOutcome::default() }
+}
+
+/// The names begin with that of the drawing or of the path, whatever R was; the head of each program names its path.
+fn of_target(
+    session: &Session<'_>,
+    target: Target,
+    post_processor: Option<&PostProcessor>,
+    listings: &mut Listings,
+) -> Vec<Utf8PathBuf> {
+    let (db, system) = (session.db(), session.db().system());
+    let (drawing, path) = (target.file(db).path(db), &**target.name(db));
+    let directory = output_directory(session, target.file(db));
+    let stems = [drawing.file_stem().unwrap_or_default(), path];
+    let drawing = drawing.file_name().unwrap_or_default();
+    let is_of_target = |program: &Utf8PathBuf| {
+        let head = system.head(program, HEAD).unwrap_or_default();
+        Provenance::of_head(&head).is_some_and(|(_, found)| native::is_title(&found, drawing, path))
+    };
+    let mut programs = BTreeSet::new();
+    for stem in stems {
+        programs.extend(listings.beginning((session, post_processor), &directory, stem).cloned());
+    }
+    programs.into_iter().filter(is_of_target).collect()
+}
+
+/// The program that the targets were joined into earlier.
+fn of_joined(
+    session: &Session<'_>,
+    first: Target,
+    name: &str,
+    post_processor: &PostProcessor,
+) -> Option<Utf8PathBuf> {
+    let directory = output_directory(session, first.file(session.db()));
+    let program = join(&directory, program_name(name, post_processor));
+    let head = session.db().system().head(&program, HEAD).unwrap_or_default();
+    Provenance::of_head(&head).map(|_| program)
 }

@@ -17,8 +17,9 @@ use crate::check::cached_results;
 use crate::config::types::Pattern;
 use crate::emit;
 use crate::inputs::Input;
+use crate::memo::{self, DrawingResult};
 use crate::posting::PostProcessor;
-use crate::session::{CheckedTarget, DrawingResult, Session};
+use crate::session::{CheckedTarget, Session};
 
 pub use json::{drawing_json, path_json, stats_json};
 pub use row::{Row, State};
@@ -114,23 +115,23 @@ impl Session<'_> {
     /// only the first `most_unknown` are read, and the rest are left out.
     pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
         let (files, _) = self.all_drawings();
-        let result_store = cached_results(self.workspace());
-        let cached_names = |file: &SourceFile| {
-            let payload = result_store.as_ref()?.payload(file.path(self.db()).as_str())?;
-            Some(DrawingResult::decode(payload).ok()?.names)
+        let memo = cached_results(self.workspace()).unwrap_or_default();
+        let read = |open: &[&SourceFile]| {
+            let open: Vec<SourceFile> = open.iter().take(most_unknown).map(|file| **file).collect();
+            self.parse_ahead(&open);
+            let read = |file: SourceFile| {
+                let names = path_names(self.db(), file).to_vec();
+                (DrawingResult { names, diagnostics: Vec::new() }, memo::Inputs::default())
+            };
+            open.into_iter().map(read).collect()
         };
-        let (mut paths, mut open) = (Vec::new(), Vec::new());
-        for file in files {
-            match cached_names(&file) {
-                Some(cached_names) => paths.extend(cached_names.into_iter().map(|name| (name, file))),
-                None => open.push(file),
-            }
-        }
-        open.truncate(most_unknown);
-        self.parse_ahead(&open);
-        for file in open {
-            paths.extend(path_names(self.db(), file).iter().map(|name| (name.clone(), file)));
-        }
+        let path = |file: &SourceFile| file.path(self.db()).as_str().into();
+        let drawings = memo.get_or(&files, path, |_, result| Some(result), read);
+        let paths = drawings.into_iter().flat_map(|answer| {
+            let file = self.file(answer.drawing());
+            answer.value.names.into_iter().map(move |name| (name, file))
+        });
+        let mut paths: Vec<(PathName, SourceFile)> = paths.collect();
         paths.sort_by(|(a, one), (b, other)| {
             a.cmp(b).then_with(|| one.path(self.db()).cmp(other.path(self.db())))
         });

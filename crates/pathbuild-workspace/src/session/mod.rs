@@ -3,7 +3,6 @@
 mod argument_matches;
 mod combinations;
 mod directory_queries;
-mod drawings;
 mod empty_input;
 mod graph;
 mod ignore_rules;
@@ -14,7 +13,6 @@ mod outputs;
 mod prefetch;
 mod q_projects;
 mod resolve;
-mod result_store;
 mod scene;
 mod settings;
 mod suggestions;
@@ -37,7 +35,6 @@ use crate::reporter::Advance;
 use crate::workspace::Workspace;
 
 pub use argument_matches::{Argument, ArgumentMatches};
-pub(crate) use drawings::{Drawing, Drawings};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub use library::{by_name, by_place};
 pub(crate) use library_hints::relative;
@@ -45,10 +42,6 @@ pub use one_path::{NamedPaths, NotOnePath, several_paths};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
 pub use q_projects::{Pair, pairs as q_project_pairs};
 pub use resolve::{NamesOf, SelectedPath, Selection};
-pub use result_store::{
-    BUILD, CacheQuery, Coverage, CoveredPaths, Dependencies, DrawingResult, ExtraInput, FreshResult,
-    GeneratedFile, OutputState, ResultStore, Scope, hash_output, is_transient,
-};
 pub(crate) use scene::program_scene;
 pub use scene::{SceneReport, ShownText};
 pub use settings::{limits, reading};

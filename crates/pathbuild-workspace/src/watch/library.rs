@@ -12,7 +12,8 @@ use super::names::NameSnapshots;
 use super::reverse::ReverseIndex;
 use crate::Inputs;
 use crate::check::check_drawings;
-use crate::session::{Coverage, DrawingResult, Pair, Session, is_transient, q_project_pairs};
+use crate::memo::{Coverage, DrawingResult, is_transient};
+use crate::session::{Pair, Session, q_project_pairs};
 
 /// The watched drawings with their results.
 pub(super) struct Library<'a> {

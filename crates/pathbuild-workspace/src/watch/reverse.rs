@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{SourceFile, Trace};
 use pathbuild_path::PathName;
 
-use crate::session::Coverage;
+use crate::memo::Coverage;
 
 /// The reverse index of all traces.
 #[derive(Default)]

@@ -8,8 +8,9 @@ use pathbuild_diagnostic::{Code, Diagnostic, Value};
 
 use super::{Listener, Request};
 use crate::emit::{self, FileOwners, TargetPatterns};
+use crate::memo::is_transient;
 use crate::posting::{PostArguments, PostProcessor};
-use crate::session::{Session, is_transient};
+use crate::session::Session;
 use crate::workspace::Workspace;
 
 /// Writes programs, if `--emit` is given.

@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::args::{CacheArgs, CacheCommand, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::session::BUILD;
+use pathbuild_workspace::memo::BUILD;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {

@@ -21,7 +21,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
-    let Some(result_store) = cached_results(context) else {
+    let Some(memo) = cached_results(context) else {
         return context.usage(context.choose(
             "why needs cached results: there are none without a pathbuild.toml, or with --no-cache",
             "why braucht gespeicherte Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
@@ -32,7 +32,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut listed = HashSet::new();
     let all = selection.drawings.iter().chain(named.map(|file| file.path(session.db())));
     for drawing in all.filter(|drawing| listed.insert(*drawing)) {
-        let answer = DrawingState { drawing, reasons: result_store.why(drawing.as_str()) };
+        let answer = DrawingState { drawing, reasons: memo.why(drawing.as_str()) };
         match context.format {
             Format::Json => context.row("result", answer.json(context)),
             _ => context.printer.result(answer.text(context)),

@@ -1,125 +1,35 @@
-//! Generates the files of one program, and writes, compares or prints them. Runs on worker threads and prints nothing itself.
+//! Builds the files of one program, natively or through a post-processor. Runs on worker threads.
 
+use std::borrow::Borrow;
+use std::fmt::Debug;
 use std::ops::Add;
+use std::slice;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::WriteOutcome;
-use pathbuild_db::{Database, System, program};
+use pathbuild_db::{Database, program};
 use pathbuild_diagnostic::limits::{exceeded, moves_cut};
 use pathbuild_diagnostic::messages::{files, probes};
-use pathbuild_diagnostic::{Diagnostic, Lang, Note, Point, Severity, Value};
+use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity};
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::{self, probe_name};
-use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
+use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Correction, Outside, Program, Step, Total, memory};
 
-use super::job::Job;
-use super::provenance::Provenances;
+use super::outcome::ProgramOutcome;
+use super::plan::{Job, JobBuilder};
 use super::sheet::SheetSettings;
-use super::{compare, options, sheet};
+use super::{options, sheet};
 use crate::config::Settings;
 use crate::config::types::SheetFormat;
 use crate::machine::machine;
-use crate::posting::{InsertedFile, PostProcessor, tool_table};
-use crate::session::{OutputKind, WriteSettings, hash_output, without_places, without_values};
+use crate::posting::{PostProcessor, tool_table};
+use crate::session::{CheckedTarget, OutputKind, Session, WriteSettings};
 use crate::workspace::Workspace;
-
-/// What to do with the generated files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Task {
-    /// Write them.
-    Write {
-        /// Whether to overwrite measured values.
-        force: bool,
-    },
-    /// Compare them with the files on disk.
-    Compare {
-        /// Whether to compare moves only instead of bytes.
-        moves_only: bool,
-    },
-    /// Print them.
-    Print,
-}
-
-/// The outcome of generating the files of one program.
-#[derive(Debug, Default)]
-pub struct ProgramOutcome {
-    /// Name of the path, or of the joined program.
-    pub path: Box<str>,
-    /// Each file with its outcome.
-    pub files: Vec<(Utf8PathBuf, State)>,
-    /// Expected content of each file, hashed by [`hash_output`].
-    pub(super) hashes: Vec<[u8; 32]>,
-    /// Length of the program in mm.
-    pub length: f64,
-    /// Machining time in minutes.
-    pub minutes: f64,
-    /// Errors, and differences in moves.
-    pub problems: Vec<Diagnostic>,
-    /// Whether the program itself has errors, so that nothing is written.
-    pub(super) is_refused: bool,
-    /// Identifies the inputs of the program; `None` if there is no program.
-    pub(super) provenance: Option<Provenance>,
-    /// Notes of the post-processor.
-    pub notes: Vec<Note>,
-    /// The command that the post-processor wants to run, with its output file.
-    pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
-    /// Files that the post-processor inserted or failed to insert.
-    pub(super) inserted: Vec<InsertedFile>,
-}
-
-impl ProgramOutcome {
-    /// Adds the outcome of each file after writing.
-    pub(super) fn add(&mut self, written: Self) {
-        self.files.extend(written.files);
-        self.hashes.extend(written.hashes);
-        self.problems.extend(written.problems);
-    }
-
-    /// Whether the file on disk is now up to date.
-    pub fn has_written(&self, file: &Utf8Path) -> bool {
-        let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
-        self.files.iter().any(|(path, state)| path == file && is_there(state))
-    }
-}
-
-/// The outcome of a single file.
-#[derive(Debug)]
-pub enum State {
-    /// Written.
-    Written,
-    /// Already up to date, not written.
-    Unchanged,
-    /// Compared: equal to what would be written.
-    Current,
-    /// Compared: different.
-    Outdated,
-    /// Compared: does not exist.
-    Missing,
-    /// Content to print.
-    Printed(Vec<u8>),
-}
-
-impl Task {
-    /// Whether this task covers files of this kind. A comparison of moves skips measured values and setup sheets.
-    pub(super) fn compares(self, kind: OutputKind) -> bool {
-        self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())
-    }
-
-    /// Sheet formats that belong to this task. Printing outputs the program alone.
-    pub(super) fn sheets(self, settings: &Settings) -> SheetFormat {
-        if self == Self::Print { SheetFormat::No } else { settings.emit.sheet.value }
-    }
-
-    /// Whether the results contain times.
-    pub(super) fn writes_times(self) -> bool {
-        self != Self::Compare { moves_only: true }
-    }
-}
 
 /// How programs are written: natively or through a post-processor.
 pub(super) struct OutputSettings<'a> {
@@ -145,18 +55,18 @@ impl<'a> OutputSettings<'a> {
     }
 }
 
-/// The generated files of a job; empty if any of them cannot be written.
+/// A program with its generated files, which are empty if any of them cannot be written.
 #[derive(Default)]
-pub(super) struct JobFiles {
+pub(super) struct Built {
     /// Everything about the program except the outcome of its files.
-    pub(super) delivered: ProgramOutcome,
+    pub(super) outcome: ProgramOutcome,
     pub(super) outputs: Vec<Output>,
 }
 
 /// Generates the files of a job. Native files are read back and compared with the program. (book: program/reading)
-pub(super) fn make(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> JobFiles {
+pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Built {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
-    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return JobFiles::default() };
+    let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return Built::default() };
     let mut delivered = ProgramOutcome::default();
     let time = total(&programs, settings.writing.options.rapid);
     (delivered.length, delivered.minutes) = (time.length, time.minutes());
@@ -178,7 +88,7 @@ pub(super) fn make(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> J
         delivered.problems.extend(problems);
         Vec::new()
     });
-    JobFiles { delivered, outputs }
+    Built { outcome: delivered, outputs }
 }
 
 /// Sum of the programs' lengths and times; `rapid` is the feed of rapid moves in mm/min.
@@ -226,61 +136,6 @@ fn unsafe_moves(
         problem.path = Some(job.path.clone());
     }
     (!errors.is_empty()).then_some(errors)
-}
-
-/// Writes, compares or prints the files of a job.
-pub(super) fn finish(
-    system: &dyn System,
-    mut outputs: Vec<Output>,
-    task: Task,
-    settings: &OutputSettings<'_>,
-    delivered: &mut ProgramOutcome,
-) {
-    let (post_processor, limit) = (settings.post_processor, settings.writing.most_bytes as u64);
-    // Hash what this version writes, not a kept file of another version: that file must not become the expected content.
-    let hashes: Vec<[u8; 32]> =
-        outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
-    if task != Task::Print {
-        for output in &mut outputs {
-            keep_other_version(system, output, limit);
-        }
-    }
-    let hashed = outputs.iter().zip(hashes);
-    match task {
-        Task::Write { force } => {
-            if let Err(problem) = write(system, hashed, force, delivered) {
-                delivered.problems.push(*problem);
-            }
-        }
-        Task::Compare { moves_only } => {
-            for (output, hash) in hashed.filter(|(output, _)| task.compares(output.kind)) {
-                let (state, problems) = compare::compare(system, output, limit, moves_only, post_processor);
-                delivered.hashes.push(hash);
-                delivered.files.push((output.path.clone(), state));
-                delivered.problems.extend(problems);
-            }
-        }
-        Task::Print => {
-            delivered.files =
-                outputs.into_iter().map(|output| (output.path, State::Printed(output.text))).collect();
-        }
-    }
-}
-
-/// Keeps the file of another pathbuild version if it contains the same program.
-fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
-    if is_of_other_version(system, &output.path)
-        && let Ok(present) = system.read(&output.path, limit)
-        && is_same_program(&present, &output.text)
-    {
-        output.text = present;
-    }
-}
-
-/// Whether a program on disk was written by another version of pathbuild.
-pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
-    let head = system.head(program, HEAD).unwrap_or_default();
-    Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }
 
 /// PB005: cutting moves into pieces (z-split) exceeds a limit. Moves were counted before cutting, so the pieces are counted here. `steps`
@@ -417,58 +272,67 @@ fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
 }
 
-/// Writes files; each comes with the hash of the content that this version generates.
-fn write<'a>(
-    system: &dyn System,
-    outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
-    force: bool,
-    delivered: &mut ProgramOutcome,
-) -> Result<(), Box<Diagnostic>> {
-    let mut values =
-        outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
-    if !force && let Some(lost) = values.find(|output| would_lose_values(system, output)) {
-        let name = lost.path.file_name().unwrap_or_default();
-        return Err(Box::new(
-            Diagnostic::new(&probes::VALUES_PRESENT).quoting("name", name).in_file(&lost.path),
-        ));
+/// The part of the provenance that all programs of a run share.
+#[derive(Clone, Debug)]
+pub struct Provenances {
+    /// All options besides the moves that influence a program's text.
+    options: Vec<u8>,
+    dialect: Option<Dialect>,
+}
+
+impl Provenances {
+    /// Provenance of programs written with these settings, natively or through a post-processor.
+    pub fn new(settings: &Settings, post_processor: Option<&PostProcessor>) -> Self {
+        let general = &settings.general;
+        let mut options = Vec::new();
+        let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
+        add(&(general.rapid.value, general.compatible.value));
+        add(&(general.z_model.value, settings.z_split()));
+        add(&(settings.comment_lang(), general.charset.value));
+        options.extend(post_processor.map(PostProcessor::identity).unwrap_or_default());
+        let dialect = match post_processor {
+            None => Some(Dialect::Native),
+            Some(post_processor) => post_processor.reader(),
+        };
+        Self { options, dialect }
     }
-    for (output, hash) in outputs {
-        let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
-        let written =
-            if is_kept { Ok(WriteOutcome::Unchanged) } else { system.write(&output.path, &output.text) };
-        let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), reason)))?;
-        let state = if written == WriteOutcome::Changed { State::Written } else { State::Unchanged };
-        delivered.hashes.push(hash);
-        delivered.files.push((output.path.clone(), state));
+
+    /// Provenance of the programs in one file.
+    pub fn of<P: Borrow<Program>>(&self, programs: &[P]) -> Provenance {
+        Provenance::of_programs(programs, &self.options, self.dialect)
     }
-    Ok(())
 }
 
-/// Whether the file contains measured values for other probes than the current ones.
-fn would_lose_values(system: &dyn System, output: &Output) -> bool {
-    let Some(present) = present(system, &output.path) else { return false };
-    let has_values = without_values(present.as_bytes()) != present.trim_end();
-    has_values && !is_for_probes(&present, &output.text)
+/// A program file in memory.
+pub(crate) struct ProgramText {
+    /// Path that `emit` would write it to.
+    pub(crate) file: Utf8PathBuf,
+    pub(crate) bytes: Vec<u8>,
+    /// Dialect to read it in.
+    pub(crate) dialect: Dialect,
 }
 
-/// Whether the file of values exists and matches the current probes.
-pub(super) fn has_same_probes(system: &dyn System, output: &Output) -> bool {
-    present(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
-}
-
-/// Whether two files of values are for the same probes. A file without the probes' places in the emitted drawing was written by an older
-/// version or by the original tool.
-fn is_for_probes(present: &str, written: &[u8]) -> bool {
-    let (present, written) = (without_values(present.as_bytes()), without_values(written));
-    present == written || present == without_places(&written)
-}
-
-fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
-    let bytes = system.read(path, 1 << 24).ok()?;
-    Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
-}
-
-/// PB004: a file cannot be written.
-pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
-    Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
+/// Generates the program of a checked path; `None` if the path has errors.
+///
+/// # Errors
+/// Why `emit` would refuse to write it.
+pub(crate) fn program_text(
+    session: &Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    checked: &CheckedTarget,
+) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
+    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
+    let Some(job) = builder.job(slice::from_ref(checked))? else { return Ok(None) };
+    let settings = OutputSettings::new(session.workspace(), post_processor);
+    let work = |db: &Database, job: &Job| build(db, job, &settings);
+    let files =
+        session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(Built::default()));
+    let files = files.map_err(|problem| vec![*problem])?;
+    // Without a known dialect, read the text as generic RS274, as when it is read back.
+    let dialect = post_processor
+        .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
+    match files.outputs.into_iter().find(|output| output.kind.is_program()) {
+        Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),
+        None => Err(files.outcome.problems),
+    }
 }

@@ -1,11 +1,10 @@
-//! Cached results of earlier runs, for commands that process a whole library. (crate pathbuild-cache)
+//! The memo: results of earlier runs, for commands that process a whole library. Nothing else knows earlier runs. (crate pathbuild-cache)
 //!
 //! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
 
-mod catalogue_builder;
-mod payload;
-mod query;
-mod scope;
+mod builder;
+mod drawings;
+mod key;
 
 use std::cell::Cell;
 use std::collections::HashSet;
@@ -13,27 +12,74 @@ use std::collections::HashSet;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{
     CacheFault, Catalogue, FileState, Key, Listings, Lookup, Reason, TreeStore, Verdict, VerifyContext,
-    reasons, verify,
+    decode, encode, reasons, verify,
 };
 use pathbuild_db::system::FileKind;
-use pathbuild_db::{Db, Trace};
+use pathbuild_db::{Database, Db, SourceFile, Trace};
 use pathbuild_diagnostic::reasons::IN_STRANGERS_TREE;
 use pathbuild_files::{Clock, Stamp};
+use serde::{Serialize, de::DeserializeOwned};
 
-use super::Session;
-use super::outputs::{OutputKind, without_values};
 use crate::config::ResultKind;
+use crate::inputs::Inputs as Arguments;
+use crate::session::{ArgumentMatches, OutputKind, Session, without_values};
 use crate::workspace::Workspace;
 
-use catalogue_builder::CatalogueBuilder;
-pub use payload::{DrawingResult, is_transient};
-use query::query_text;
-pub use query::{BUILD, Coverage, CoveredPaths};
-pub use scope::Scope;
+use builder::CatalogueBuilder;
+pub use drawings::{DrawingResult, is_transient};
+pub(crate) use drawings::{find, read_drawings, subject};
+pub use key::{BUILD, Coverage, CoveredPaths};
+use key::{Scope, query_text};
+
+/// Results of earlier runs of a command, if there are any.
+#[derive(Debug, Default)]
+pub struct Memo(Option<Store>);
+
+/// A result, of an earlier run or of this one.
+#[derive(Debug)]
+pub struct Answer<T> {
+    /// What it is about. It begins with the path of a drawing; anything more specific follows after a NUL.
+    pub subject: Box<str>,
+    /// The result.
+    pub value: T,
+    /// What this run computed it from; `None` if an earlier run did.
+    pub inputs: Option<Inputs>,
+}
+
+/// What a result of this run was computed from, and which files were generated from it.
+#[derive(Clone, Debug, Default)]
+pub struct Inputs {
+    /// The drawings and lookups that it depends on.
+    pub traces: Vec<Trace>,
+    /// Other files that it depends on.
+    pub further: Vec<ExtraInput>,
+    /// The files that were generated from it.
+    pub outputs: Vec<GeneratedFile>,
+    /// Whether another run may get a different result although no input changes.
+    pub is_transient: bool,
+}
+
+/// A result of this run, encoded for the cache.
+#[derive(Debug)]
+pub struct FreshResult<'a> {
+    subject: &'a str,
+    inputs: &'a Inputs,
+    /// `None` if it must not be cached.
+    payload: Option<Vec<u8>>,
+}
+
+impl<T: Serialize> Answer<T> {
+    /// The encoded result, if this run computed it.
+    pub fn fresh(&self) -> Option<FreshResult<'_>> {
+        let inputs = self.inputs.as_ref()?;
+        let payload = if inputs.is_transient { None } else { encode(&self.value) };
+        Some(FreshResult { subject: &self.subject, inputs, payload })
+    }
+}
 
 /// The cached results of a query.
 #[derive(Debug)]
-pub struct ResultStore {
+struct Store {
     place: TreeStore,
     key: Key,
     base: Utf8PathBuf,
@@ -45,34 +91,6 @@ pub struct ResultStore {
     verdict: Verdict,
     /// Index of the record that is likely requested next, since requests come in order.
     next: Cell<usize>,
-}
-
-/// Identifies which cached results a run needs.
-#[derive(Debug)]
-pub struct CacheQuery<'a> {
-    /// Command that produced the results: `check` or `emit`.
-    pub result_kind: ResultKind,
-    /// What the results depend on besides settings and files.
-    pub text: &'a str,
-    /// The drawings that matter to the run.
-    pub scope: Scope,
-    /// Contents of directories that were just listed.
-    pub listings: Listings,
-}
-
-/// A result computed in this run.
-#[derive(Debug, Default)]
-pub struct FreshResult {
-    /// Subject of the result.
-    pub subject: Box<str>,
-    /// The drawings and lookups that it depends on.
-    pub traces: Vec<Trace>,
-    /// Other files that it depends on.
-    pub further: Vec<ExtraInput>,
-    /// The files that were generated from it.
-    pub outputs: Vec<GeneratedFile>,
-    /// The encoded result; `None` if another run may get a different result although no input changes.
-    pub payload: Option<Vec<u8>>,
 }
 
 /// A file other than a drawing that a result depends on.
@@ -115,10 +133,120 @@ pub struct Dependencies<'a> {
     pub lookups: Vec<(&'a Utf8Path, &'a str)>,
 }
 
-impl ResultStore {
+impl Memo {
+    /// Loads the results of earlier runs. `text` is what they depend on besides settings and files. No results are known if the session does
+    /// not trace its inputs. Drawings that have to be read are read ahead.
+    pub fn open(
+        session: &Session<'_>,
+        kind: ResultKind,
+        text: &str,
+        arguments: &Arguments,
+        matches: &mut ArgumentMatches,
+    ) -> Self {
+        if !session.is_traced() {
+            return Self(None);
+        }
+        let (scope, listings) = (Scope::of(session, matches), std::mem::take(&mut matches.listings));
+        let memo = Self(Store::open(session.workspace(), kind, text, scope, listings));
+        let is_known = |file: SourceFile| memo.knows(file.path(session.db()));
+        session.prefetch(arguments, &is_known);
+        memo
+    }
+
+    /// All results of earlier runs; `None` if none are cached.
+    pub fn of_all(workspace: &Workspace, kind: ResultKind, text: &str) -> Option<Self> {
+        Store::open(workspace, kind, text, Scope::All, Listings::new()).map(|store| Self(Some(store)))
+    }
+
+    /// The result for each item: that of an earlier run if it still holds and `accept` takes it, otherwise the one that `build` computes. It
+    /// gets all open items at once, and may compute fewer results than it gets items. The results are in the order of the items.
+    pub fn get_or<K, T: DeserializeOwned>(
+        &self,
+        items: &[K],
+        subject: impl Fn(&K) -> Box<str>,
+        accept: impl Fn(&str, T) -> Option<T>,
+        build: impl FnOnce(&[&K]) -> Vec<(T, Inputs)>,
+    ) -> Vec<Answer<T>> {
+        let subjects: Vec<Box<str>> = items.iter().map(subject).collect();
+        let cached = |subject: &Box<str>| accept(subject, decode(self.0.as_ref()?.payload(subject)?).ok()?);
+        let cached: Vec<Option<T>> = subjects.iter().map(cached).collect();
+        let open = items.iter().zip(&cached).filter(|(_, cached)| cached.is_none());
+        let open: Vec<&K> = open.map(|(item, _)| item).collect();
+        let mut built = build(&open).into_iter();
+        let answer = |(subject, cached): (Box<str>, Option<T>)| {
+            let (value, inputs) = match cached {
+                Some(value) => (value, None),
+                None => built.next().map(|(value, inputs)| (value, Some(inputs)))?,
+            };
+            Some(Answer { subject, value, inputs })
+        };
+        subjects.into_iter().zip(cached).filter_map(answer).collect()
+    }
+
+    /// Whether there is any cache.
+    pub fn is_some(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// Whether an earlier run's result about this subject still holds.
+    pub fn holds(&self, subject: &str) -> bool {
+        self.0.as_ref().is_some_and(|store| store.payload(subject).is_some())
+    }
+
+    /// Whether the paths of a drawing are known.
+    fn knows(&self, drawing: &Utf8Path) -> bool {
+        self.holds(drawing.as_str()) || self.holds(&subject(drawing, Some(&[])))
+    }
+
+    /// States of the files that were generated from a cached result, in the order in which they were stored.
+    pub fn outputs(&self, subject: &str) -> Vec<OutputState> {
+        self.0.as_ref().map(|store| store.outputs(subject)).unwrap_or_default()
+    }
+
+    /// The inputs of a result; `None` if they are unknown.
+    pub fn dependencies<'a, T>(
+        &'a self,
+        db: &'a Database,
+        answer: &'a Answer<T>,
+    ) -> Option<Dependencies<'a>> {
+        match &answer.inputs {
+            Some(inputs) => Some(Dependencies::of(db, &inputs.traces)),
+            None => self.0.as_ref()?.dependencies(&answer.subject),
+        }
+    }
+
+    /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
+    pub fn why(&self, subject: &str) -> Option<Vec<Reason>> {
+        self.0.as_ref()?.why(subject)
+    }
+
+    /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
+    pub fn keep<'a>(&self, session: &Session<'_>, fresh: impl Iterator<Item = FreshResult<'a>>) {
+        if let Some(store) = &self.0 {
+            store.keep(session, &fresh.collect::<Vec<_>>());
+        }
+    }
+}
+
+impl<'a> Dependencies<'a> {
+    fn of(db: &'a Database, traces: &'a [Trace]) -> Self {
+        let files = traces.iter().flat_map(|trace| &trace.files).map(|file| &**file.path(db));
+        let lookups = traces.iter().flat_map(|trace| &trace.lookups).flat_map(|lookup| {
+            lookup.directories.iter().map(|directory| (&**directory, lookup.name.as_str()))
+        });
+        Self { files: files.collect(), lookups: lookups.collect() }
+    }
+}
+
+impl Store {
     /// Loads the cached results and verifies them against the files; `None` without a configuration, or if nothing is to be cached.
-    pub fn open(context: &Workspace, query: CacheQuery<'_>) -> Option<Self> {
-        let CacheQuery { result_kind, text, scope, listings } = query;
+    fn open(
+        context: &Workspace,
+        kind: ResultKind,
+        text: &str,
+        scope: Scope,
+        listings: Listings,
+    ) -> Option<Self> {
         let base = context.settings.directory()?.to_owned();
         let place = context.cache_place()?;
         let confined = context.settings.confined.as_ref();
@@ -134,7 +262,7 @@ impl ResultStore {
         if place.make().is_ok_and(|is_new| is_new) {
             report_old_cache(context, &base);
         }
-        let key = Key::new(BUILD, &query_text(context, result_kind, text));
+        let key = Key::new(BUILD, &query_text(context, kind, text));
         // Taken before any file is examined, so that later changes are detected.
         let begun = place.clock().ok();
         let kept = match place.load(&key) {
@@ -150,13 +278,13 @@ impl ResultStore {
     }
 
     /// The encoded result of a subject, if it still holds.
-    pub fn payload(&self, subject: &str) -> Option<&[u8]> {
+    fn payload(&self, subject: &str) -> Option<&[u8]> {
         let number = self.record(subject)?;
         self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
     }
 
     /// States of the files that were generated from a result, in the order in which they were stored.
-    pub fn outputs(&self, subject: &str) -> Vec<OutputState> {
+    fn outputs(&self, subject: &str) -> Vec<OutputState> {
         let Some(number) = self.record(subject) else { return Vec::new() };
         let state = |file: &usize| match self.verdict.files[*file] {
             FileState::Unchanged | FileState::Touched(_) => OutputState::Current,
@@ -171,7 +299,7 @@ impl ResultStore {
     }
 
     /// The inputs of a cached result.
-    pub fn facts(&self, subject: &str) -> Option<Dependencies<'_>> {
+    fn dependencies(&self, subject: &str) -> Option<Dependencies<'_>> {
         let record = &self.kept.records[self.record(subject)?];
         let files = record.files.iter().map(|file| &*self.kept.files[*file].path);
         let lookup = |lookup: &usize| {
@@ -186,7 +314,7 @@ impl ResultStore {
     }
 
     /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
-    pub fn why(&self, subject: &str) -> Option<Vec<Reason>> {
+    fn why(&self, subject: &str) -> Option<Vec<Reason>> {
         let number = self.record(subject)?;
         let coverage = &self.coverage;
         Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
@@ -199,10 +327,10 @@ impl ResultStore {
     }
 
     /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
-    pub fn keep(&self, session: &Session<'_>, fresh: &[FreshResult]) {
+    fn keep(&self, session: &Session<'_>, fresh: &[FreshResult<'_>]) {
         let is_as_it_was = fresh.is_empty() && self.verdict.is_current;
         let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
-        let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| &*fresh.subject).collect();
+        let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| fresh.subject).collect();
         let mut builder = CatalogueBuilder::new(self, session, begun, fresh);
         for (record, _) in
             self.kept.records.iter().zip(&self.verdict.is_sound).filter(|(_, is_sound)| **is_sound)

@@ -9,12 +9,12 @@ use pathbuild_cache::{Catalogue, DirectoryFact, FileFact, FileState, Lookup, Rec
 use pathbuild_db::{Database, Db, NameLookup, SourceFile, content, drawing_names};
 use pathbuild_files::{Clock, Stamp};
 
-use super::{ExtraInput, FreshResult, GeneratedFile, ResultStore};
+use super::{ExtraInput, FreshResult, GeneratedFile, Store};
 use crate::session::Session;
 
 /// A catalogue under construction.
 pub(super) struct CatalogueBuilder<'a> {
-    result_store: &'a ResultStore,
+    store: &'a Store,
     session: &'a Session<'a>,
     begun: Clock,
     catalogue: Catalogue,
@@ -32,14 +32,14 @@ pub(super) struct CatalogueBuilder<'a> {
 
 impl<'a> CatalogueBuilder<'a> {
     pub(super) fn new(
-        result_store: &'a ResultStore,
+        store: &'a Store,
         session: &'a Session<'a>,
         begun: Clock,
-        fresh: &'a [FreshResult],
+        fresh: &'a [FreshResult<'a>],
     ) -> Self {
-        let kept = &result_store.kept;
+        let kept = &store.kept;
         Self {
-            result_store,
+            store,
             session,
             begun,
             catalogue: Catalogue::default(),
@@ -60,7 +60,7 @@ impl<'a> CatalogueBuilder<'a> {
     /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings or generated one of its
     /// files from other inputs.
     pub(super) fn add_kept(&mut self, record: &Record) {
-        let kept = &self.result_store.kept;
+        let kept = &self.store.kept;
         let has_written = |file: &usize| self.run.written.contains(&*kept.files[*file].path);
         if record.files.iter().any(|file| self.is_other(*file)) || record.outputs.iter().any(has_written) {
             return;
@@ -73,23 +73,24 @@ impl<'a> CatalogueBuilder<'a> {
     }
 
     /// Adds a new result, unless one of its drawings could not be read or changed during the run: such a result is not stable.
-    pub(super) fn add_fresh(&mut self, result: &FreshResult) {
+    pub(super) fn add_fresh(&mut self, result: &FreshResult<'_>) {
         let Some(payload) = &result.payload else { return };
         let db = self.session.db();
-        let mut drawings = result.traces.iter().flat_map(|trace| &trace.files);
+        let inputs = result.inputs;
+        let mut drawings = inputs.traces.iter().flat_map(|trace| &trace.files);
         if drawings.any(|file| self.run.content(file.path(db)).is_none()) {
             return;
         }
         let mut files = BTreeSet::new();
         let mut lookups = BTreeSet::new();
-        for trace in &result.traces {
+        for trace in &inputs.traces {
             files.extend(trace.files.iter().map(|file| self.drawing(*file)));
             lookups.extend(trace.lookups.iter().map(|lookup| self.lookup(lookup)));
         }
-        files.extend(result.further.iter().map(|file| self.further_file(file)));
-        let outputs = result.outputs.iter().map(|output| self.output(output)).collect();
+        files.extend(inputs.further.iter().map(|file| self.further_file(file)));
+        let outputs = inputs.outputs.iter().map(|output| self.output(output)).collect();
         self.catalogue.records.push(Record {
-            subject: result.subject.clone(),
+            subject: result.subject.into(),
             files: files.into_iter().collect(),
             lookups: lookups.into_iter().collect(),
             outputs,
@@ -99,18 +100,17 @@ impl<'a> CatalogueBuilder<'a> {
 
     /// Whether this run read other bytes than the old catalogue has for a file that was not verified.
     fn is_other(&self, number: usize) -> bool {
-        let file = &self.result_store.kept.files[number];
-        self.result_store.verdict.files[number] == FileState::Unchecked
-            && self.run.is_other(&file.path, file.hash)
+        let file = &self.store.kept.files[number];
+        self.store.verdict.files[number] == FileState::Unchecked && self.run.is_other(&file.path, file.hash)
     }
 
     fn kept_file(&mut self, number: usize) -> usize {
-        let file = &self.result_store.kept.files[number];
+        let file = &self.store.kept.files[number];
         if let Some(new) = self.files.get(&file.path) {
             return *new;
         }
         let mut fact = file.clone();
-        match self.result_store.verdict.files[number] {
+        match self.store.verdict.files[number] {
             FileState::Unchanged | FileState::Unchecked => {}
             FileState::Touched(stamp) => fact.stamp = stamp.settled(self.begun),
             // The output is out of date. The hash stays, because it describes the expected content.
@@ -127,7 +127,7 @@ impl<'a> CatalogueBuilder<'a> {
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
         let is_known = |number: &usize| {
-            self.result_store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
+            self.store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
         };
         match self.kept_files.get(&**path).copied().filter(is_known) {
             Some(number) => self.kept_file(number),
@@ -178,7 +178,7 @@ impl<'a> CatalogueBuilder<'a> {
         if let Some(new) = self.kept_lookups[number] {
             return new;
         }
-        let kept = &self.result_store.kept;
+        let kept = &self.store.kept;
         let Lookup { directories, name } = &kept.lookups[number];
         let list = &kept.directory_lists[*directories];
         let list = list.iter().map(|directory| self.kept_directory(*directory)).collect();
@@ -200,7 +200,7 @@ impl<'a> CatalogueBuilder<'a> {
     }
 
     fn kept_directory(&mut self, number: usize) -> usize {
-        let fact = &self.result_store.verdict.directories[number];
+        let fact = &self.store.verdict.directories[number];
         match self.directories.get(&fact.path) {
             Some(known) => *known,
             None => self.add_directory(fact.clone()),
@@ -211,7 +211,7 @@ impl<'a> CatalogueBuilder<'a> {
     fn directory(&mut self, path: &Utf8Path) -> usize {
         match self.directories.get(path) {
             Some(known) => *known,
-            None => self.add_directory(DirectoryFact::now(path, &self.result_store.base)),
+            None => self.add_directory(DirectoryFact::now(path, &self.store.base)),
         }
     }
 
@@ -249,16 +249,20 @@ struct RunFacts<'a> {
 type Content = ([u8; 32], Stamp);
 
 impl<'a> RunFacts<'a> {
-    fn new(session: &'a Session<'a>, fresh: &'a [FreshResult]) -> Self {
+    fn new(session: &'a Session<'a>, fresh: &'a [FreshResult<'a>]) -> Self {
         let db = session.db();
-        let traces = || fresh.iter().flat_map(|fresh| &fresh.traces);
+        let traces = || fresh.iter().flat_map(|fresh| &fresh.inputs.traces);
         let read = traces().flat_map(|trace| &trace.files);
         let searched = traces().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories);
         Self {
             db,
             read: read.map(|file| (file.path(db).clone(), steady_content(db, *file))).collect(),
             searched: searched.map(|directory| &**directory).collect(),
-            written: fresh.iter().flat_map(|fresh| &fresh.outputs).map(|output| &*output.path).collect(),
+            written: fresh
+                .iter()
+                .flat_map(|fresh| &fresh.inputs.outputs)
+                .map(|output| &*output.path)
+                .collect(),
         }
     }
 

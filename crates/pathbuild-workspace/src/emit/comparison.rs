@@ -1,9 +1,11 @@
-//! Checks whether a program on disk still matches its drawing. (book: language/probes)
+//! Compares programs on disk with their drawings, and differing programs with those of `--compatible`. (book: language/probes, book:
+//! program/compatible)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};
 use pathbuild_db::{Db, MissingOption, Role, program};
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs;
+use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::native::{
     OtherLine, Parts, drawing_of_title, first_other_line, is_title, path_of_title,
 };
@@ -11,7 +13,11 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::PathName;
 use pathbuild_toolpath::Program;
 
-use super::{Provenances, writing};
+use super::Request;
+use super::build::Provenances;
+use super::options::writing;
+use super::outcome::{State, Task};
+use super::plan::Job;
 use crate::session::{OutputKind, SelectedPath, Session};
 use crate::workspace::Workspace;
 
@@ -102,7 +108,7 @@ fn compared(
     let target = session.target(path, Role::Emitted);
     let checked = session.check(&[target]);
     let wrong: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| super::generate::found(session, checked)).collect();
+        checked.iter().flat_map(|checked| super::plan::found(session, checked)).collect();
     if wrong.iter().any(Diagnostic::is_error) {
         return DrawingComparison::Wrong(wrong);
     }
@@ -141,4 +147,35 @@ pub fn native_text(
     let provenance = Provenances::new(&workspace.settings, None).of(&[program]);
     let text = kind.text(program, &provenance.to_string(), &writing(workspace))?;
     Ok(text.unwrap_or_default())
+}
+
+/// Adds a note to each difference that `--compatible` would remove. If there are any differences, the programs are generated a second time
+/// for this.
+pub(super) fn name_compatible<'p>(
+    workspace: &Workspace,
+    request: &Request<'_>,
+    jobs: impl Iterator<Item = &'p mut Job>,
+) {
+    let problems: Vec<&mut Diagnostic> =
+        jobs.filter_map(|job| job.outcome.as_mut()).flat_map(|outcome| &mut outcome.problems).collect();
+    let is_asked = request.task == Task::Compare { moves_only: true };
+    if !is_asked || problems.is_empty() || workspace.settings.general.compatible.value {
+        return;
+    }
+    let same = current_if_compatible(workspace, request);
+    for problem in problems {
+        if problem.file.as_ref().is_some_and(|file| same.contains(file)) {
+            problem.notes.push(Note { message: &outputs::SAME_IF_COMPATIBLE, arguments: Vec::new() });
+        }
+    }
+}
+
+/// The files that are up to date with `--compatible`.
+fn current_if_compatible(workspace: &Workspace, request: &Request<'_>) -> Vec<Utf8PathBuf> {
+    let workspace = workspace.in_mode(true);
+    let request = Request { deps: None, removes_stale: false, ..*request };
+    let emission = request.run(&mut Session::new(&workspace));
+    let delivered = emission.map(|emission| emission.delivered).unwrap_or_default();
+    let files = delivered.into_iter().flat_map(|delivered| delivered.files);
+    files.filter(|(_, state)| matches!(state, State::Current)).map(|(file, _)| file).collect()
 }

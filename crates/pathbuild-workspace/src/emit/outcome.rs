@@ -1,0 +1,147 @@
+//! What is done with generated files, and the outcome for each program.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::messages::files;
+use pathbuild_diagnostic::{Diagnostic, Note, Value};
+use pathbuild_gcode::provenance::Provenance;
+use serde::{Deserialize, Serialize};
+
+use crate::config::Settings;
+use crate::config::types::SheetFormat;
+use crate::memo::{GeneratedFile, OutputState};
+use crate::posting::InsertedFile;
+use crate::session::OutputKind;
+
+/// What to do with the generated files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Task {
+    /// Write them.
+    Write {
+        /// Whether to overwrite measured values.
+        force: bool,
+    },
+    /// Compare them with the files on disk.
+    Compare {
+        /// Whether to compare moves only instead of bytes.
+        moves_only: bool,
+    },
+    /// Print them.
+    Print,
+}
+
+/// The outcome of generating the files of one program.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub struct ProgramOutcome {
+    /// Name of the path, or of the joined program.
+    #[serde(skip)]
+    pub path: Box<str>,
+    /// Each file with its outcome.
+    #[serde(skip)]
+    pub files: Vec<(Utf8PathBuf, State)>,
+    /// Expected content of each file, hashed by [`hash_output`].
+    #[serde(skip)]
+    pub(super) hashes: Vec<[u8; 32]>,
+    /// Length of the program in mm.
+    pub length: f64,
+    /// Machining time in minutes.
+    pub minutes: f64,
+    /// Errors, and differences in moves.
+    pub problems: Vec<Diagnostic>,
+    /// Whether the program itself has errors, so that nothing is written.
+    #[serde(skip)]
+    pub(super) is_refused: bool,
+    /// Identifies the inputs of the program; `None` if there is no program.
+    pub(super) provenance: Option<Provenance>,
+    /// Notes of the post-processor.
+    pub notes: Vec<Note>,
+    /// The command that the post-processor wants to run, with its output file.
+    #[serde(skip)]
+    pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
+    /// Files that the post-processor inserted or failed to insert.
+    #[serde(skip)]
+    pub(super) inserted: Vec<InsertedFile>,
+}
+
+impl ProgramOutcome {
+    /// Whether all files of a program were written or compared, and no error occurred that may not recur.
+    pub(super) fn is_complete(&self, files: usize) -> bool {
+        self.files.len() == files
+            && self.hashes.len() == files
+            && !self.problems.iter().any(Diagnostic::is_error)
+    }
+
+    /// The generated files, as they are now on disk.
+    pub(super) fn generated(&self, task: Task) -> Vec<GeneratedFile> {
+        // Programs with the same moves need not be equal byte for byte.
+        let is_compared_whole = task != Task::Compare { moves_only: true };
+        let is_there = |state: &State| matches!(state, State::Written | State::Unchanged | State::Current);
+        let file = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| GeneratedFile {
+            path: path.clone(),
+            hash: *hash,
+            is_there: is_compared_whole && is_there(state),
+        };
+        self.files.iter().zip(&self.hashes).map(file).collect()
+    }
+
+    /// Adds the outcome of each file after writing.
+    pub(super) fn add(&mut self, written: Self) {
+        self.files.extend(written.files);
+        self.hashes.extend(written.hashes);
+        self.problems.extend(written.problems);
+    }
+
+    /// Whether the file on disk is now up to date.
+    pub fn has_written(&self, file: &Utf8Path) -> bool {
+        let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
+        self.files.iter().any(|(path, state)| path == file && is_there(state))
+    }
+}
+
+/// The outcome of a single file.
+#[derive(Debug)]
+pub enum State {
+    /// Written.
+    Written,
+    /// Already up to date, not written.
+    Unchanged,
+    /// Compared: equal to what would be written.
+    Current,
+    /// Compared: different.
+    Outdated,
+    /// Compared: does not exist.
+    Missing,
+    /// Content to print.
+    Printed(Vec<u8>),
+}
+
+impl Task {
+    /// Whether this task covers files of this kind. A comparison of moves skips measured values and setup sheets.
+    pub(super) fn compares(self, kind: OutputKind) -> bool {
+        self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())
+    }
+
+    /// Sheet formats that belong to this task. Printing outputs the program alone.
+    pub(super) fn sheets(self, settings: &Settings) -> SheetFormat {
+        if self == Self::Print { SheetFormat::No } else { settings.emit.sheet.value }
+    }
+
+    /// The outcome of a file that this run neither writes nor compares, since an earlier one knows its state.
+    pub(super) fn known_state(self, state: OutputState) -> State {
+        match state {
+            OutputState::Current if matches!(self, Self::Write { .. }) => State::Unchanged,
+            OutputState::Current => State::Current,
+            OutputState::Outdated => State::Outdated,
+            OutputState::Missing => State::Missing,
+        }
+    }
+
+    /// Whether the results contain times.
+    pub(super) fn writes_times(self) -> bool {
+        self != Self::Compare { moves_only: true }
+    }
+}
+
+/// PB004: a file cannot be written.
+pub(super) fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
+    Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
+}

@@ -1,0 +1,407 @@
+//! Plans programs: which files the paths become. (book: reference/commands, `emit`)
+
+use std::collections::{BTreeMap, HashSet};
+use std::fmt::Write;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::join;
+use pathbuild_db::{Database, Db, SourceFile, Target, Trace, check_file, path_names, trace};
+use pathbuild_diagnostic::messages::{outputs as messages, posts};
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_gcode::native;
+use serde::{Deserialize, Serialize};
+
+use super::outcome::{ProgramOutcome, Task, cannot_write};
+use super::settle::is_of_other_version;
+use super::{FileOwners, Request, options};
+use crate::config::types::SheetFormat;
+use crate::memo::{Answer, Inputs, Memo, OutputState};
+use crate::posting::PostProcessor;
+use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
+
+/// What becomes of the paths of one program.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Plan {
+    /// Diagnostics of the paths and of the drawings that they use.
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// Why no program is generated although the paths have no errors.
+    pub(super) refusals: Vec<Diagnostic>,
+    /// `None` if no program is generated.
+    pub(super) job: Option<Job>,
+}
+
+/// A path without errors, or several that are joined into one program, with the files to generate.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Job {
+    /// The paths in milling order; never empty.
+    #[serde(skip)]
+    pub(super) targets: Vec<Target>,
+    /// The drawings that were read for them, starting with the first path's own. Includes drawings that were searched without success.
+    #[serde(skip)]
+    pub(super) sources: Vec<SourceFile>,
+    /// Name of the path as the drawing spells it, or the name of the joined program.
+    pub(super) path: Box<str>,
+    /// Output directory and common stem of the file names.
+    pub(super) stem: Utf8PathBuf,
+    /// The files, with their kinds.
+    pub(super) files: Vec<(OutputKind, Utf8PathBuf)>,
+    /// Title of the program, which follows its provenance.
+    #[serde(skip)]
+    pub(super) title: String,
+    /// Whether another job writes one of these files, so that neither is generated.
+    #[serde(skip)]
+    pub(super) clashes: bool,
+    /// What became of it; `None` as long as it is not generated.
+    pub(super) outcome: Option<ProgramOutcome>,
+}
+
+impl Plan {
+    /// Diagnostics, and reasons why no program is generated.
+    pub(super) fn problems(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics.iter().chain(&self.refusals)
+    }
+
+    /// The outcome of the job, if it was not left out.
+    pub(super) fn outcome(self) -> Option<ProgramOutcome> {
+        self.job.filter(|job| !job.clashes)?.outcome
+    }
+
+    /// The job, unless its files clash with those of another.
+    pub(super) fn clear_job(&self) -> Option<&Job> {
+        self.job.as_ref().filter(|job| !job.clashes)
+    }
+}
+
+impl Job {
+    /// The drawing of the first path.
+    pub(super) fn drawing(&self, db: &Database) -> SourceFile {
+        self.targets[0].file(db)
+    }
+
+    /// The path and its drawing, for messages.
+    fn name(&self, session: &Session<'_>) -> String {
+        let db = session.db();
+        format!("{} ({})", self.path, self.drawing(db).path(db))
+    }
+
+    /// Claims the job's file names. PB514 if another target that still yields a program has claimed one of them.
+    pub(super) fn claim(
+        &self,
+        session: &Session<'_>,
+        owners: &mut FileOwners,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> bool {
+        let names = || self.files.iter().map(|(_, path)| path.as_str().to_lowercase());
+        let other =
+            names().find_map(|name| owners.get(&name).copied().filter(|owner| *owner != self.targets[0]));
+        if let Some(other) = other {
+            let db = session.db();
+            let other = format!("{} ({})", other.name(db), other.file(db).path(db));
+            let name = self.files[0].1.file_name();
+            diagnostics.push(same_output(name, other, self.name(session), self.drawing(db).path(db)));
+            return false;
+        }
+        owners.extend(names().map(|name| (name, self.targets[0])));
+        true
+    }
+
+    /// The outcome of a job that was aborted.
+    pub(super) fn aborted(&self, session: &Session<'_>, problem: Diagnostic) -> ProgramOutcome {
+        let problem = problem.in_file(self.drawing(session.db()).path(session.db())).in_path(&self.path);
+        ProgramOutcome { problems: vec![problem], ..ProgramOutcome::default() }
+    }
+}
+
+/// Plans the programs of a request: as an earlier run did if that holds, otherwise from their checked paths.
+///
+/// # Errors
+/// Which options are missing.
+pub(super) fn plan(
+    session: &Session<'_>,
+    request: &Request<'_>,
+    memo: &Memo,
+    targets: &[Target],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Vec<Answer<Plan>>, String> {
+    let workspace = session.workspace();
+    let join = request.join;
+    let programs: Vec<&[Target]> = match join {
+        Some(_) => targets.chunks(targets.len().max(1)).collect(),
+        None => targets.chunks(1).collect(),
+    };
+    let builder = JobBuilder {
+        session,
+        post_processor: request.post_processor,
+        join,
+        sheet: request.task.sheets(&workspace.settings),
+    };
+    let mut refusal = None;
+    let mut check = |open: &[&&[Target]]| -> Vec<(Plan, Inputs)> {
+        let targets: Vec<Target> = open.iter().flat_map(|targets| targets.iter().copied()).collect();
+        let mut checked = &*session.check(&targets);
+        refusal = refusal.take().or_else(|| options::missing(workspace, request.task, checked));
+        let plan = |targets: &&&[Target]| {
+            let (own, rest) = checked.split_at(targets.len());
+            checked = rest;
+            (builder.plan(own), inputs(own))
+        };
+        open.iter().map(plan).collect()
+    };
+    let subject = |targets: &&[Target]| subject(session.db(), targets, join);
+    let accept = |subject: &str, plan: Plan| still_suffices(session, memo, request.task, subject, plan);
+    let mut plans = memo.get_or(&programs, subject, accept, &mut check);
+    for (answer, targets) in plans.iter_mut().zip(&programs) {
+        if let Some(job) = &mut answer.value.job {
+            job.targets = targets.to_vec();
+            if let Some(outcome) = &mut job.outcome {
+                outcome.path.clone_from(&job.path);
+            }
+        }
+    }
+    // The cached moves may stem from a run that needed no times.
+    let is_timed = workspace.settings.general.rapid.value.is_some() || !request.task.writes_times();
+    let is_cached = |answer: &Answer<Plan>| answer.inputs.is_none() && answer.value.job.is_some();
+    if !is_timed && plans.iter().any(is_cached) {
+        return Err(options::missing_values(workspace, ["rapid"]));
+    }
+    mark_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
+    // Jobs that an earlier run left out because their files clashed with those of others that are gone now.
+    for (answer, targets) in plans.iter_mut().zip(&programs) {
+        let is_open = answer.value.clear_job().is_some_and(|job| job.outcome.is_none());
+        if answer.inputs.is_none()
+            && is_open
+            && let Some((plan, inputs)) = check(&[targets]).pop()
+        {
+            (answer.value, answer.inputs) = (plan, Some(inputs));
+        }
+    }
+    refusal.map_or(Ok(plans), Err)
+}
+
+/// What the plan of checked paths depends on.
+fn inputs(checked: &[CheckedTarget]) -> Inputs {
+    let traces: Vec<Trace> = checked.iter().filter_map(|checked| checked.trace.clone()).collect();
+    // A check that was aborted has no trace.
+    let is_transient = traces.len() < checked.len();
+    Inputs { traces, is_transient, ..Inputs::default() }
+}
+
+/// The plan of an earlier run, if it suffices for the task. Before writing, a program is regenerated if one of its files has changed.
+fn still_suffices(
+    session: &Session<'_>,
+    memo: &Memo,
+    task: Task,
+    subject: &str,
+    mut plan: Plan,
+) -> Option<Plan> {
+    if let Some(Job { files, outcome: Some(outcome), .. }) = &mut plan.job
+        && !outcome.problems.iter().any(Diagnostic::is_error)
+    {
+        let states = memo.outputs(subject);
+        if states.len() != files.len() {
+            return None;
+        }
+        let files = files.iter().map(|(kind, path)| (*kind, path)).zip(states);
+        let mut files = files.filter(|((kind, _), _)| task.compares(*kind));
+        let system = session.db().system();
+        let is_enough = |path: &Utf8Path, state: OutputState| match task {
+            // The file may contain the same program written by another version.
+            Task::Compare { moves_only: false } => {
+                state != OutputState::Outdated || !is_of_other_version(system, path)
+            }
+            _ => state == OutputState::Current,
+        };
+        let known = |((_, path), state): ((_, &Utf8PathBuf), _)| {
+            is_enough(path, state).then(|| (path.clone(), task.known_state(state)))
+        };
+        outcome.files = files.by_ref().map(known).collect::<Option<_>>()?;
+    }
+    Some(plan)
+}
+
+/// Cache subject of the paths of one program. It begins with the first path's drawing, up to the first NUL.
+fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
+    let each = targets.iter().map(|target| format!("{}\0{}", target.file(db).path(db), target.name(db)));
+    let mut subject = each.collect::<Vec<_>>().join("\0");
+    if let Some(join) = join {
+        _ = write!(subject, "\0\0{join}");
+    }
+    subject.into()
+}
+
+/// Diagnostics of a path and of the drawings that it uses.
+pub(super) fn found(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
+    let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
+    of_files.chain(&checked.diagnostics).cloned().collect()
+}
+
+/// Turns checked paths into jobs.
+pub(super) struct JobBuilder<'a> {
+    pub(super) session: &'a Session<'a>,
+    /// The post-processor to write programs through.
+    pub(super) post_processor: Option<&'a PostProcessor>,
+    /// Name of the one program that all paths are joined into.
+    pub(super) join: Option<&'a str>,
+    /// Format of the setup sheet.
+    pub(super) sheet: SheetFormat,
+}
+
+impl JobBuilder<'_> {
+    /// The plan for the checked paths of one program.
+    pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
+        let diagnostics = checked.iter().flat_map(|checked| found(self.session, checked)).collect();
+        let (job, refusals) = match self.job(checked) {
+            Ok(job) => (job, Vec::new()),
+            Err(problems) => (None, problems),
+        };
+        Plan { diagnostics, refusals, job }
+    }
+
+    /// The job for the paths of one program; `None` if any of them has errors.
+    ///
+    /// # Errors
+    /// Why no program can be generated from error-free paths.
+    pub(super) fn job(&self, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
+        match (self.join, checked) {
+            (Some(name), checked) => self.joined_job(name, checked),
+            (None, [checked]) => {
+                let Some(emitted) = &checked.emitted else { return Ok(None) };
+                self.single_job(checked, emitted).map(Some).map_err(|problem| vec![*problem])
+            }
+            (None, _) => Ok(None),
+        }
+    }
+
+    fn joined_job(&self, name: &str, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
+        let right = || checked.iter().filter_map(|checked| Some((checked, checked.emitted.as_ref()?)));
+        let refused = right().filter_map(|(checked, emitted)| self.refuse_probes(checked, emitted).err());
+        let refused: Vec<Diagnostic> = refused.map(|problem| *problem).collect();
+        if !refused.is_empty() {
+            return Err(refused);
+        }
+        let Some(first) = checked.first().filter(|_| right().count() == checked.len()) else {
+            return Ok(None);
+        };
+        let directory = output_directory(self.session, first.target.file(self.session.db()));
+        let stem = named(name, name, &directory).map_err(|problem| vec![*problem])?;
+        let title = joined_title(name, checked);
+        Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
+    }
+
+    fn single_job(&self, checked: &CheckedTarget, emitted: &ProgramFacts) -> Result<Job, Box<Diagnostic>> {
+        let db = self.session.db();
+        let file = checked.target.file(db);
+        let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
+        let is_alone = path_names(db, file).len() == 1;
+        let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
+        let directory = output_directory(self.session, file);
+        let full = format!("{name}{}", emitted.suffix);
+        let stem = named(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
+        self.refuse_probes(checked, emitted)?;
+        let kinds = OutputKind::of(emitted.has_probes);
+        Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
+    }
+
+    /// Refuses probes with a post-processor: its output cannot contain formulas, so they would be measured for nothing.
+    fn refuse_probes(&self, checked: &CheckedTarget, emitted: &ProgramFacts) -> Result<(), Box<Diagnostic>> {
+        if self.post_processor.is_none() || !emitted.has_probes {
+            return Ok(());
+        }
+        let db = self.session.db();
+        let problem = Diagnostic::new(&posts::POST_WITH_PROBES).in_path(&emitted.path);
+        Err(Box::new(problem.in_file(checked.target.file(db).path(db))))
+    }
+
+    fn with_files(
+        &self,
+        stem: Utf8PathBuf,
+        path: &str,
+        checked: &[CheckedTarget],
+        kinds: &[OutputKind],
+    ) -> Job {
+        let name = |kind: &OutputKind| match self.post_processor {
+            Some(post_processor) if kind.is_program() => program_name(stem.as_str(), post_processor).into(),
+            _ => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
+        };
+        let kinds = kinds.iter().copied().chain(OutputKind::of_sheet(self.sheet));
+        let db = self.session.db();
+        let drawing = checked[0].target.file(db).path(db).file_name().unwrap_or_default();
+        Job {
+            title: native::title(drawing, path),
+            targets: checked.iter().map(|checked| checked.target).collect(),
+            path: path.into(),
+            files: kinds.map(|kind| (kind, name(&kind))).collect(),
+            stem,
+            sources: sources(db, checked),
+            clashes: false,
+            outcome: None,
+        }
+    }
+}
+
+/// The drawings that were read for the paths, without duplicates.
+fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
+    let mut seen = HashSet::new();
+    let read = checked.iter().flat_map(|checked| &trace(db, checked.target).files).copied();
+    read.filter(|file| seen.insert(*file)).collect()
+}
+
+/// Contains neither a comma nor a drawing's name, so that the program is not mistaken for a single drawing's stale program.
+fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
+    let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
+    format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
+}
+
+/// File name of a program written through a post-processor.
+pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String {
+    format!("{stem}_Milling.{}", post_processor.extension())
+}
+
+/// Directory of the files of a drawing's paths: that of the drawing, unless the configuration names one.
+pub(super) fn output_directory(session: &Session<'_>, drawing: SourceFile) -> Utf8PathBuf {
+    match &session.workspace().settings.general.out_dir.value {
+        Some(directory) => session.normal(directory),
+        None => drawing.path(session.db()).parent().unwrap_or(Utf8Path::new("")).to_owned(),
+    }
+}
+
+/// Marks jobs of which two would write the same file (PB514). Case is ignored, as some file systems do.
+pub(super) fn mark_clashes<'p>(
+    session: &Session<'_>,
+    jobs: impl Iterator<Item = &'p mut Job>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let mut jobs: Vec<&mut Job> = jobs.collect();
+    let mut owners: BTreeMap<String, (Utf8PathBuf, Vec<usize>)> = BTreeMap::new();
+    for (index, job) in jobs.iter().enumerate() {
+        for (_, path) in &job.files {
+            owners.entry(path.as_str().to_lowercase()).or_insert((path.clone(), Vec::new())).1.push(index);
+        }
+    }
+    for (path, owners) in owners.into_values().filter(|(_, owners)| owners.len() > 1) {
+        // For two jobs that share several files, the first file is enough.
+        if owners.iter().any(|owner| !jobs[*owner].clashes) {
+            let [first, second] = [owners[0], owners[1]].map(|owner| jobs[owner].name(session));
+            let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
+            diagnostics.push(same_output(path.file_name(), first, second, drawing));
+        }
+        owners.into_iter().for_each(|owner| jobs[owner].clashes = true);
+    }
+}
+
+/// PB514: two programs have a file of the same name.
+fn same_output(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {
+    Diagnostic::new(&messages::SAME_OUTPUT)
+        .quoting("name", name.unwrap_or_default())
+        .quoting("first", first)
+        .quoting("second", second)
+        .in_file(drawing)
+}
+
+/// Joins a file name to a directory, unless the system forbids the name. `rest` is the part that does not stem from the drawing's name.
+fn named(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
+    if let Some(fault) = stem_fault(name, rest) {
+        return Err(Box::new(cannot_write(name, Value::Prose(fault))));
+    }
+    Ok(join(directory, name))
+}

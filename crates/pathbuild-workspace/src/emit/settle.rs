@@ -1,0 +1,250 @@
+//! Builds programs on all cores, and writes, compares or prints their files. (book: reference/commands, `emit`)
+
+use std::panic::resume_unwind;
+use std::sync::mpsc::{Receiver, SendError, sync_channel};
+use std::thread::{self, Builder};
+
+use camino::Utf8Path;
+use pathbuild_db::system::{ReadError, WriteOutcome};
+use pathbuild_db::{Database, System};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::probes;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{self, interpret};
+use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
+use pathbuild_gcode::verify::{self, Ends, Tolerance};
+
+use super::build::{Built, Output, OutputSettings, build};
+use super::outcome::{ProgramOutcome, State, Task, cannot_write};
+use super::plan::Job;
+use crate::memo::hash_output;
+use crate::posting::PostProcessor;
+use crate::session::{OutputKind, Session, without_places, without_values};
+
+/// Builds and settles the jobs that no earlier run knows. If one file of a job cannot be written, none of its files is. Files are written on
+/// a separate thread: replacing a file waits for the disk, and the cores need not.
+pub(super) fn deliver<'j>(
+    session: &mut Session<'_>,
+    jobs: impl Iterator<Item = &'j mut Job>,
+    task: Task,
+    post_processor: Option<&PostProcessor>,
+) {
+    let mut jobs: Vec<&mut Job> = jobs.filter(|job| !job.clashes && job.outcome.is_none()).collect();
+    let settings = &OutputSettings::new(session.workspace(), post_processor);
+    let system = session.db().shared_system();
+    let settled = |outputs| settle(&*system, outputs, task, settings);
+    let write = |generated: Receiver<NumberedOutputs>| -> Vec<(usize, ProgramOutcome)> {
+        generated.into_iter().map(|(index, outputs)| (index, settled(outputs))).collect()
+    };
+    let (sender, receiver) = sync_channel(QUEUE_LENGTH);
+    let numbered: Vec<(usize, &Job)> = jobs.iter().map(|job| &**job).enumerate().collect();
+    let (mut generated, written) = thread::scope(|scope| {
+        let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
+        let generated = |db: &Database, (index, job): &(usize, &Job)| {
+            let Built { outcome: mut delivered, outputs } = build(db, job, settings);
+            // Last point to give up: after this, all files of the job are written.
+            db.check_time_limit();
+            // Without a receiver (the system had no thread left), write here.
+            if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
+                delivered.add(settled(outputs));
+            }
+            delivered
+        };
+        let generated =
+            session.in_batches_of_programs(&numbered, |session, jobs| session.map_guarded(jobs, generated));
+        drop(sender);
+        let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        (generated, written.unwrap_or_default())
+    });
+    for (index, written) in written {
+        if let Ok(generated) = &mut generated[index] {
+            generated.add(written);
+        }
+    }
+    for (job, generated) in jobs.iter_mut().zip(generated) {
+        let outcome = generated.unwrap_or_else(|problem| job.aborted(session, *problem));
+        job.outcome = Some(ProgramOutcome { path: job.path.clone(), ..outcome });
+    }
+}
+
+/// Number of jobs that may wait to be written. Their files are held in memory.
+const QUEUE_LENGTH: usize = 32;
+
+/// The generated files of a job, with its index.
+type NumberedOutputs = (usize, Vec<Output>);
+
+/// Writes, compares or prints the files of a program.
+fn settle(
+    system: &dyn System,
+    mut outputs: Vec<Output>,
+    task: Task,
+    settings: &OutputSettings<'_>,
+) -> ProgramOutcome {
+    let mut delivered = ProgramOutcome::default();
+    let (post_processor, limit) = (settings.post_processor, settings.writing.most_bytes as u64);
+    // Hash what this version writes, not a kept file of another version: that file must not become the expected content.
+    let hashes: Vec<[u8; 32]> =
+        outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
+    if task != Task::Print {
+        for output in &mut outputs {
+            keep_other_version(system, output, limit);
+        }
+    }
+    let hashed = outputs.iter().zip(hashes);
+    match task {
+        Task::Write { force } => {
+            if let Err(problem) = write(system, hashed, force, &mut delivered) {
+                delivered.problems.push(*problem);
+            }
+        }
+        Task::Compare { moves_only } => {
+            for (output, hash) in hashed.filter(|(output, _)| task.compares(output.kind)) {
+                let (state, problems) = compare(system, output, limit, moves_only, post_processor);
+                delivered.hashes.push(hash);
+                delivered.files.push((output.path.clone(), state));
+                delivered.problems.extend(problems);
+            }
+        }
+        Task::Print => {
+            delivered.files =
+                outputs.into_iter().map(|output| (output.path, State::Printed(output.text))).collect();
+        }
+    }
+    delivered
+}
+
+/// Keeps the file of another pathbuild version if it contains the same program.
+fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
+    if is_of_other_version(system, &output.path)
+        && let Ok(present) = system.read(&output.path, limit)
+        && is_same_program(&present, &output.text)
+    {
+        output.text = present;
+    }
+}
+
+/// Whether a program on disk was written by another version of pathbuild.
+pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
+    let head = system.head(program, HEAD).unwrap_or_default();
+    Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
+}
+
+/// Writes files; each comes with the hash of the content that this version generates.
+fn write<'a>(
+    system: &dyn System,
+    outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
+    force: bool,
+    delivered: &mut ProgramOutcome,
+) -> Result<(), Box<Diagnostic>> {
+    let mut values =
+        outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
+    if !force && let Some(lost) = values.find(|output| would_lose_values(system, output)) {
+        let name = lost.path.file_name().unwrap_or_default();
+        return Err(Box::new(
+            Diagnostic::new(&probes::VALUES_PRESENT).quoting("name", name).in_file(&lost.path),
+        ));
+    }
+    for (output, hash) in outputs {
+        let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
+        let written =
+            if is_kept { Ok(WriteOutcome::Unchanged) } else { system.write(&output.path, &output.text) };
+        let written = written.map_err(|reason| Box::new(cannot_write(output.path.as_str(), reason)))?;
+        let state = if written == WriteOutcome::Changed { State::Written } else { State::Unchanged };
+        delivered.hashes.push(hash);
+        delivered.files.push((output.path.clone(), state));
+    }
+    Ok(())
+}
+
+/// Whether the file contains measured values for other probes than the current ones.
+fn would_lose_values(system: &dyn System, output: &Output) -> bool {
+    let Some(present) = present(system, &output.path) else { return false };
+    let has_values = without_values(present.as_bytes()) != present.trim_end();
+    has_values && !is_for_probes(&present, &output.text)
+}
+
+/// Whether the file of values exists and matches the current probes.
+fn has_same_probes(system: &dyn System, output: &Output) -> bool {
+    present(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
+}
+
+/// Whether two files of values are for the same probes. A file without the probes' places in the emitted drawing was written by an older
+/// version or by the original tool.
+fn is_for_probes(present: &str, written: &[u8]) -> bool {
+    let (present, written) = (without_values(present.as_bytes()), without_values(written));
+    present == written || present == without_places(&written)
+}
+
+fn present(system: &dyn System, path: &Utf8Path) -> Option<String> {
+    let bytes = system.read(path, 1 << 24).ok()?;
+    Some(String::from_utf8_lossy(&bytes).replace("\r\n", "\n"))
+}
+
+/// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, head and
+/// foot. Also returns where the moves differ first, or why they cannot be read. A file larger than `limit` counts as different.
+fn compare(
+    system: &dyn System,
+    output: &Output,
+    limit: u64,
+    moves_only: bool,
+    post_processor: Option<&PostProcessor>,
+) -> (State, Vec<Diagnostic>) {
+    let present = match system.read(&output.path, limit) {
+        Ok(bytes) => bytes,
+        Err(ReadError::Missing) => return (State::Missing, Vec::new()),
+        Err(_) => return (State::Outdated, Vec::new()),
+    };
+    let is_same =
+        present == output.text || output.kind == OutputKind::Values && has_same_probes(system, output);
+    if is_same {
+        return (State::Current, Vec::new());
+    }
+    if !moves_only {
+        return (State::Outdated, Vec::new());
+    }
+    // Without a reader for the dialect, only bytes can be compared.
+    let Some(reading) = ComparisonSettings::of(post_processor) else { return (State::Outdated, Vec::new()) };
+    let problems = difference(&present, &output.text, &reading);
+    let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
+    let state = if problems.is_empty() { State::Current } else { State::Outdated };
+    (state, problems)
+}
+
+/// How programs are read for comparison.
+struct ComparisonSettings {
+    dialect: Dialect,
+    tolerance: Tolerance,
+}
+
+impl ComparisonSettings {
+    fn of(post_processor: Option<&PostProcessor>) -> Option<Self> {
+        let Some(post_processor) = post_processor else {
+            return Some(Self { dialect: Dialect::Native, tolerance: TOLERANCE });
+        };
+        let dialect = post_processor.reader()?;
+        Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..TOLERANCE } })
+    }
+}
+
+/// Returns why a program on disk cannot be read, or else where its moves differ first. Lines are compared before moves: numbers that differ
+/// by one unit of their last digit are equal however they are interpreted, even where rounding turns a very short arc into a full circle.
+/// Only programs with different lines are interpreted.
+fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> Vec<Diagnostic> {
+    let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
+    if verify::same_move_lines(&found_text, &expected_text) {
+        return Vec::new();
+    }
+    let read = |text| interpret(text, reading.dialect, &interpret::Options::default());
+    let found = read(present);
+    let errors: Vec<Diagnostic> =
+        found.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
+    if !errors.is_empty() {
+        return errors;
+    }
+    let difference = verify::compare(&found.moves(), &read(expected).moves(), &reading.tolerance);
+    difference.iter().map(verify::Difference::diagnostic).collect()
+}
+
+/// One unit of the last printed digit: two programs may have rounded a value between two such numbers differently.
+const TOLERANCE: Tolerance =
+    Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };
