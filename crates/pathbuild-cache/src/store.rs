@@ -246,16 +246,10 @@ fn is_ours(directory: &Utf8Path, name: &str) -> bool {
     is_named_so || name == TREE && is_own_tree(directory)
 }
 
-/// Whether the name is one that [`private::create_beside`] gives to a temporary results file.
+/// Whether the name is that of a temporary file for one of ours.
 fn is_temporary(name: &str) -> bool {
-    let word = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    word.and_then(|word| word.rsplit_once('.')).is_some_and(|(name, numbers)| {
-        (results_file::is_file_name(name) || matches!(name, TAG | TREE | CLOCK))
-            && numbers
-                .split_once('-')
-                .is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
-    })
+    let is_ours = |name: &str| results_file::is_file_name(name) || matches!(name, TAG | TREE | CLOCK);
+    pathbuild_files::is_temporary(name, is_ours)
 }
 
 /// Removes pathbuild's files from a directory, and the directory itself if it is then empty.

@@ -7,8 +7,8 @@ mod memory;
 // The WebAssembly build has no operating system, only the files it is given.
 #[cfg(not(target_family = "wasm"))]
 mod os;
-mod overlay;
 pub mod private;
+mod replace;
 mod spelling;
 mod stamp;
 
@@ -24,10 +24,10 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 pub use confined::ConfinedSystem;
 pub use listing::{Entry, EntryKind, Listing, Names};
-pub use memory::MemorySystem;
+pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
-pub use overlay::OverlaySystem;
+pub use replace::is_temporary;
 pub use spelling::{clean, join, spelt};
 pub use stamp::{CLOCK, Clock, Stamp};
 
@@ -81,15 +81,6 @@ pub trait System: Debug + Send + Sync {
     /// # Errors
     /// As [`read`](Self::read).
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError>;
-
-    /// Like [`list`](Self::list), but delivers the names in batches as they arrive.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read), possibly after some batches.
-    fn list_by_parts(&self, directory: &Utf8Path, take: &mut dyn FnMut(Listing)) -> Result<(), ReadError> {
-        take(self.list(directory)?);
-        Ok(())
-    }
 
     /// Calls `take` for each entry of a directory, in no particular order, until it asks to stop. Links are not resolved.
     ///

@@ -2,15 +2,17 @@
 //! they belong to another user.
 #![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
-use std::fs::{self, DirBuilder, File, Metadata, OpenOptions};
-use std::io::{self, Read, Write};
+use std::fs::{self, DirBuilder, Metadata, OpenOptions};
+use std::io::{self, Read};
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use pathbuild_diagnostic::reasons::{
     IS_LINK, NEVER_SO_LARGE, NO_DIRECTORY_BUT_FILE, NO_OWN_FILE, NOT_LOOKED_AT, OPEN_TO_ALL, SOMEBODY_ELSES,
-    TOO_MANY_TEMPORARY, error, reason,
+    reason,
 };
 use pathbuild_diagnostic::{Text, Value};
+
+use crate::replace;
 
 /// Creates a directory and its missing parents. Returns whether it is new.
 ///
@@ -71,38 +73,12 @@ pub fn read(path: &Utf8Path, limit: u64) -> Result<Option<Vec<u8>>, Value> {
     if bytes.len() as u64 > limit { Err(Value::Prose(&NEVER_SO_LARGE)) } else { Ok(Some(bytes)) }
 }
 
-/// Creates a new temporary file in a directory, with a unique hidden name derived from `name`.
-///
-/// # Errors
-/// If it cannot be created.
-pub fn create_beside(directory: &Utf8Path, name: &str) -> io::Result<(Utf8PathBuf, File)> {
-    let mut options = OpenOptions::new();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    for attempt in 0..ATTEMPTS {
-        let path = directory.join(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
-        match options.open(&path) {
-            Ok(file) => return Ok((path, file)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Err(error(io::ErrorKind::Other, &TOO_MANY_TEMPORARY))
-}
-
 /// Atomically replaces a file. An existing symbolic link is replaced, not followed.
 ///
 /// # Errors
 /// If it cannot be written; the previous file remains.
 pub fn replace(directory: &Utf8Path, name: &str, bytes: &[u8]) -> io::Result<()> {
-    let (beside, mut file) = create_beside(directory, name)?;
-    let written = file.write_all(bytes).and_then(|()| fs::rename(&beside, directory.join(name)));
-    if written.is_err() {
-        // Best effort: the first error is the one to report.
-        _ = fs::remove_file(&beside);
-    }
-    written
+    replace::write(&directory.join(name), bytes, true)
 }
 
 /// Removes a file. A file that is already gone is no error.
@@ -115,9 +91,6 @@ pub fn remove(path: &Utf8Path) -> io::Result<()> {
         _ => Ok(()),
     }
 }
-
-/// Number of names tried for a temporary file: killed runs with the same process id may have left theirs.
-const ATTEMPTS: u32 = 100;
 
 #[cfg(unix)]
 fn is_own(data: &Metadata) -> bool {

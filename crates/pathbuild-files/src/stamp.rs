@@ -15,7 +15,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use camino::Utf8Path;
 use serde::{Deserialize, Serialize};
 
-use crate::private;
+use crate::replace;
 
 /// A file's metadata as numbers that are compared as a whole: size, times of its last changes in whole seconds, the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -85,7 +85,7 @@ impl Clock {
     /// # Errors
     /// If no file can be created there.
     pub fn of(directory: &Utf8Path) -> io::Result<Self> {
-        let (probe, file) = private::create_beside(directory, CLOCK)?;
+        let (probe, file) = replace::temporary(&directory.join(CLOCK), true)?;
         let time = file.metadata().and_then(|data| data.modified());
         // The file may not have been created at all.
         _ = fs::remove_file(&probe);

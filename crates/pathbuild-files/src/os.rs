@@ -1,0 +1,299 @@
+//! Files of the operating system. All IO on drawings and programs happens here.
+#![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
+
+use std::collections::HashMap;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
+use std::ops::ControlFlow;
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Value;
+use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason};
+
+use crate::replace::{self, is_temporary};
+use crate::stamp::Stamp;
+use crate::{Entry, EntryKind, FileKind, FileLink, Listing, ReadError, System, WriteOutcome};
+
+/// The files of the operating system. Relative paths are relative to the working directory of the process.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OsSystem;
+
+impl OsSystem {
+    /// A shared instance.
+    pub fn shared() -> Arc<dyn System> {
+        Arc::new(Self)
+    }
+}
+
+impl System for OsSystem {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = Vec::new();
+        read_whole(&open(path)?, limit, &mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn read_into<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<&'r [u8], ReadError> {
+        read_whole(&open(path)?, limit, room)?;
+        Ok(room)
+    }
+
+    fn read_stamped<'r>(
+        &self,
+        path: &Utf8Path,
+        limit: u64,
+        room: &'r mut Vec<u8>,
+    ) -> Result<(&'r [u8], Stamp), ReadError> {
+        let file = open(path)?;
+        let before = Stamp::of_open(&file);
+        read_whole(&file, limit, room)?;
+        let stamp = if Stamp::of_open(&file) == before { before } else { Stamp::UNKNOWN };
+        Ok((room, stamp))
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let file = open(path)?;
+        regular_size(&file)?;
+        let mut bytes = Vec::new();
+        file.take(length as u64).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let length = length as u64;
+        let mut file = open(path)?;
+        let size = regular_size(&file)?;
+        file.seek(SeekFrom::Start(size.saturating_sub(length)))?;
+        let mut tail = Vec::new();
+        file.take(length).read_to_end(&mut tail)?;
+        Ok(tail)
+    }
+
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
+        fs::metadata(path).ok()?.modified().ok()
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
+        let directory = readable(directory);
+        let (mut listing, mut temporary) = (Listing::default(), Vec::new());
+        self.each_entry(directory, &mut |Entry { name, kind, .. }| {
+            if is_temporary(name, |name| !name.is_empty()) {
+                temporary.push(directory.join(name));
+            }
+            // A link has the type of its target, and counts as an unreadable file if it is dangling.
+            let is_directory = match kind {
+                EntryKind::Directory => true,
+                EntryKind::Link => fs::metadata(directory.join(name)).is_ok_and(|data| data.is_dir()),
+                EntryKind::File => false,
+            };
+            if is_directory { &mut listing.directories } else { &mut listing.files }.push(name);
+            ControlFlow::Continue(())
+        })?;
+        record_debris(directory, temporary);
+        Ok(listing)
+    }
+
+    fn each_entry(
+        &self,
+        directory: &Utf8Path,
+        take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
+    ) -> Result<(), ReadError> {
+        for entry in fs::read_dir(readable(directory))? {
+            let entry = entry?;
+            let kind = match entry.file_type() {
+                Ok(kind) if kind.is_dir() => EntryKind::Directory,
+                Ok(kind) if kind.is_symlink() => EntryKind::Link,
+                _ => EntryKind::File,
+            };
+            let name = entry.file_name();
+            let is_exact = name.to_str().is_some();
+            if take(Entry { name: &name.to_string_lossy(), is_exact, kind }).is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn kind(&self, path: &Utf8Path) -> FileKind {
+        match fs::metadata(readable(path)) {
+            Ok(data) if data.is_dir() => FileKind::Directory,
+            Ok(_) => FileKind::File,
+            Err(_) => FileKind::Missing,
+        }
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned())
+    }
+
+    fn link(&self, path: &Utf8Path) -> Option<FileLink> {
+        let data = path.as_std_path().symlink_metadata().ok()?;
+        if data.is_symlink() { path.read_link_utf8().ok().map(FileLink::Symbolic) } else { hard_link(&data) }
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
+        replace(path, bytes)
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(reason(&error)),
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(unix)]
+fn hard_link(data: &fs::Metadata) -> Option<FileLink> {
+    use std::os::unix::fs::MetadataExt;
+
+    // Every directory has several.
+    (data.is_file() && data.nlink() > 1).then(|| FileLink::Hard([data.dev(), data.ino()]))
+}
+
+/// Windows does not count them without opening the file.
+#[cfg(not(unix))]
+fn hard_link(_: &fs::Metadata) -> Option<FileLink> {
+    None
+}
+
+/// The path as passed to system calls, which do not accept an empty one.
+fn readable(path: &Utf8Path) -> &Utf8Path {
+    if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
+}
+
+impl From<io::Error> for ReadError {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            ErrorKind::NotFound => Self::Missing,
+            ErrorKind::IsADirectory => Self::IsDirectory,
+            _ => Self::Other(reason(&error)),
+        }
+    }
+}
+
+/// Opens a file for reading. Anything but a regular file is closed again at once and never blocks: reading a pipe may block, and a device may
+/// never end.
+///
+/// # Errors
+/// If the file does not exist or cannot be opened.
+fn open(path: &Utf8Path) -> Result<File, ReadError> {
+    open_at_once(path).map_err(|error| {
+        // A socket, and a directory on Windows, cannot be opened at all; report the type instead of the system's message.
+        match path.as_std_path().metadata() {
+            Ok(data) if data.is_dir() => ReadError::IsDirectory,
+            Ok(data) if !data.is_file() => not_regular(),
+            _ => error.into(),
+        }
+    })
+}
+
+/// Opens with `NONBLOCK`, since opening a pipe would otherwise wait for a writer.
+#[cfg(unix)]
+fn open_at_once(path: &Utf8Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags};
+
+    let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    Ok(rustix::fs::open(path.as_str(), flags, Mode::empty())?.into())
+}
+
+#[cfg(not(unix))]
+fn open_at_once(path: &Utf8Path) -> io::Result<File> {
+    replace::waiting(|| File::open(path))
+}
+
+/// Reads a file of at most `limit` bytes. The old content of `bytes` is overwritten.
+///
+/// # Errors
+/// If it is not a regular file, cannot be read, or is larger than `limit`.
+fn read_whole(file: &File, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadError> {
+    let size = regular_size(file)?;
+    if size > limit {
+        return Err(ReadError::TooLarge { size });
+    }
+    bytes.clear();
+    // The file may grow while it is read, so the read is limited as well. One byte more than its size avoids a second reallocation.
+    bytes.reserve(usize::try_from(size).unwrap_or_default().saturating_add(1));
+    file.take(limit.saturating_add(1)).read_to_end(bytes)?;
+    let size = bytes.len() as u64;
+    if size > limit { Err(ReadError::TooLarge { size }) } else { Ok(()) }
+}
+
+/// The size of a regular file.
+///
+/// # Errors
+/// If it is not a regular file.
+fn regular_size(file: &File) -> Result<u64, ReadError> {
+    let data = file.metadata()?;
+    if data.is_dir() {
+        return Err(ReadError::IsDirectory);
+    }
+    if !data.is_file() {
+        return Err(not_regular());
+    }
+    Ok(data.len())
+}
+
+fn not_regular() -> ReadError {
+    ReadError::Other(Value::Prose(&NOT_REGULAR))
+}
+
+/// Replaces the content of a file, unless it is already the same.
+///
+/// # Errors
+/// If the file cannot be written, or is a pipe, socket or device. The path is then left as it was.
+fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
+    let parent = path.parent().unwrap_or(Utf8Path::new(""));
+    remove_debris(readable(parent));
+    match path.as_std_path().metadata() {
+        Ok(data) if data.is_dir() => return Err(Value::Prose(&DIRECTORY_OF_THAT_NAME)),
+        Ok(data) if !data.is_file() => return Err(Value::Prose(&NOT_REGULAR)),
+        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => {
+            return Ok(WriteOutcome::Unchanged);
+        }
+        _ => {}
+    }
+    let written = fs::create_dir_all(readable(parent)).and_then(|()| replace::write(path, bytes, false));
+    written.map(|()| WriteOutcome::Changed).map_err(|error| reason(&error))
+}
+
+/// Whether a file has exactly these bytes.
+fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
+    OsSystem.read(path, bytes.len() as u64).is_ok_and(|present| present == bytes)
+}
+
+/// Temporary files found when a directory was first listed. Each directory is searched at most once per run; if it has been listed for
+/// another reason already, that listing is used.
+static LISTED: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
+
+/// Records the temporary files found while listing a directory.
+fn record_debris(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
+    listed().entry(directory.to_owned()).or_insert(temporary);
+}
+
+/// Removes temporary files whose process no longer runs.
+fn remove_debris(directory: &Utf8Path) {
+    if !listed().contains_key(directory) {
+        // Nothing can be removed from a directory that cannot be listed.
+        _ = OsSystem.list(directory);
+    }
+    let leftovers = std::mem::take(listed().entry(directory.to_owned()).or_default());
+    for debris in leftovers {
+        let is_regular = debris.as_std_path().symlink_metadata().is_ok_and(|data| data.is_file());
+        let is_left = || open(&debris).ok().filter(|file| file.try_lock().is_ok());
+        if let Some(_locked) = is_regular.then(is_left).flatten() {
+            // Best effort: a leftover temporary file does no harm.
+            _ = fs::remove_file(&debris);
+        }
+    }
+}
+
+fn listed() -> MutexGuard<'static, HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>> {
+    LISTED.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,135 @@
+//! Atomic replacement of files: a temporary file in the same directory is renamed over the target.
+//!
+//! The writer holds a lock on its temporary file. A killed run loses its locks, so the next run that writes into the directory recognises
+//! and removes what it left behind.
+#![expect(clippy::disallowed_methods, reason = "this is System's implementation: all IO comes here")]
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind, Write};
+use std::thread;
+use std::time::Duration;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::reasons::{TOO_MANY_TEMPORARY, error, is_held};
+
+/// Replaces a file, whatever it was; an existing link is not followed. A private file has access for its owner only.
+///
+/// # Errors
+/// If it cannot be written; the previous file remains.
+pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Result<()> {
+    let (temporary, mut file) = temporary(path, is_private)?;
+    let written = file.write_all(bytes).and_then(|()| file.flush());
+    // The lock is held until the file has its final name.
+    let renamed = written.and_then(|()| waiting(|| fs::rename(&temporary, path)));
+    // Best effort: the first error is the one to report.
+    renamed.inspect_err(|_| _ = fs::remove_file(&temporary))
+}
+
+/// Creates and locks a temporary file beside `path`, under a name that no other run uses.
+///
+/// # Errors
+/// If it cannot be created.
+pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8PathBuf, File)> {
+    let name = path.file_name().unwrap_or("output");
+    let mut options = OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    if is_private {
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    }
+    for attempt in 0..ATTEMPTS {
+        let candidate = path.with_file_name(format!(".{name}.{}-{attempt}.tmp", std::process::id()));
+        match options.open(&candidate) {
+            Ok(file) => match file.try_lock() {
+                // Another run mistook the file for debris before it was locked, and is removing it.
+                Err(TryLockError::WouldBlock) => {}
+                // It may have been removed already.
+                Ok(()) if candidate.as_std_path().symlink_metadata().is_err() => {}
+                // Without support for locks, nothing is ever considered debris.
+                Ok(()) | Err(TryLockError::Error(_)) => return Ok((candidate, file)),
+            },
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Err(error(ErrorKind::AlreadyExists, &TOO_MANY_TEMPORARY))
+}
+
+/// Number of names tried for a temporary file: killed runs with the same process id may have left theirs.
+const ATTEMPTS: u32 = 1000;
+
+/// Whether a name has the form `.NAME.123-0.tmp` of a temporary file for a file whose name is accepted.
+pub fn is_temporary(name: &str, is_name: impl Fn(&str) -> bool) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    name.strip_prefix('.')
+        .and_then(|name| name.strip_suffix(".tmp"))
+        .and_then(|name| name.rsplit_once('.'))
+        .and_then(|(name, numbers)| numbers.split_once('-').filter(|_| is_name(name)))
+        .is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
+}
+
+/// Retries an operation for up to two seconds while it fails because another program has locked the file for exclusive use, as CAD programs
+/// on Windows do while saving.
+///
+/// # Errors
+/// The last error.
+pub(crate) fn waiting<T>(attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
+    again_while(is_held, attempt, thread::sleep)
+}
+
+/// Retries an operation while its error satisfies `is_passing`.
+fn again_while<T>(
+    is_passing: impl Fn(&io::Error) -> bool,
+    mut attempt: impl FnMut() -> io::Result<T>,
+    mut pause: impl FnMut(Duration),
+) -> io::Result<T> {
+    for _ in 0..PAUSES {
+        match attempt() {
+            Err(error) if is_passing(&error) => pause(PAUSE),
+            result => return result,
+        }
+    }
+    attempt()
+}
+
+const PAUSE: Duration = Duration::from_millis(50);
+/// Number of pauses between attempts: two seconds in total.
+const PAUSES: u32 = 40;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Simulates a file that is locked for this many attempts. Returns whether the operation succeeds, and the time waited.
+    fn held(times: u32) -> (bool, Duration) {
+        let (mut remaining, mut waited) = (times, Duration::ZERO);
+        let attempt = || {
+            if remaining == 0 {
+                return Ok(());
+            }
+            remaining -= 1;
+            Err(io::Error::from(ErrorKind::ResourceBusy))
+        };
+        let result = again_while(
+            |error| error.kind() == ErrorKind::ResourceBusy,
+            attempt,
+            |pause| waited += pause,
+        );
+        (result.is_ok(), waited)
+    }
+
+    #[test]
+    fn a_held_file_is_waited_for_two_seconds_and_no_longer() {
+        assert_eq!(held(0), (true, Duration::ZERO));
+        assert_eq!(held(3), (true, 3 * PAUSE));
+        assert_eq!(held(PAUSES), (true, Duration::from_secs(2)));
+        assert_eq!(held(PAUSES + 1), (false, Duration::from_secs(2)));
+    }
+
+    #[test]
+    fn other_errors_are_not_waited_for() {
+        let waited =
+            again_while(is_held, || Err::<(), _>(ErrorKind::NotFound.into()), |_| panic!("a pause"));
+        assert_eq!(waited.unwrap_err().kind(), ErrorKind::NotFound);
+    }
+}
