@@ -110,11 +110,8 @@ mod tests {
             remaining -= 1;
             Err(io::Error::from(ErrorKind::ResourceBusy))
         };
-        let result = again_while(
-            |error| error.kind() == ErrorKind::ResourceBusy,
-            attempt,
-            |pause| waited += pause,
-        );
+        let result =
+            again_while(|error| error.kind() == ErrorKind::ResourceBusy, attempt, |pause| waited += pause);
         (result.is_ok(), waited)
     }
 
@@ -128,8 +125,7 @@ mod tests {
 
     #[test]
     fn other_errors_are_not_waited_for() {
-        let waited =
-            again_while(is_held, || Err::<(), _>(ErrorKind::NotFound.into()), |_| panic!("a pause"));
+        let waited = again_while(is_held, || Err::<(), _>(ErrorKind::NotFound.into()), |_| panic!("a pause"));
         assert_eq!(waited.unwrap_err().kind(), ErrorKind::NotFound);
     }
 }

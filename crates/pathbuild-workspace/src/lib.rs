@@ -13,7 +13,6 @@ pub mod list;
 pub mod machine;
 pub mod memo;
 pub mod posting;
-mod reporter;
 pub mod session;
 // In the browser all files come from the page, so there is nothing to watch.
 #[cfg(not(target_family = "wasm"))]
@@ -23,5 +22,4 @@ mod workspace;
 pub use pathbuild_cache::Home as CacheHome;
 
 pub use inputs::{Input, Inputs};
-pub use reporter::{Advance, Reporter, SilentReporter};
-pub use workspace::Workspace;
+pub use workspace::{Advance, Reporter, SilentReporter, Workspace};

@@ -1,3 +1,6 @@
+//! The environment of a run, and the messages about its progress. Results are returned; these messages are for the waiting user.
+
+use std::fmt::Debug;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -7,7 +10,6 @@ use pathbuild_db::System;
 use pathbuild_diagnostic::Lang;
 
 use crate::config::{Origin, Settings};
-use crate::reporter::{Reporter, SilentReporter};
 use crate::session::relative;
 
 /// The environment of a run: settings, files, languages and directories.
@@ -92,4 +94,38 @@ impl Workspace {
     pub fn phrase(&self, en: &str, de: &str, value: &str) -> String {
         self.choose(en, de).replace("{}", value)
     }
+}
+
+/// Receives progress messages of a run.
+pub trait Reporter: Debug {
+    /// A line about the run.
+    fn status(&self, line: &str);
+    /// A line of detail, shown only on request.
+    fn detail(&self, line: &str);
+    /// Starts a progress display of `total` items; it ends when the returned value is dropped.
+    fn progress(&self, total: usize) -> Box<dyn Advance>;
+}
+
+/// Counts finished items.
+pub trait Advance: Debug + Send + Sync {
+    /// Counts one more finished item. May be called from any thread.
+    fn advance(&self);
+}
+
+/// Discards all messages.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SilentReporter;
+
+impl Reporter for SilentReporter {
+    fn status(&self, _: &str) {}
+
+    fn detail(&self, _: &str) {}
+
+    fn progress(&self, _: usize) -> Box<dyn Advance> {
+        Box::new(Self)
+    }
+}
+
+impl Advance for SilentReporter {
+    fn advance(&self) {}
 }

@@ -8,11 +8,11 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value};
 
-use super::kinds::number::number_from_text;
-use super::kinds::pattern::{regex_fault, split_restriction};
-use super::options::Options;
-use super::origin::SourcedValue;
+use super::kinds::number_from_text;
+use super::kinds::{regex_fault, split_restriction};
 use super::sections::general;
+use super::settings::Options;
+use super::settings::SourcedValue;
 use super::types::{Directories, Restriction};
 
 /// A command-line option that overrides the key of its name. (book: reference/commands)

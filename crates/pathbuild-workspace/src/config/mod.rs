@@ -11,35 +11,18 @@
 //! from that, so they all know the same keys.
 
 mod arguments;
-mod discover;
-mod key_index;
-mod kind;
+mod describe;
 mod kinds;
 mod load;
-mod options;
-mod origin;
 mod reader;
-mod result_kind;
-mod schema;
 pub mod sections;
 mod settings;
-mod show;
-mod source;
-mod template;
+mod table_kinds;
 pub mod types;
-mod user;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
-pub use load::{faults, load};
-pub use options::Options;
-pub use origin::{Origin, SourcedValue};
-pub use result_kind::ResultKind;
-pub use schema::schema;
-pub use settings::Settings;
-pub use show::{Setting, settings, show};
-pub use template::template;
-pub use user::User;
-
-pub use discover::{FILE_NAME, repository};
-pub use kinds::table::nearest_code;
+pub use describe::{Setting, schema, settings, show, template};
+pub use load::{FILE_NAME, User, faults, load, repository};
 pub use pathbuild_db::system::clean;
+pub use settings::{Options, Origin, ResultKind, Settings, SourcedValue};
+pub use table_kinds::nearest_code;

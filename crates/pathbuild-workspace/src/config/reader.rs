@@ -1,3 +1,5 @@
+//! Reads the values of a TOML file, each with its place, and says where a misplaced or misspelled key belongs.
+
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
@@ -5,14 +7,14 @@ use std::ops::Range;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{ConfinedSystem, spelt};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Text, Value, nearest};
+use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value, nearest};
+use serde_json::{Map, Value as Json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::key_index::{KeyIndex, KeyPlace};
-use super::kind::ValueType;
-use super::origin::{Origin, SourcedValue};
-use super::source::Source;
+use super::describe::schema;
+use super::kinds::ValueType;
+use super::settings::{Origin, SourcedValue};
 
 /// Reads values from a parsed TOML file and collects all diagnostics.
 pub(super) struct TomlReader<'a> {
@@ -283,5 +285,194 @@ fn placed(
     match home.header {
         Some(header) => fault(of_table).quoting("near", home.key).quoting("table", header),
         None => fault(of_top).quoting("near", home.key),
+    }
+}
+
+/// All tables of `pathbuild.toml` with their keys, taken from the schema.
+#[derive(Debug)]
+pub(super) struct KeyIndex {
+    tables: Vec<KeyTable>,
+}
+
+#[derive(Debug)]
+struct KeyTable {
+    /// Header as written in the file, such as `[machine]` or `[tool.NAME]`; `None` for the keys before all tables.
+    header: Option<String>,
+    keys: Vec<String>,
+}
+
+/// A known key and its table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct KeyPlace<'a> {
+    /// Header of its table; `None` for the keys before all tables.
+    pub(super) header: Option<&'a str>,
+    /// Name of the key.
+    pub(super) key: &'a str,
+    /// Whether the name is spelled exactly like the one that was searched for.
+    pub(super) is_exact: bool,
+}
+
+impl KeyIndex {
+    pub(super) fn new() -> Self {
+        let schema = schema();
+        let none = Map::new();
+        let root = properties(&schema).unwrap_or(&none);
+        let mut tables = vec![KeyTable::new(None, root)];
+        for (name, value) in root {
+            let headers = [
+                (format!("[{name}]"), properties(value)),
+                (format!("[{name}.NAME]"), properties(&value["additionalProperties"])),
+                (format!("[{name}]"), properties(&value["oneOf"][1])),
+                (format!("[[{name}]]"), properties(&value["items"])),
+            ];
+            let known_tables =
+                headers.into_iter().filter_map(|(header, keys)| Some(KeyTable::new(Some(header), keys?)));
+            tables.extend(known_tables);
+        }
+        Self { tables }
+    }
+
+    /// Finds the table of a key that its own table does not know: by this name, or else by a similar one.
+    pub(super) fn find(&self, name: &str) -> Option<KeyPlace<'_>> {
+        let exact = self.keys().find(|home| home.key == name);
+        exact.or_else(|| {
+            let near = nearest(name, self.keys().map(|home| home.key)).filter(|_| name.len() >= SHORTEST)?;
+            let home = self.keys().find(|home| home.key == near)?;
+            Some(KeyPlace { is_exact: false, ..home })
+        })
+    }
+
+    fn keys(&self) -> impl Iterator<Item = KeyPlace<'_>> {
+        self.tables.iter().flat_map(|table| {
+            let header = table.header.as_deref();
+            table.keys.iter().map(move |key| KeyPlace { header, key, is_exact: true })
+        })
+    }
+}
+
+/// Minimum length of a name for which similar names in other tables are suggested: shorter names resemble too many others.
+const SHORTEST: usize = 5;
+
+impl KeyTable {
+    fn new(header: Option<String>, keys: &Map<String, Json>) -> Self {
+        Self { header, keys: keys.keys().cloned().collect() }
+    }
+}
+
+fn properties(table: &Json) -> Option<&Map<String, Json>> {
+    table["properties"].as_object()
+}
+
+/// A text file that maps byte offsets to lines and columns. The time to look up an offset does not grow with the file.
+#[derive(Clone, Debug)]
+pub(super) struct Source<'a> {
+    file: &'a Utf8Path,
+    text: &'a str,
+    /// Offset of the beginning of each line.
+    lines: Vec<usize>,
+    /// Number of characters before each block.
+    characters: Vec<usize>,
+}
+
+/// Size in bytes of the blocks for which characters are counted.
+const BLOCK: usize = 1 << 10;
+
+/// Number of bytes of a line that are shown on each side of a fault.
+const AROUND: usize = 200;
+
+impl<'a> Source<'a> {
+    /// A file with this text.
+    pub(super) fn new(file: &'a Utf8Path, text: &'a str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = std::iter::once(0).chain(ends.map(|(end, _)| end + 1)).collect();
+        let counts = text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
+            let count = *before;
+            *before += beginnings(block);
+            Some(count)
+        });
+        Self { file, text, lines, characters: counts.collect() }
+    }
+
+    /// A diagnostic that underlines a byte range, or the part of it in its first line.
+    pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
+        let start = self.text.floor_char_boundary(span.start);
+        let number = self.line_index(start);
+        let begin = self.lines[number];
+        let column = self.character(start) - self.character(begin) + 1;
+        let (from, end) = (self.shown_from(begin, start), self.shown_to(start, span.end));
+        Diagnostic::new(message)
+            .in_file(self.file)
+            .at_line(self.line_number(start), u32::try_from(column).ok())
+            .with_text(TextFault::new(
+                &self.text[from..end],
+                start - from..span.end.min(end).saturating_sub(from),
+            ))
+    }
+
+    /// Number of the line that contains a byte, counted from 1.
+    pub(super) fn line_number(&self, byte: usize) -> u32 {
+        u32::try_from(self.line_index(byte) + 1).unwrap_or(u32::MAX)
+    }
+
+    /// The text in a byte range.
+    pub(super) fn slice(&self, span: Range<usize>) -> &'a str {
+        self.text.get(span).unwrap_or_default()
+    }
+
+    fn line_index(&self, byte: usize) -> usize {
+        self.lines.partition_point(|line| *line <= byte).saturating_sub(1)
+    }
+
+    /// Number of characters that begin before a byte.
+    fn character(&self, byte: usize) -> usize {
+        let block = (byte / BLOCK).min(self.characters.len().saturating_sub(1));
+        let rest = &self.text.as_bytes()[block * BLOCK..byte];
+        self.characters.get(block).copied().unwrap_or_default() + beginnings(rest)
+    }
+
+    /// First byte that is shown of a line with a fault at `start`.
+    fn shown_from(&self, begin: usize, start: usize) -> usize {
+        begin.max(self.text.floor_char_boundary(start.saturating_sub(AROUND)))
+    }
+
+    /// End of the part that is shown if the fault ends at `end`.
+    fn shown_to(&self, start: usize, end: usize) -> usize {
+        let most =
+            self.text.ceil_char_boundary((end.clamp(start, start + AROUND)) + AROUND).min(self.text.len());
+        self.text[start..most].find(['\n', '\r']).map_or(most, |length| start + length)
+    }
+}
+
+/// Number of characters that begin in these bytes.
+fn beginnings(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_table_has_its_keys() {
+        let key_index = KeyIndex::new();
+        for (key, header) in [
+            ("library", None),
+            ("travel", Some("[machine]")),
+            ("targets", Some("[emit]")),
+            ("coolant", Some("[tool.NAME]")),
+            ("unchecked", Some("[post]")),
+            ("files", Some("[[severity-in]]")),
+        ] {
+            assert_eq!(key_index.find(key), Some(KeyPlace { header, key, is_exact: true }));
+        }
+    }
+
+    #[test]
+    fn nearly_right_names_of_five_letters_are_found() {
+        let key_index = KeyIndex::new();
+        let near = KeyPlace { header: Some("[machine]"), key: "rates", is_exact: false };
+        assert_eq!(key_index.find("ratse"), Some(near));
+        assert_eq!(key_index.find("rate"), None);
+        assert_eq!(key_index.find("colour-of-the-bit"), None);
     }
 }

@@ -1,9 +1,13 @@
-use camino::{Utf8Path, Utf8PathBuf};
+//! The settings of a run, each with its source, and which cached results depend on them.
 
+use std::fmt::{self, Debug};
+
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::ConfinedSystem;
 use pathbuild_diagnostic::Lang;
+use toml::de::DeTable;
 
-use super::origin::Origin;
+use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::types::{Severities, ZModel};
 
@@ -70,6 +74,143 @@ impl Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        super::Options::default().resolve()
+        Options::default().resolve()
+    }
+}
+
+/// Settings from one source: the configuration or the command line. Keys that the source does not set are `None`.
+#[derive(Clone, Debug, Default)]
+#[expect(missing_docs, reason = "the tables of the configuration, by name")]
+pub struct Options {
+    pub general: general::Options,
+    pub emit: emit::Options,
+    pub limits: limits::Options,
+    pub machine: machine::Options,
+    pub warnings: warnings::Options,
+    pub watch: watch::Options,
+    pub tables: tables::Options,
+}
+
+impl Options {
+    /// Reads a parsed configuration. Diagnostics stay in the reader.
+    pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
+        reader.suggest_tables();
+        reader.table(root, "", |table| {
+            let options = Self {
+                general: general::Options::read(table),
+                emit: table.section("emit", emit::Options::read),
+                limits: table.section("limits", limits::Options::read_lowered),
+                machine: table.section("machine", machine::Options::read),
+                warnings: table.section("warnings", warnings::Options::read),
+                watch: table.section("watch", watch::Options::read),
+                tables: tables::Options::read(table),
+            };
+            table.refuse("remote");
+            options
+        })
+    }
+
+    /// Merges two sources; these settings take precedence over `below`.
+    pub fn over(self, below: Self) -> Self {
+        Self {
+            general: self.general.over(below.general),
+            emit: self.emit.over(below.emit),
+            limits: self.limits.over(below.limits),
+            machine: self.machine.over(below.machine),
+            warnings: self.warnings.over(below.warnings),
+            watch: self.watch.over(below.watch),
+            tables: self.tables.over(below.tables),
+        }
+    }
+
+    /// Fills in the defaults.
+    pub fn resolve(self) -> Settings {
+        Settings {
+            file: None,
+            not_used: None,
+            is_unexpected: false,
+            confined: None,
+            general: self.general.resolve(),
+            emit: self.emit.resolve(),
+            limits: self.limits.resolve(),
+            machine: self.machine.resolve(),
+            warnings: self.warnings.resolve(),
+            watch: self.watch.resolve(),
+            tables: self.tables.resolve(),
+        }
+    }
+}
+
+/// Source of a setting's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The built-in default: nothing sets the value.
+    Default,
+    /// A line of the configuration, counted from 1.
+    File(u32),
+    /// The command-line option of this name, without hyphens.
+    CommandLine(&'static str),
+}
+
+/// A value with its source.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourcedValue<T> {
+    /// The value.
+    pub value: T,
+    /// What set the value.
+    pub origin: Origin,
+}
+
+impl<T> SourcedValue<T> {
+    /// A default value.
+    pub fn default(value: T) -> Self {
+        Self { value, origin: Origin::Default }
+    }
+
+    /// The value of a command-line option.
+    pub fn option(name: &'static str, value: T) -> Self {
+        Self { value, origin: Origin::CommandLine(name) }
+    }
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Default => f.write_str("default"),
+            Self::File(line) => write!(f, "line {line}"),
+            Self::CommandLine(name) => write!(f, "--{name}"),
+        }
+    }
+}
+
+/// The cached results that depend on a setting.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ResultKind {
+    /// Results of `check`, and hence those of `emit`.
+    Check,
+    /// Results of `emit` only.
+    Emit,
+    /// No results: the setting changes only what is requested or how it is reported.
+    Neither,
+}
+
+impl ResultKind {
+    /// Whether the cached results of the command `result_kind` depend on this setting.
+    pub(in crate::config) fn is_part_of(self, result_kind: Self) -> bool {
+        self != Self::Neither && self <= result_kind
+    }
+}
+
+impl Settings {
+    /// Passes each setting that a command's cached results depend on to `add`, with its name. `result_kind` is [`ResultKind::Check`] or
+    /// [`ResultKind::Emit`].
+    pub fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
+        self.general.visit_inputs(result_kind, add);
+        self.emit.visit_inputs(result_kind, add);
+        self.limits.visit_inputs(result_kind, add);
+        self.machine.visit_inputs(result_kind, add);
+        self.warnings.visit_inputs(result_kind, add);
+        self.watch.visit_inputs(result_kind, add);
+        self.tables.visit_inputs(result_kind, add);
     }
 }

@@ -1,17 +1,17 @@
 //! The post-processor of a run, with its settings. (book: program/posts)
 
-mod build;
-mod files;
 mod tools;
 
 use std::cell::RefCell;
+use std::process::{Command, Stdio};
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::join;
-use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::posts as messages;
+use pathbuild_diagnostic::messages::{posts, posts as messages};
+use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::Charset;
 use pathbuild_gcode::verify::{Machine, PostWords};
@@ -23,11 +23,7 @@ use crate::config::{Origin, types};
 use crate::machine::machine;
 use crate::workspace::Workspace;
 
-pub use build::run_post_build;
 pub use tools::{complete_tools, tool_table};
-
-pub use files::InsertedFile;
-use files::{DirectoryFiles, RecordedFiles};
 
 /// A post definition with everything that its output depends on besides the program.
 #[derive(Debug)]
@@ -346,4 +342,71 @@ pub(crate) fn is_file_name(name: &str) -> bool {
 /// A file name relative to the working directory, if it is inside.
 fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
     file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
+}
+
+/// Runs the command in the directory of the file and waits for it. Its output goes to stderr, since stdout is for results.
+///
+/// # Errors
+/// If it cannot be started, or exits with a status other than 0.
+pub fn run_post_build(command: &[String], file: &Utf8Path) -> Result<(), Box<Diagnostic>> {
+    let Some((program, arguments)) = command.split_first() else { return Ok(()) };
+    let mut run = Command::new(program);
+    run.args(arguments).stdin(Stdio::null()).stdout(std::io::stderr());
+    let failed = |reason: Value| {
+        let diagnostic = Diagnostic::new(&posts::POST_BUILD_FAILED).quoting("command", command.join(" "));
+        Box::new(diagnostic.with("reason", reason).in_file(file))
+    };
+    match run.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(failed(Value::foreign(status))),
+        Err(error) => Err(failed(Value::foreign(error))),
+    }
+}
+
+/// Access to a directory and everything below it.
+#[derive(Debug)]
+pub(super) struct DirectoryFiles<'a> {
+    pub(super) directory: &'a Utf8Path,
+    pub(super) system: &'a dyn System,
+}
+
+/// A file that a definition inserts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InsertedFile {
+    /// Path relative to the definition's directory.
+    pub name: Utf8PathBuf,
+    /// Hash of the content; `None` if it could not be read.
+    pub hash: Option<[u8; 32]>,
+}
+
+/// Like [`DirectoryFiles`], and records the files that were read.
+#[derive(Debug)]
+pub(super) struct RecordedFiles<'a> {
+    pub(super) below: DirectoryFiles<'a>,
+    pub(super) read: RefCell<Vec<InsertedFile>>,
+}
+
+impl PostFiles for RecordedFiles<'_> {
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
+        let read = self.below.read(path);
+        let hash = read.as_ref().ok().map(|bytes| *blake3::hash(bytes).as_bytes());
+        self.read.borrow_mut().push(InsertedFile { name: path.to_owned(), hash });
+        read
+    }
+}
+
+/// Upper bound on the size of an inserted file in bytes.
+const LARGEST: u64 = 1 << 24;
+
+impl PostFiles for DirectoryFiles<'_> {
+    fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
+        let Self { directory, system } = self;
+        let base =
+            system.canonical(if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory });
+        let file = system.canonical(&directory.join(path));
+        if !file.starts_with(&base) && file.is_absolute() {
+            return Err(Value::Prose(&LEADS_OUT_OF_POST));
+        }
+        system.read(&file, LARGEST).map_err(|error| error.reason(LARGEST))
+    }
 }

@@ -7,12 +7,13 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listing, Listings};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, ReadError, join};
-use pathbuild_db::{System, catch_bugs, unlistable};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join};
+use pathbuild_db::{Db, System, catch_bugs, unlistable, unlisted};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use rayon::prelude::*;
 
+use super::Session;
 use super::ignore_rules::{self, Budget, Rules};
 
 /// The contents of a directory and of all directories below it.
@@ -259,4 +260,36 @@ fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {
         .quoting("directory", directory.as_str())
         .with("limit", limit)
         .quoting("key", "library-entries")
+}
+
+impl Session<'_> {
+    /// Queries the database about a directory.
+    ///
+    /// PB006 if this triggers a bug, PB001 if a drawing changed in the meantime or if the directory cannot be listed.
+    /// PB006 where that shows a bug, PB001 where a drawing changed meanwhile, and where the directory cannot be listed.
+    pub(super) fn query_directory<R>(
+        &self,
+        directory: &Utf8Path,
+        ask: impl Fn(pathbuild_db::Directory) -> R,
+    ) -> Result<R, Box<Diagnostic>> {
+        let input = self.db.directory(directory);
+        let answer = self.db.guarded(self.limit(), || (ask(input), unlisted(&self.db, input)));
+        match answer.map_err(|problem| problem.in_file(readable(directory)))? {
+            (answer, None) => Ok(answer),
+            (_, Some(problem)) => Err(Box::new(problem)),
+        }
+    }
+
+    /// Names of the entries of a directory that are not directories themselves; empty if the directory does not exist.
+    ///
+    /// # Errors
+    /// PB001 if it cannot be listed, PB006 if this triggers a bug.
+    pub fn file_names_in(&self, directory: &Utf8Path) -> Result<Names, Box<Diagnostic>> {
+        let listed = catch_bugs(|| self.db.system().list(directory));
+        match listed.map_err(|bug| Box::new(bug.in_file(readable(directory))))? {
+            Ok(listing) => Ok(listing.files),
+            Err(fault) if self.is_directory(directory) => Err(Box::new(unlistable(directory, &fault))),
+            Err(_) => Ok(Names::default()),
+        }
+    }
 }

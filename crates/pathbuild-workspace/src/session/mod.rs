@@ -2,22 +2,16 @@
 
 mod argument_matches;
 mod combinations;
-mod directory_queries;
-mod empty_input;
 mod graph;
+mod hints;
 mod ignore_rules;
 mod library;
-mod library_hints;
-mod one_path;
 mod outputs;
 mod prefetch;
-mod q_projects;
 mod resolve;
 mod scene;
 mod settings;
-mod suggestions;
 pub mod timings;
-mod watchdog;
 mod work;
 mod workers;
 
@@ -29,23 +23,19 @@ use pathbuild_db::system::{OverlaySystem, System, spelt};
 use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
-use self::watchdog::Watchdog;
-use self::workers::Workers;
-use crate::reporter::Advance;
-use crate::workspace::Workspace;
+use self::workers::{Watchdog, Workers};
+use crate::workspace::{Advance, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, Node};
+pub(crate) use hints::relative;
 pub use library::{by_name, by_place};
-pub(crate) use library_hints::relative;
-pub use one_path::{NamedPaths, NotOnePath, several_paths};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
-pub use q_projects::{Pair, pairs as q_project_pairs};
-pub use resolve::{NamesOf, SelectedPath, Selection};
+pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};
 pub(crate) use scene::program_scene;
 pub use scene::{SceneReport, ShownText};
 pub use settings::{limits, reading};
-pub use work::{CheckedTarget, Checker, ProgramFacts};
+pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pairs};
 
 /// A database with the settings of a run.
 #[derive(Debug)]

@@ -8,8 +8,7 @@ use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
 use super::changes::Changes;
-use super::names::NameSnapshots;
-use super::reverse::ReverseIndex;
+use super::index::{NameSnapshots, ReverseIndex};
 use crate::Inputs;
 use crate::check::check_drawings;
 use crate::memo::{Coverage, DrawingResult, is_transient};

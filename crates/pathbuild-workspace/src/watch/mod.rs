@@ -6,10 +6,8 @@
 
 mod changes;
 mod directories;
+mod index;
 mod library;
-mod links;
-mod names;
-mod reverse;
 mod writing;
 
 use std::collections::BTreeSet;

@@ -12,15 +12,15 @@ use crate::config::arguments::OptionValues::{
     Directories as SearchDirectories, Directory, Switch, Text, Texts,
 };
 use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
-use crate::config::kind::Key;
-use crate::config::kinds::number::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
-use crate::config::kinds::pattern::{OPTIONAL_REGEX, REGEX, RESTRICTIONS};
-use crate::config::kinds::table::POST;
-use crate::config::kinds::text::{DIRECTORIES, DIRECTORY, choice};
-use crate::config::origin::SourcedValue;
+use crate::config::describe::ShownSetting;
+use crate::config::kinds::Key;
+use crate::config::kinds::{DIRECTORIES, DIRECTORY, choice};
+use crate::config::kinds::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
+use crate::config::kinds::{OPTIONAL_REGEX, REGEX, RESTRICTIONS};
 use crate::config::reader::Table;
-use crate::config::result_kind::ResultKind;
-use crate::config::show::ShownSetting;
+use crate::config::settings::ResultKind;
+use crate::config::settings::SourcedValue;
+use crate::config::table_kinds::POST;
 use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
 
 /// Like [`section!`], for keys that command-line options can override. Such a key adds its option: position among the common options

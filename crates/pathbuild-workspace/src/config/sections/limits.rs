@@ -3,12 +3,12 @@
 use std::fmt::Debug;
 use std::time::Duration;
 
-use crate::config::kind::Key;
-use crate::config::kinds::number::{COUNT, SECONDS, SIZE};
-use crate::config::origin::SourcedValue;
+use crate::config::describe::ShownSetting;
+use crate::config::kinds::Key;
+use crate::config::kinds::{COUNT, SECONDS, SIZE};
 use crate::config::reader::Table;
-use crate::config::result_kind::ResultKind;
-use crate::config::show::ShownSetting;
+use crate::config::settings::ResultKind;
+use crate::config::settings::SourcedValue;
 
 /// Like [`section!`], for values that an untrusted configuration may lower but not raise.
 macro_rules! limits {

@@ -1,14 +1,12 @@
 //! The diagnostics of a run, ready for display: with configured severities, without duplicates, in an order independent of threads.
 //! (book: reference/diagnostics)
 
-mod judge;
-
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use crate::check::CheckedFile;
+use crate::config::{Settings, clean};
 use crate::workspace::Workspace;
-
-pub use judge::judge;
 
 /// The diagnostics of a run, and what was checked.
 #[derive(Clone, Debug, Default)]
@@ -58,4 +56,27 @@ fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
     arguments_agree
         && (a.message, &a.file, &a.path, &a.place, &a.text)
             == (b.message, &b.file, &b.path, &b.place, &b.text)
+}
+
+/// Applies the configured severities, and drops diagnostics that are ignored. File names are relative to the working directory, those in
+/// the configuration to its own directory.
+pub fn judge(
+    diagnostics: Vec<Diagnostic>,
+    settings: &Settings,
+    working_directory: &Utf8Path,
+) -> Vec<Diagnostic> {
+    let severities = settings.severities();
+    let relative = |file: &Utf8Path| -> Utf8PathBuf {
+        let file = clean(&working_directory.join(file));
+        let below = settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
+        below.map(Utf8Path::to_owned).unwrap_or(file)
+    };
+    let judge = |mut diagnostic: Diagnostic| {
+        let file = diagnostic.file.as_deref().map(relative);
+        if let Some(level) = severities.level(diagnostic.code(), file.as_deref()) {
+            diagnostic.severity = level.severity()?;
+        }
+        Some(diagnostic)
+    };
+    diagnostics.into_iter().filter_map(judge).collect()
 }

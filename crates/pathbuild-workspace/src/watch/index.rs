@@ -1,12 +1,13 @@
 //! Finds the drawings affected by a change: by the files that their results depend on, and by the names that they look up in directories.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{SourceFile, Trace};
+use pathbuild_db::{Db, SourceFile, Trace, drawing_names};
 use pathbuild_path::PathName;
 
 use crate::memo::Coverage;
+use crate::session::Session;
 
 /// The reverse index of all traces.
 #[derive(Default)]
@@ -89,4 +90,45 @@ fn lookups(trace: &Trace) -> impl Iterator<Item = (&Utf8PathBuf, &PathName)> {
         .lookups
         .iter()
         .flat_map(|lookup| lookup.directories.iter().map(|directory| (directory, &lookup.name)))
+}
+
+/// The drawing names in each directory, as seen by all results that depend on them.
+#[derive(Default)]
+pub(super) struct NameSnapshots(BTreeMap<Utf8PathBuf, BTreeSet<Box<str>>>);
+
+impl NameSnapshots {
+    /// Takes the snapshot of a directory if there is none. Must be called in the revision of the results that depend on the directory.
+    pub(super) fn take(&mut self, session: &Session<'_>, directory: &Utf8Path) {
+        if !self.0.contains_key(directory) {
+            self.0.insert(directory.to_owned(), names_of(session, directory));
+        }
+    }
+
+    /// Whether there is a snapshot of a directory.
+    pub(super) fn has(&self, directory: &Utf8Path) -> bool {
+        self.0.contains_key(directory)
+    }
+
+    /// The directories that have a snapshot.
+    pub(super) fn directories(&self) -> impl Iterator<Item = &Utf8PathBuf> {
+        self.0.keys()
+    }
+
+    /// Whether the snapshot of a directory contains a name.
+    pub(super) fn holds(&self, directory: &Utf8Path, name: &str) -> bool {
+        self.0.get(directory).is_some_and(|names| names.contains(name))
+    }
+
+    /// Lists a directory again, in the database as well, and returns the names that were added or removed. Later results see the new names.
+    pub(super) fn renew(&mut self, session: &mut Session<'_>, directory: &Utf8Path) -> Vec<Box<str>> {
+        session.touch_directory(directory);
+        let names = names_of(session, directory);
+        let before = self.0.insert(directory.to_owned(), names.clone()).unwrap_or_default();
+        before.symmetric_difference(&names).cloned().collect()
+    }
+}
+
+fn names_of(session: &Session<'_>, directory: &Utf8Path) -> BTreeSet<Box<str>> {
+    let db = session.db();
+    drawing_names(db, db.directory(directory)).iter().map(Box::from).collect()
 }

@@ -1,8 +1,6 @@
 //! `list` and `stats`: the paths of a library with the figures that a workshop needs.
 
-mod json;
-mod row;
-mod stats;
+use std::collections::BTreeMap;
 
 use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
@@ -11,19 +9,17 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::summary::{Extent, cutting_box};
 use pathbuild_path::{PathName, PathSignature};
+use serde_json::{Value as Json, json};
 
-use crate::Inputs;
 use crate::check::cached_results;
 use crate::config::types::Pattern;
-use crate::emit;
+use crate::findings::Findings;
 use crate::inputs::Input;
 use crate::memo::{self, DrawingResult};
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Session};
-
-pub use json::{drawing_json, path_json, stats_json};
-pub use row::{Row, State};
-pub use stats::{Stats, Total};
+use crate::workspace::Workspace;
+use crate::{Inputs, emit};
 
 /// A request to list paths.
 #[derive(Clone, Copy, Debug)]
@@ -352,4 +348,195 @@ impl Figures {
             ..figures
         }
     }
+}
+
+/// A path, with its findings counted by the configured severities.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What is known of it.
+    pub path: ListedPath,
+    /// Number of errors.
+    pub errors: usize,
+    /// Number of warnings.
+    pub warnings: usize,
+}
+
+/// State of a path and of its program on disk, in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum State {
+    /// The path has errors.
+    Errors,
+    /// The program on disk is out of date.
+    Stale,
+    /// The program on disk is up to date.
+    Current,
+    /// The path has no errors, and there is no program on disk.
+    Ok,
+}
+
+impl State {
+    pub(super) const ALL: [Self; 4] = [Self::Errors, Self::Stale, Self::Current, Self::Ok];
+
+    /// Name in JSON.
+    pub(super) fn key(self) -> &'static str {
+        match self {
+            Self::Errors => "errors",
+            Self::Stale => "stale",
+            Self::Current => "current",
+            Self::Ok => "ok",
+        }
+    }
+}
+
+impl Row {
+    /// Counts the findings of a path under a workspace's configuration.
+    pub fn new(workspace: &Workspace, path: ListedPath) -> Self {
+        let found = workspace.findings(path.diagnostics.clone());
+        let errors = found.diagnostics.iter().filter(|found: &&Diagnostic| found.is_error()).count();
+        Self { path, errors, warnings: found.diagnostics.len() - errors }
+    }
+
+    /// What it is.
+    pub fn state(&self) -> State {
+        match self.path.program {
+            _ if self.errors > 0 => State::Errors,
+            ProgramState::Stale => State::Stale,
+            ProgramState::Current => State::Current,
+            ProgramState::None | ProgramState::Unknown => State::Ok,
+        }
+    }
+
+    /// Width and height of the area that the tool tip reaches while cutting, in mm.
+    pub fn size(&self) -> Option<[f64; 2]> {
+        let [x, y, _] = self.path.cutting_box;
+        let width = |(low, high): (f64, f64)| high - low;
+        Some([width(x?), width(y?)])
+    }
+}
+
+/// Totals of paths.
+#[derive(Clone, Debug)]
+pub struct Stats {
+    /// Number of drawings.
+    pub drawings: usize,
+    /// Totals of all paths.
+    pub all: Total,
+    /// Number of paths with warnings.
+    pub warnings: usize,
+    /// Number of paths in each state.
+    pub states: BTreeMap<State, usize>,
+    /// Totals by M; `None` for paths without M.
+    pub materials: BTreeMap<Option<Box<str>>, Total>,
+    /// Totals by O in micrometres, an integer so that it can be a key.
+    pub cutters: BTreeMap<Option<u64>, Total>,
+}
+
+/// Totals of some paths. Paths with errors have no length.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Total {
+    /// Number of paths.
+    pub paths: usize,
+    /// Length in mm.
+    pub length: f64,
+    /// Time in minutes, as far as it is known.
+    pub minutes: f64,
+}
+
+impl Total {
+    fn add(&mut self, row: &Row) {
+        self.paths += 1;
+        self.length += row.path.length.unwrap_or_default();
+        self.minutes += row.path.minutes.unwrap_or_default();
+    }
+}
+
+/// A diameter in whole micrometres; 0 for a negative one.
+fn micrometres(tool: f64) -> u64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a diameter within a drawing's limits"
+    )]
+    let rounded = (tool * 1000.0).round().max(0.0) as u64;
+    rounded
+}
+
+impl Stats {
+    /// Totals of these paths, which were found in `drawings` drawings.
+    pub fn of<'a>(rows: impl IntoIterator<Item = &'a Row>, drawings: usize) -> Self {
+        let mut stats = Self {
+            drawings,
+            all: Total::default(),
+            warnings: 0,
+            states: State::ALL.iter().map(|state| (*state, 0)).collect(),
+            materials: BTreeMap::new(),
+            cutters: BTreeMap::new(),
+        };
+        for row in rows {
+            stats.all.add(row);
+            stats.warnings += usize::from(row.warnings > 0);
+            *stats.states.entry(row.state()).or_default() += 1;
+            stats.materials.entry(row.path.material.clone()).or_default().add(row);
+            stats.cutters.entry(row.path.tool.map(micrometres)).or_default().add(row);
+        }
+        stats
+    }
+}
+
+/// A path as a JSON object. `file` is the displayed name of its drawing.
+pub fn path_json(file: &str, row: &Row) -> Json {
+    let path = &row.path;
+    let axis = |ends: Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
+    let [x, y, z] = path.cutting_box.map(axis);
+    json!({
+        "path": path.name.as_str(),
+        "file": file,
+        "material": path.material,
+        "thickness": path.thickness,
+        "tool": path.tool,
+        "size": row.size(),
+        "cutting_box": { "x": x, "y": y, "z": z },
+        "length": path.length,
+        "minutes": path.minutes,
+        "state": row.state().key(),
+        "errors": row.errors,
+        "warnings": row.warnings,
+        "program": match path.program {
+            ProgramState::None | ProgramState::Unknown => None,
+            ProgramState::Current => Some("current"),
+            ProgramState::Stale => Some("stale"),
+        },
+    })
+}
+
+/// A drawing with errors of its own, as a JSON object beside those of its paths; `None` if there are only warnings.
+pub fn drawing_json(found: &Findings) -> Option<Json> {
+    let (errors, warnings) = (found.errors(), found.warnings());
+    (errors > 0).then(|| json!({ "path": null, "state": "errors", "errors": errors, "warnings": warnings }))
+}
+
+/// Totals as a JSON object.
+pub fn stats_json(stats: &Stats) -> Json {
+    let states =
+        stats.states.iter().map(|(state, count): (&State, _)| (state.key().to_owned(), json!(count)));
+    let materials = stats.materials.iter().map(|(name, total)| with(total, "material", json!(name)));
+    #[expect(clippy::cast_precision_loss, reason = "a diameter within a drawing's limits")]
+    let tool = |tool: &Option<u64>| tool.map(|tool| tool as f64 / 1000.0);
+    let cutters = stats.cutters.iter().map(|(tool_, total)| with(total, "tool", json!(tool(tool_))));
+    json!({
+        "drawings": stats.drawings,
+        "paths": stats.all.paths,
+        "length": stats.all.length,
+        "minutes": stats.all.minutes,
+        "states": states.collect::<serde_json::Map<_, _>>(),
+        "with_warnings": stats.warnings,
+        "materials": materials.collect::<Vec<_>>(),
+        "cutters": cutters.collect::<Vec<_>>(),
+    })
+}
+
+fn with(total: &Total, key: &str, value: Json) -> Json {
+    let mut object = json!({ "paths": total.paths, "length": total.length, "minutes": total.minutes });
+    object[key] = value;
+    object
 }

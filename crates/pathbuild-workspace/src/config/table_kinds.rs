@@ -9,10 +9,9 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::number::{COUNT, POSITIVE, SWITCH};
-use super::pattern::{PATTERNS, REGEX};
-use super::text::{TEXT, choice, choice_schema, name_of, quoted, read_choice};
-use crate::config::kind::ValueType;
+use super::kinds::{COUNT, POSITIVE, SWITCH};
+use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
+use crate::config::kinds::ValueType;
 use crate::config::reader::{Table, TomlReader};
 use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
 use crate::posting::is_file_name;

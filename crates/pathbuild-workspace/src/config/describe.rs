@@ -1,0 +1,164 @@
+//! Descriptions of the configuration: `config show`, the JSON schema, and the file that `init` writes.
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::shown;
+use serde_json::{Map, Value as Json, json};
+
+use super::kinds::Key;
+use super::sections::{emit, general, limits, machine, tables, warnings, watch};
+use super::settings::Origin;
+use super::settings::Settings;
+
+/// A key with its value as TOML, and its source.
+pub(super) struct ShownSetting {
+    pub(super) name: &'static str,
+    pub(super) value: Option<String>,
+    pub(super) origin: Origin,
+}
+
+/// Formats the settings as TOML, on request with their sources as comments.
+pub fn show(settings: &Settings, with_origin: bool) -> String {
+    let mut text = match &settings.file {
+        Some(file) => format!("# {}\n", shown::line(file.as_str())),
+        None => "# no pathbuild.toml\n".to_owned(),
+    };
+    // The general keys include inline tables, so they must precede the first table header.
+    write(&mut text, settings.general.shown(), with_origin);
+    write(&mut text, settings.tables.shown(), with_origin);
+    for (name, entries) in sections(settings) {
+        _ = write!(text, "\n[{name}]\n");
+        write(&mut text, entries, with_origin);
+    }
+    text
+}
+
+/// The tables with fixed keys.
+fn sections(settings: &Settings) -> [(&'static str, Vec<ShownSetting>); 5] {
+    [
+        ("emit", settings.emit.shown()),
+        ("limits", settings.limits.shown()),
+        ("machine", settings.machine.shown()),
+        ("warnings", settings.warnings.shown()),
+        ("watch", settings.watch.shown()),
+    ]
+}
+
+/// A key with its value.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Its table; empty for keys before the first table.
+    pub section: &'static str,
+    /// Name of the key.
+    pub name: &'static str,
+    /// Its value as TOML; `None` if not set.
+    pub value: Option<String>,
+    /// Source of the value; empty if not set.
+    pub origin: String,
+}
+
+/// Lists all settings.
+pub fn settings(settings: &Settings) -> Vec<Setting> {
+    let general = [("", settings.general.shown()), ("", settings.tables.shown())];
+    let all = general.into_iter().chain(sections(settings));
+    let setting = |section| {
+        move |ShownSetting { name, value, origin }: ShownSetting| {
+            let origin = value.as_ref().map(|_| origin.to_string()).unwrap_or_default();
+            Setting { section, name, value, origin }
+        }
+    };
+    all.flat_map(|(section, entries)| entries.into_iter().map(setting(section))).collect()
+}
+
+fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
+    for ShownSetting { name, value, origin } in entries {
+        let line = value.map_or_else(|| format!("# {name} is not set"), |value| format!("{name} = {value}"));
+        let origin =
+            if with_origin && !line.starts_with('#') { format!("  # {origin}") } else { String::new() };
+        _ = writeln!(text, "{line}{origin}");
+    }
+}
+
+/// The JSON schema (draft 2020-12) of `pathbuild.toml`.
+pub fn schema() -> Json {
+    let mut root = properties(general::KEYS);
+    root.extend(properties(tables::KEYS));
+    let sections = [
+        ("emit", emit::KEYS),
+        ("limits", limits::KEYS),
+        ("machine", machine::KEYS),
+        ("warnings", warnings::KEYS),
+        ("watch", watch::KEYS),
+    ];
+    root.extend(sections.map(|(name, keys)| (name.to_owned(), object(&properties(keys)))));
+    let mut schema = object(&root);
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!("pathbuild.toml");
+    schema
+}
+
+fn object(properties: &Map<String, Json>) -> Json {
+    json!({ "type": "object", "additionalProperties": false, "properties": properties })
+}
+
+fn properties(keys: &[Key]) -> Map<String, Json> {
+    keys.iter().map(property).collect()
+}
+
+fn property(key: &Key) -> (String, Json) {
+    let mut schema = (key.schema)();
+    let meaning: Vec<&str> = key.meaning.iter().map(|line| line.trim()).collect();
+    schema["description"] = json!(meaning.join(" "));
+    (key.name.to_owned(), schema)
+}
+
+/// The text of a configuration with every key, its description, and its default or an example. All keys but `library` are commented out.
+pub fn template() -> String {
+    let mut text = HEAD.to_owned();
+    for key in general::KEYS {
+        entry(&mut text, key, if key.name == "library" { "" } else { "#" });
+    }
+    for key in tables::KEYS {
+        table(&mut text, key);
+    }
+    let sections = [
+        ("emit", emit::KEYS),
+        ("limits", limits::KEYS),
+        ("machine", machine::KEYS),
+        ("warnings", warnings::KEYS),
+        ("watch", watch::KEYS),
+    ];
+    for (name, keys) in sections {
+        _ = write!(text, "\n[{name}]\n");
+        for key in keys {
+            entry(&mut text, key, "#");
+        }
+    }
+    text
+}
+
+const HEAD: &str = "\
+# Configuration of pathbuild. File names are relative to this file. Command-line options take precedence over it.
+# Lines that begin with # and no blank are the defaults, or examples if there is no default: remove the # and change them.
+# `pathbuild config show` prints the values in force.
+
+";
+
+fn entry(text: &mut String, key: &Key, mark: &str) {
+    let line = format!("{mark}{} = {}", key.name, key.example);
+    let [first, further @ ..] = key.meaning else { return };
+    _ = writeln!(text, "{line:<28} #{first}");
+    for meaning in further {
+        _ = writeln!(text, "{:<28} #{meaning}", "");
+    }
+}
+
+fn table(text: &mut String, key: &Key) {
+    text.push('\n');
+    for meaning in key.meaning {
+        _ = writeln!(text, "#{meaning}");
+    }
+    for line in key.example.lines() {
+        _ = writeln!(text, "#{line}");
+    }
+}

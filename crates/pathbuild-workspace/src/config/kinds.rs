@@ -1,0 +1,453 @@
+//! Types of values: numbers, sizes, times, texts, choices and patterns.
+
+use std::fmt::Write;
+use std::ops::Range;
+use std::time::Duration;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Value, nearest, shown};
+use pathbuild_path::regex_reason;
+use regex::RegexBuilder;
+use serde_json::{Value as Json, json};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use crate::config::reader::{LimitedKind, TomlReader};
+use crate::config::types::{Choice, Directories, Extent, Pattern, Restriction};
+
+/// An optional number greater than 0.
+pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
+    read: |value, reader| match number(value).filter(|number| *number > 0.0) {
+        Some(number) => Some(Some(number)),
+        None => reader.expected(Value::Prose(&messages::POSITIVE), value),
+    },
+    show: |number| number.map(|number| number.to_string()),
+    schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
+};
+
+/// A time in seconds greater than 0.
+pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
+    read: |value, reader| match number(value).and_then(|number| Duration::try_from_secs_f64(number).ok()) {
+        Some(time) if !time.is_zero() => Some(time),
+        _ => reader.expected(Value::Prose(&messages::POSITIVE), value),
+    },
+    show: |time| Some(time.as_secs_f64().to_string()),
+    schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
+};
+
+/// A number of at least 0.
+pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
+    read: |value, reader| match number(value).filter(|number| *number >= 0.0) {
+        Some(number) => Some(number),
+        None => reader.expected(Value::Prose(&messages::NOT_NEGATIVE), value),
+    },
+    show: |number| Some(number.to_string()),
+    schema: || json!({ "type": "number", "minimum": 0 }),
+};
+
+/// Optional upper bound on the length of pieces of moves in mm; 0 means any length. Pieces that a machine cannot distinguish would only
+/// fill the disk.
+pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
+    read: |value, reader| match number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE) {
+        Some(number) => Some(Some(number)),
+        None => reader.expected(Value::Prose(&messages::PIECE), value),
+    },
+    show: |number| number.map(|number| number.to_string()),
+    schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
+};
+
+/// Lower bound on that length in mm.
+const SHORTEST_PIECE: f64 = 0.1;
+
+/// A positive whole number.
+pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
+    read: |value, reader| match whole_number(value).filter(|count| *count > 0) {
+        Some(count) => Some(count),
+        None => reader.expected(Value::Prose(&messages::COUNT), value),
+    },
+    show: |count| Some(count.to_string()),
+    schema: || json!({ "type": "integer", "minimum": 1 }),
+};
+
+/// A size in bytes: a whole number, or a text such as "256 MiB".
+pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
+    read: |value, reader| match size(value).filter(|size| *size > 0) {
+        Some(size) => Some(size),
+        None => reader.expected(Value::Prose(&messages::SIZE), value),
+    },
+    show: |size| Some(shown_size(*size)),
+    schema: || json!({ "oneOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "pattern": SIZE_PATTERN }] }),
+};
+
+/// A duration, written as a text such as "50 ms".
+pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
+    read: |value, reader| match value.get_ref().as_str().and_then(duration) {
+        Some(duration) => Some(duration),
+        None => reader.expected(Value::Prose(&messages::DURATION), value),
+    },
+    show: |duration| Some(format!("\"{} ms\"", duration.as_millis())),
+    schema: || json!({ "type": "string", "pattern": "^[0-9]+ ?(ms|s|min)$" }),
+};
+
+/// Two numbers, the smaller one first.
+pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
+    read: |value, reader| match extent(value) {
+        Some(extent) => Some(Some(extent)),
+        None => reader.expected(Value::Prose(&messages::EXTENT), value),
+    },
+    show: |extent| extent.map(|extent| format!("[{}, {}]", extent.from, extent.to)),
+    schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
+};
+
+/// A positive number for each of X, Y and Z.
+pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
+    read: |value, reader| match axes(value) {
+        Some(axes) => Some(Some(axes)),
+        None => reader.expected(Value::Prose(&messages::AXES), value),
+    },
+    show: |axes| axes.map(|[x, y, z]| format!("[{x}, {y}, {z}]")),
+    schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
+};
+
+/// A boolean.
+pub(in crate::config) const SWITCH: ValueType<bool> =
+    ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
+
+fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<bool> {
+    value.get_ref().as_bool().or_else(|| reader.expected(Value::Prose(&messages::SWITCH), value))
+}
+
+/// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
+pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
+    let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let is_number = digits.contains(|c: char| c.is_ascii_digit())
+        && digits.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | ','))
+        && digits.matches(['.', ',']).count() <= 1;
+    is_number.then(|| text.replace(',', ".").parse().ok()).flatten().filter(|number: &f64| number.is_finite())
+}
+
+fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
+    let value = value.get_ref();
+    let text = match value.as_float() {
+        Some(float) => float.as_str(),
+        None => value.as_integer().filter(|integer| integer.radix() == 10)?.as_str(),
+    };
+    text.replace('_', "").parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn whole_number(value: &Spanned<DeValue<'_>>) -> Option<u64> {
+    let integer = value.get_ref().as_integer()?;
+    u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix()).ok()
+}
+
+fn extent(value: &Spanned<DeValue<'_>>) -> Option<Extent> {
+    let array = value.get_ref().as_array()?;
+    match (array.len(), array.first().and_then(number), array.get(1).and_then(number)) {
+        (2, Some(from), Some(to)) if from < to => Some(Extent { from, to }),
+        _ => None,
+    }
+}
+
+fn axes(value: &Spanned<DeValue<'_>>) -> Option<[f64; 3]> {
+    let array = value.get_ref().as_array()?;
+    let numbers: Option<Vec<f64>> =
+        array.iter().map(|item| number(item).filter(|number| *number > 0.0)).collect();
+    numbers?.try_into().ok()
+}
+
+const SIZE_PATTERN: &str = "^[0-9]+ ?(B|kB|KiB|MB|MiB|GB|GiB)$";
+const UNITS: &[(&str, u64)] = &[
+    ("GiB", 1 << 30),
+    ("MiB", 1 << 20),
+    ("KiB", 1 << 10),
+    ("GB", 1_000_000_000),
+    ("MB", 1_000_000),
+    ("kB", 1000),
+    ("B", 1),
+];
+
+fn size(value: &Spanned<DeValue<'_>>) -> Option<u64> {
+    let Some(text) = value.get_ref().as_str() else { return whole_number(value) };
+    let (digits, unit) = digits_and_unit(text)?;
+    let factor = UNITS.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor)?;
+    digits.checked_mul(factor)
+}
+
+fn shown_size(size: u64) -> String {
+    let is_whole = |(_, factor): &&(&str, u64)| size.is_multiple_of(*factor);
+    match UNITS.iter().filter(|(name, _)| name.ends_with("iB")).find(is_whole) {
+        Some((unit, factor)) => format!("\"{} {unit}\"", size / factor),
+        None => size.to_string(),
+    }
+}
+
+fn duration(text: &str) -> Option<Duration> {
+    let (count, unit) = digits_and_unit(text)?;
+    match unit {
+        "ms" => Some(Duration::from_millis(count)),
+        "s" => Some(Duration::from_secs(count)),
+        "min" => Some(Duration::from_secs(count.checked_mul(60)?)),
+        _ => None,
+    }
+}
+
+/// Splits `256 MiB` into 256 and `MiB`.
+fn digits_and_unit(text: &str) -> Option<(u64, &str)> {
+    let (digits, unit) = text.split_at(text.find(|c: char| !c.is_ascii_digit())?);
+    Some((digits.parse().ok()?, unit.strip_prefix(' ').unwrap_or(unit)))
+}
+
+/// A non-empty string.
+pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
+    read: |value, reader| match reader.text(value)? {
+        "" => reader.expected(Value::Prose(&messages::NOT_EMPTY), value),
+        text => Some(text.into()),
+    },
+    show: |text| Some(quoted(text)),
+    schema: || json!({ "type": "string", "minLength": 1 }),
+};
+
+/// An optional directory; the empty string means none.
+pub(in crate::config) const DIRECTORY: ValueType<Option<Utf8PathBuf>> = ValueType {
+    read: |value, reader| match reader.text(value)? {
+        "" => Some(None),
+        text => reader.path(text, value).map(Some),
+    },
+    show: |directory| Some(quoted(directory.as_ref().map_or("", |directory| directory.as_str()))),
+    schema: || json!({ "type": "string" }),
+};
+
+/// A list of directories.
+pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
+    read: |value, reader| {
+        let names = texts(value, reader)?;
+        Some(names.into_iter().filter_map(|(name, value)| reader.path(name, value)).collect())
+    },
+    show: |directories| Some(list(directories.iter().map(|directory| directory.as_str()))),
+    schema: || json!({ "type": "array", "items": { "type": "string" } }),
+};
+
+/// An absolute directory.
+pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
+    read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
+        path if path.is_absolute() => Some(path),
+        _ => reader.expected(Value::Prose(&messages::ABSOLUTE), value),
+    },
+    show: |path| Some(quoted(path.as_str())),
+    schema: || json!({ "type": "string" }),
+};
+
+/// A list of absolute directories.
+pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
+    read: |value, reader| {
+        let names = texts(value, reader)?;
+        if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
+            Some(names.into_iter().map(|(name, _)| name.into()).collect())
+        } else {
+            reader.expected(Value::Prose(&messages::ABSOLUTES), value)
+        }
+    },
+    ..DIRECTORIES
+};
+
+/// One of the texts of a choice.
+pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
+    ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
+}
+
+pub(in crate::config) fn read_choice<T: Choice>(
+    value: &Spanned<DeValue<'_>>,
+    reader: &mut TomlReader<'_>,
+) -> Option<T> {
+    let text = reader.text(value)?;
+    let choice = T::ALL.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
+    if choice.is_none() {
+        let names = || T::ALL.iter().map(|(name, _)| *name);
+        let fault = match nearest(text, names()) {
+            Some(near) => reader.fault(&messages::NEAR_CHOICE, value.span()).quoting("near", near),
+            None => reader
+                .fault(&messages::INVALID_CHOICE, value.span())
+                .with("choices", names().collect::<Value>()),
+        };
+        reader.report(fault.quoting("found", quoted(text)));
+    }
+    choice
+}
+
+pub(in crate::config) fn choice_schema<T: Choice>() -> Json {
+    json!({ "enum": T::ALL.iter().map(|(name, _)| *name).collect::<Vec<_>>() })
+}
+
+/// The text of a choice.
+pub(in crate::config) fn name_of<T: Choice>(choice: T) -> Option<&'static str> {
+    T::ALL.iter().find(|(_, value)| *value == choice).map(|(name, _)| *name)
+}
+
+/// The strings in a list, with their values; reports a value of another type.
+pub(in crate::config) fn texts<'v, 't>(
+    value: &'v Spanned<DeValue<'t>>,
+    reader: &mut TomlReader<'_>,
+) -> Option<Vec<(&'v str, &'v Spanned<DeValue<'t>>)>> {
+    let items = value
+        .get_ref()
+        .as_array()
+        .map(|array| array.iter().map(|item| item.get_ref().as_str().map(|text| (text, item))));
+    match items.and_then(Iterator::collect::<Option<Vec<_>>>) {
+        Some(texts) => Some(texts),
+        None => reader.expected(Value::Prose(&messages::LIST_OF_TEXTS), value),
+    }
+}
+
+/// Whether a string can be written in single quotes, where nothing is escaped.
+pub(in crate::config) fn is_literal(text: &str) -> bool {
+    !text.contains('\'') && !text.contains("##") && !text.contains(shown::acts)
+}
+
+/// Formats a string as TOML, in single quotes if that avoids escapes. Otherwise uses JSON escapes, which are valid in TOML, except those of
+/// characters beyond U+FFFF.
+pub(in crate::config) fn quoted(text: &str) -> String {
+    if text.contains(['\\', '"']) && is_literal(text) {
+        return format!("'{text}'");
+    }
+    let mut quoted = String::with_capacity(text.len() + 2);
+    for character in json!(text).to_string().chars() {
+        if character > '\u{ffff}' && shown::acts(character) {
+            _ = write!(quoted, "\\U{:08x}", u32::from(character));
+        } else {
+            quoted.push(character);
+        }
+    }
+    shown::json(&quoted).into_owned()
+}
+
+/// Formats strings as a TOML list.
+pub(in crate::config) fn list<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
+    format!("[{}]", texts.into_iter().map(quoted).collect::<Vec<_>>().join(", "))
+}
+
+/// A regular expression.
+pub(in crate::config) const REGEX: ValueType<Box<str>> = ValueType {
+    read: |value, reader| {
+        let text = reader.text(value)?;
+        check_regex(text, value.span(), reader).then(|| text.into())
+    },
+    show: |text| Some(literal(text)),
+    schema: || json!({ "type": "string", "format": "regex" }),
+};
+
+/// An optional regular expression.
+pub(in crate::config) const OPTIONAL_REGEX: ValueType<Option<Box<str>>> = ValueType {
+    read: |value, reader| (REGEX.read)(value, reader).map(Some),
+    show: |text| text.as_deref().map(literal),
+    schema: REGEX.schema,
+};
+
+/// A list of rules of the form PARENT:CHILD.
+pub(in crate::config) const RESTRICTIONS: ValueType<Vec<Restriction>> = ValueType {
+    read: |value, reader| {
+        let rules =
+            texts(value, reader)?.into_iter().map(|(text, item)| restriction(text, item.span(), reader));
+        all(rules)
+    },
+    show: |rules| {
+        let texts: Vec<_> =
+            rules.iter().map(|rule| literal(&format!("{}:{}", rule.parent, rule.child))).collect();
+        Some(format!("[{}]", texts.join(", ")))
+    },
+    schema: || json!({ "type": "array", "items": { "type": "string", "pattern": ":" } }),
+};
+
+/// A list of globs.
+pub(in crate::config) const PATTERNS: ValueType<Vec<Pattern>> = ValueType {
+    read: |value, reader| {
+        let patterns =
+            texts(value, reader)?.into_iter().map(|(text, item)| pattern(text, item.span(), reader));
+        all(patterns)
+    },
+    show: |patterns| Some(list(patterns.iter().map(Pattern::text))),
+    schema: || json!({ "type": "array", "items": { "type": "string" } }),
+};
+
+/// A short description of the error in a regular expression, if there is one.
+pub(in crate::config) fn regex_fault(text: &str) -> Option<Value> {
+    let error = RegexBuilder::new(text).size_limit(REGEX_SIZE).build().err()?;
+    Some(regex_reason(&error))
+}
+
+/// Splits a rule into PARENT and CHILD at the first colon.
+pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
+    let (parent, child) = text.split_once(':')?;
+    Some(Restriction { parent: parent.into(), child: child.into() })
+}
+
+/// Upper bound on the size of a compiled regular expression in bytes. Patterns for names need far less.
+const REGEX_SIZE: usize = 1 << 19;
+
+fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
+    if !reader.counts(LimitedKind::Regex, span.clone()) {
+        return false;
+    }
+    let Some(reason) = regex_fault(text) else { return true };
+    let fault = reader.fault(&messages::BROKEN_REGEX, span).with("reason", reason);
+    reader.report(fault);
+    false
+}
+
+fn restriction(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Restriction> {
+    let Some(rule) = split_restriction(text) else {
+        let fault = reader.fault(&messages::RESTRICT_WITHOUT_COLON, span);
+        reader.report(fault);
+        return None;
+    };
+    let parent = check_regex(&rule.parent, span.clone(), reader);
+    let child = check_regex(&rule.child, span, reader);
+    (parent && child).then_some(rule)
+}
+
+fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Pattern> {
+    if !reader.counts(LimitedKind::Glob, span.clone()) {
+        return None;
+    }
+    match Pattern::new(text) {
+        Ok(pattern) => Some(pattern),
+        Err(reason) => {
+            let fault = reader.fault(&messages::BROKEN_GLOB, span).with("reason", reason);
+            reader.report(fault);
+            None
+        }
+    }
+}
+
+/// Collects all items, or returns `None` if one is missing. Evaluates every item first, since each may report errors.
+fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let items: Vec<Option<T>> = items.collect();
+    items.into_iter().collect()
+}
+
+/// Quotes a pattern without escapes if possible, for readability.
+fn literal(text: &str) -> String {
+    if is_literal(text) { format!("'{text}'") } else { quoted(text) }
+}
+
+/// Type of a value: how to read it from TOML, to format it as TOML, and to describe it in the JSON schema.
+pub(super) struct ValueType<T> {
+    /// Reads a value, or reports why it is invalid.
+    pub(super) read: fn(&Spanned<DeValue<'_>>, &mut TomlReader<'_>) -> Option<T>,
+    /// Formats the value as TOML; `None` if there is nothing to show.
+    pub(super) show: fn(&T) -> Option<String>,
+    /// The type's JSON schema.
+    pub(super) schema: fn() -> Json,
+}
+
+/// Facts about a key that do not depend on its type.
+pub(super) struct Key {
+    /// Name within its table.
+    pub(super) name: &'static str,
+    /// Description, in one or more lines.
+    pub(super) meaning: &'static [&'static str],
+    /// A value as TOML: the default, or an example if there is no default.
+    pub(super) example: &'static str,
+    /// JSON schema of its value.
+    pub(super) schema: fn() -> Json,
+}
