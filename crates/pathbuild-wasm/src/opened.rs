@@ -14,10 +14,10 @@ use pathbuild_path::PathName;
 use pathbuild_post::BUILT_IN;
 use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, FileOwners, TargetPatterns};
+use pathbuild_workspace::emit::{self, FileOwners, SceneReport, ShownText, TargetPatterns};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{SceneReport, Session, ShownText};
+use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 

@@ -8,8 +8,9 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::PathName;
 use pathbuild_view::{Group, Picture, ScenePath, Totals, changes_svg, compare, groups};
 
+use crate::emit::ShownText;
 use crate::inputs::Inputs;
-use crate::session::{Session, ShownText, by_name};
+use crate::session::{Session, by_name};
 
 /// One side of the comparison: drawings below a directory.
 #[derive(Debug)]

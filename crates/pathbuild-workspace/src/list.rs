@@ -11,11 +11,9 @@ use pathbuild_gcode::summary::{Extent, cutting_box};
 use pathbuild_path::{PathName, PathSignature};
 use serde_json::{Value as Json, json};
 
-use crate::check::cached_results;
 use crate::config::types::Pattern;
 use crate::findings::Findings;
 use crate::inputs::Input;
-use crate::memo::{self, DrawingResult};
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, Session};
 use crate::workspace::Workspace;
@@ -97,46 +95,6 @@ pub enum ProgramState {
     /// It exists, but no program can be generated to compare it with; the path has an error.
     Unknown,
 }
-
-impl Session<'_> {
-    /// Names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
-    pub fn names_of_library(&self) -> Vec<PathName> {
-        let paths = self.paths_of_library(MOST_UNKNOWN);
-        let mut names: Vec<PathName> = paths.into_iter().map(|(name, _)| name).collect();
-        names.dedup();
-        names
-    }
-
-    /// The same with the drawings that define them. A drawing that the last `check` of the library knows is not read again. Of the others
-    /// only the first `most_unknown` are read, and the rest are left out.
-    pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
-        let (files, _) = self.all_drawings();
-        let memo = cached_results(self.workspace()).unwrap_or_default();
-        let read = |open: &[&SourceFile]| {
-            let open: Vec<SourceFile> = open.iter().take(most_unknown).map(|file| **file).collect();
-            self.parse_ahead(&open);
-            let read = |file: SourceFile| {
-                let names = path_names(self.db(), file).to_vec();
-                (DrawingResult { names, diagnostics: Vec::new() }, memo::Inputs::default())
-            };
-            open.into_iter().map(read).collect()
-        };
-        let path = |file: &SourceFile| file.path(self.db()).as_str().into();
-        let drawings = memo.get_or(&files, path, |_, result| Some(result), read);
-        let paths = drawings.into_iter().flat_map(|answer| {
-            let file = self.file(answer.drawing());
-            answer.value.names.into_iter().map(move |name| (name, file))
-        });
-        let mut paths: Vec<(PathName, SourceFile)> = paths.collect();
-        paths.sort_by(|(a, one), (b, other)| {
-            a.cmp(b).then_with(|| one.path(self.db()).cmp(other.path(self.db())))
-        });
-        paths
-    }
-}
-
-/// Upper bound on the number of drawings that are read just for the names of their paths; takes half a second.
-pub(crate) const MOST_UNKNOWN: usize = 2000;
 
 impl Request<'_> {
     /// Lists the paths.

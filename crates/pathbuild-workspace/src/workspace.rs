@@ -4,13 +4,13 @@ use std::fmt::Debug;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Home, TreeStore};
 use pathbuild_db::System;
+use pathbuild_db::system::spelt;
 use pathbuild_diagnostic::Lang;
 
 use crate::config::{Origin, Settings};
-use crate::session::relative;
 
 /// The environment of a run: settings, files, languages and directories.
 #[derive(Debug)]
@@ -128,4 +128,16 @@ impl Reporter for SilentReporter {
 
 impl Advance for SilentReporter {
     fn advance(&self) {}
+}
+
+/// Path to a directory relative to another, both absolute. Returns the directory itself if there is no relative path, as between drives.
+pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
+    let (target, start): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
+    let common = target.iter().zip(&start).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return directory.to_owned();
+    }
+    let up = start[common..].iter().map(|_| Utf8Component::ParentDir);
+    let relative: Utf8PathBuf = up.chain(target[common..].iter().copied()).collect();
+    if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(relative) }
 }

@@ -1,15 +1,28 @@
 //! Changed drawings, and which results depend on them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
 use pathbuild_db::system::join;
 
-use super::EarlierFiles;
 use crate::memo::{Answer, Coverage, Dependencies, DrawingResult, Memo};
 use crate::session::Session;
+
+/// The files at an earlier time, such as in a Git revision.
+pub trait EarlierFiles: Debug {
+    /// For each file, whether it has changed since or did not exist. Files about which nothing is known count as changed.
+    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
+
+    /// File names of the drawings that the directory contained.
+    fn drawings(&self, directory: &Utf8Path) -> &[String];
+
+    /// A file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are those that were
+    /// searched.
+    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
+}
 
 /// Selects the results that are shown.
 pub(super) struct ChangeFilter<'a> {

@@ -5,21 +5,22 @@ mod changed;
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Debug;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Db, Role, SourceFile, Trace, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use crate::Inputs;
 use crate::config::ResultKind;
-use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings, subject};
+use crate::memo::{Answer, DrawingResult, Memo, check_query, find, read_drawings, subject};
 use crate::session::timings::{FINDING, KEEPING, VERIFYING};
 use crate::session::{
-    ArgumentMatches, Checker, Pair, SelectedPath, Selection, Session, by_place, q_project_pairs, relative,
+    ArgumentMatches, Checker, Pair, SelectedPath, Selection, Session, by_place, q_project_pairs,
 };
-use crate::workspace::Workspace;
+use crate::workspace::{Workspace, relative};
 
 use changed::ChangeFilter;
+pub use changed::EarlierFiles;
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -30,19 +31,6 @@ pub struct Request<'a> {
     pub with_all_values: bool,
     /// If set, show only results that depend on drawings changed since that state.
     pub changed: Option<&'a dyn EarlierFiles>,
-}
-
-/// The files at an earlier time, such as in a Git revision.
-pub trait EarlierFiles: Debug {
-    /// For each file, whether it has changed since or did not exist. Files about which nothing is known count as changed.
-    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
-
-    /// File names of the drawings that the directory contained.
-    fn drawings(&self, directory: &Utf8Path) -> &[String];
-
-    /// A file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are those that were
-    /// searched.
-    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
 }
 
 /// The outcome of a check.
@@ -100,7 +88,7 @@ impl Request<'_> {
             session.prefetch(self.inputs, &|_| false);
         }
         let mut matches = session.timings().measure(&FINDING, || session.match_arguments(self.inputs));
-        let query = query(self.with_all_values);
+        let query = check_query(self.with_all_values);
         let open = || Memo::open(session, ResultKind::Check, &query, self.inputs, &mut matches);
         let memo = session.timings().measure(&VERIFYING, open);
         let mut checked = self.check(session, &matches, &memo)?;
@@ -248,16 +236,6 @@ fn compare_q_projects(
     };
     let subject = |[drawing, q_project]: &[&Utf8PathBuf; 2]| format!("{drawing}\0{q_project}").into();
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
-}
-
-/// Results of the last checks, to explain why they no longer hold. `None` if no results are cached.
-pub fn cached_results(workspace: &Workspace) -> Option<Memo> {
-    Memo::of_all(workspace, ResultKind::Check, &query(false))
-}
-
-/// Everything that results depend on besides drawings and settings.
-fn query(with_all_values: bool) -> String {
-    format!("check {with_all_values}")
 }
 
 /// Leaks instead of dropping: freeing a million values takes longer than process exit.

@@ -4,15 +4,12 @@ use std::collections::BTreeMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
-use pathbuild_diagnostic::Lang;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, TextFault, Value};
 
 use super::kinds::number_from_text;
 use super::kinds::{regex_fault, split_restriction};
-use super::sections::general;
-use super::settings::Options;
-use super::settings::SourcedValue;
+use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 
 /// A command-line option that overrides the key of its name. (book: reference/commands)
@@ -47,6 +44,12 @@ pub enum OptionValues {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GivenOptions(BTreeMap<&'static str, Vec<String>>);
 
+impl GivenOptions {
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+}
+
 impl FromIterator<(&'static str, Vec<String>)> for GivenOptions {
     fn from_iter<I: IntoIterator<Item = (&'static str, Vec<String>)>>(options: I) -> Self {
         Self(options.into_iter().collect())
@@ -66,17 +69,6 @@ pub struct Overrides {
     pub untrusted: bool,
     /// Directories below which trees are trusted; `None` means that all trees are.
     pub trusted: Option<Vec<Utf8PathBuf>>,
-}
-
-/// Validates the values from the command line.
-pub(super) fn read(overrides: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
-    let options = &overrides.settings;
-    let mut reader = OptionReader { given: options, working_directory, diagnostics: Vec::new() };
-    let mut general = general::Options::given(&mut reader);
-    // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
-    let comments = overrides.lang.filter(|_| options.0.contains_key("compatible"));
-    general.comment_lang = comments.map(|lang| SourcedValue::option("lang", lang));
-    (Options { general, ..Options::default() }, reader.diagnostics)
 }
 
 /// Parses the value of an option that must be a number greater than 0, with decimal point or comma.
@@ -133,10 +125,14 @@ fn fault(message: &'static Message, name: &str, text: &str) -> Diagnostic {
 pub(super) struct OptionReader<'a> {
     given: &'a GivenOptions,
     working_directory: &'a Utf8Path,
-    diagnostics: Vec<Diagnostic>,
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl<'a> OptionReader<'a> {
+    pub(super) fn new(given: &'a GivenOptions, working_directory: &'a Utf8Path) -> Self {
+        Self { given, working_directory, diagnostics: Vec::new() }
+    }
+
     /// Returns the value of an option if it is given and valid.
     pub(super) fn take<T>(
         &mut self,

@@ -5,17 +5,9 @@ use std::fmt::Write;
 use pathbuild_diagnostic::shown;
 use serde_json::{Map, Value as Json, json};
 
-use super::kinds::Key;
+use super::origin::{Key, ShownSetting};
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
-use super::settings::Origin;
 use super::settings::Settings;
-
-/// A key with its value as TOML, and its source.
-pub(super) struct ShownSetting {
-    pub(super) name: &'static str,
-    pub(super) value: Option<String>,
-    pub(super) origin: Origin,
-}
 
 /// Formats the settings as TOML, on request with their sources as comments.
 pub fn show(settings: &Settings, with_origin: bool) -> String {

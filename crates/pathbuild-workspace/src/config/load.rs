@@ -9,11 +9,14 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Value};
 use toml::de::DeTable;
 
-use super::arguments::{self, Overrides};
+use super::arguments::{OptionReader, Overrides};
 use super::clean;
+use super::describe::schema;
 use super::kinds::{ABSOLUTE, ABSOLUTES, choice};
+use super::origin::SourcedValue;
 use super::reader::Source;
 use super::reader::TomlReader;
+use super::sections::general;
 use super::settings::Options;
 use super::settings::Settings;
 use super::types::Directories;
@@ -30,7 +33,7 @@ pub fn load(
     working_directory: &Utf8Path,
 ) -> (Settings, Vec<Diagnostic>) {
     let discovery = Discovery { system: &**system, inputs, working_directory };
-    let (options, mut diagnostics) = arguments::read(given, working_directory);
+    let (options, mut diagnostics) = read_overrides(given, working_directory);
     let file = match &given.config {
         Some(file) => Some(clean(&working_directory.join(file))),
         None => discovery.for_run(),
@@ -97,7 +100,10 @@ fn read(
 
 /// Parses a configuration. A syntax error yields diagnostics only, since tables may be incomplete.
 fn parse(file: &Utf8Path, text: &str, confined: Option<&ConfinedSystem>) -> (Options, Vec<Diagnostic>) {
-    read_table(file, text, confined, Options::read)
+    read_table(file, text, confined, |root, reader| {
+        reader.suggest_tables(schema);
+        Options::read(root, reader)
+    })
 }
 
 /// Parses the text of a configuration file.
@@ -270,4 +276,15 @@ impl User {
             trusted: table.section("trust", |trust| trust.take("roots", &ABSOLUTES)).map(|value| value.value),
         })
     }
+}
+
+/// Validates the values from the command line.
+fn read_overrides(overrides: &Overrides, working_directory: &Utf8Path) -> (Options, Vec<Diagnostic>) {
+    let options = &overrides.settings;
+    let mut reader = OptionReader::new(options, working_directory);
+    let mut general = general::Options::given(&mut reader);
+    // PathDxf2GCode has a single option for messages and comments. Without `--compatible`, `--lang` does not change programs.
+    let comments = overrides.lang.filter(|_| options.has("compatible"));
+    general.comment_lang = comments.map(|lang| SourcedValue::option("lang", lang));
+    (Options { general, ..Options::default() }, reader.diagnostics)
 }

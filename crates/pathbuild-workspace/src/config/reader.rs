@@ -1,7 +1,7 @@
 //! Reads the values of a TOML file, each with its place, and says where a misplaced or misspelled key belongs.
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
+use std::cell::LazyCell;
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -12,9 +12,7 @@ use serde_json::{Map, Value as Json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::describe::schema;
-use super::kinds::ValueType;
-use super::settings::{Origin, SourcedValue};
+use super::origin::{Origin, SourcedValue};
 
 /// Reads values from a parsed TOML file and collects all diagnostics.
 pub(super) struct TomlReader<'a> {
@@ -23,12 +21,15 @@ pub(super) struct TomlReader<'a> {
     /// Directories that an untrusted configuration may refer to.
     confined: Option<&'a ConfinedSystem>,
     /// Knows which table a misplaced key belongs to; `None` for files other than `pathbuild.toml`.
-    key_index: Option<OnceCell<KeyIndex>>,
+    key_index: Option<LazyKeyIndex>,
     key: String,
     diagnostics: Vec<Diagnostic>,
     /// Number of regular expressions and globs read so far.
     counts: [u64; 2],
 }
+
+/// The index of keys, which is built when the first misplaced key is found.
+type LazyKeyIndex = LazyCell<KeyIndex, Box<dyn FnOnce() -> KeyIndex>>;
 
 /// A kind of value whose number is limited because each takes far more memory than its text.
 #[derive(Clone, Copy, Debug)]
@@ -66,13 +67,13 @@ impl<'a> TomlReader<'a> {
         }
     }
 
-    /// From here on, reports which table of a `pathbuild.toml` a misplaced key belongs to.
-    pub(super) fn suggest_tables(&mut self) {
-        self.key_index = Some(OnceCell::new());
+    /// From here on, reports which table of a `pathbuild.toml` of this schema a misplaced key belongs to.
+    pub(super) fn suggest_tables(&mut self, schema: fn() -> Json) {
+        self.key_index = Some(LazyCell::new(Box::new(move || KeyIndex::new(&schema()))));
     }
 
     fn home(&self, name: &str) -> Option<KeyPlace<'_>> {
-        self.key_index.as_ref()?.get_or_init(KeyIndex::new).find(name)
+        self.key_index.as_ref()?.find(name)
     }
 
     /// Reads a table. Keys that `read` does not take are reported.
@@ -313,10 +314,9 @@ pub(super) struct KeyPlace<'a> {
 }
 
 impl KeyIndex {
-    pub(super) fn new() -> Self {
-        let schema = schema();
+    pub(super) fn new(schema: &Json) -> Self {
         let none = Map::new();
-        let root = properties(&schema).unwrap_or(&none);
+        let root = properties(schema).unwrap_or(&none);
         let mut tables = vec![KeyTable::new(None, root)];
         for (name, value) in root {
             let headers = [
@@ -448,13 +448,23 @@ fn beginnings(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| byte.cast_signed() >= -0x40).count()
 }
 
+/// Type of a value: how to read it from TOML, to format it as TOML, and to describe it in the JSON schema.
+pub(super) struct ValueType<T> {
+    /// Reads a value, or reports why it is invalid.
+    pub(super) read: fn(&Spanned<DeValue<'_>>, &mut TomlReader<'_>) -> Option<T>,
+    /// Formats the value as TOML; `None` if there is nothing to show.
+    pub(super) show: fn(&T) -> Option<String>,
+    /// The type's JSON schema.
+    pub(super) schema: fn() -> Json,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_table_has_its_keys() {
-        let key_index = KeyIndex::new();
+        let key_index = KeyIndex::new(&super::super::describe::schema());
         for (key, header) in [
             ("library", None),
             ("travel", Some("[machine]")),
@@ -469,7 +479,7 @@ mod tests {
 
     #[test]
     fn nearly_right_names_of_five_letters_are_found() {
-        let key_index = KeyIndex::new();
+        let key_index = KeyIndex::new(&super::super::describe::schema());
         let near = KeyPlace { header: Some("[machine]"), key: "rates", is_exact: false };
         assert_eq!(key_index.find("ratse"), Some(near));
         assert_eq!(key_index.find("rate"), None);

@@ -1,12 +1,13 @@
 //! The settings of a run, each with its source, and which cached results depend on them.
 
-use std::fmt::{self, Debug};
+use std::fmt::Debug;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::ConfinedSystem;
 use pathbuild_diagnostic::Lang;
 use toml::de::DeTable;
 
+use super::origin::{Origin, ResultKind};
 use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
 use super::types::{Severities, ZModel};
@@ -94,7 +95,6 @@ pub struct Options {
 impl Options {
     /// Reads a parsed configuration. Diagnostics stay in the reader.
     pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
-        reader.suggest_tables();
         reader.table(root, "", |table| {
             let options = Self {
                 general: general::Options::read(table),
@@ -138,66 +138,6 @@ impl Options {
             watch: self.watch.resolve(),
             tables: self.tables.resolve(),
         }
-    }
-}
-
-/// Source of a setting's value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// The built-in default: nothing sets the value.
-    Default,
-    /// A line of the configuration, counted from 1.
-    File(u32),
-    /// The command-line option of this name, without hyphens.
-    CommandLine(&'static str),
-}
-
-/// A value with its source.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SourcedValue<T> {
-    /// The value.
-    pub value: T,
-    /// What set the value.
-    pub origin: Origin,
-}
-
-impl<T> SourcedValue<T> {
-    /// A default value.
-    pub fn default(value: T) -> Self {
-        Self { value, origin: Origin::Default }
-    }
-
-    /// The value of a command-line option.
-    pub fn option(name: &'static str, value: T) -> Self {
-        Self { value, origin: Origin::CommandLine(name) }
-    }
-}
-
-impl fmt::Display for Origin {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Default => f.write_str("default"),
-            Self::File(line) => write!(f, "line {line}"),
-            Self::CommandLine(name) => write!(f, "--{name}"),
-        }
-    }
-}
-
-/// The cached results that depend on a setting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum ResultKind {
-    /// Results of `check`, and hence those of `emit`.
-    Check,
-    /// Results of `emit` only.
-    Emit,
-    /// No results: the setting changes only what is requested or how it is reported.
-    Neither,
-}
-
-impl ResultKind {
-    /// Whether the cached results of the command `result_kind` depend on this setting.
-    pub(in crate::config) fn is_part_of(self, result_kind: Self) -> bool {
-        self != Self::Neither && self <= result_kind
     }
 }
 

@@ -1,5 +1,6 @@
 //! Tables with user-defined keys.
 
+use camino::Utf8Path;
 use std::sync::LazyLock;
 
 use pathbuild_diagnostic::messages::configuration as messages;
@@ -11,10 +12,8 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::kinds::{COUNT, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
-use crate::config::kinds::ValueType;
-use crate::config::reader::{Table, TomlReader};
+use crate::config::reader::{Table, TomlReader, ValueType};
 use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
-use crate::posting::is_file_name;
 
 /// Aliases of line types.
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
@@ -294,4 +293,9 @@ fn key(name: &str) -> String {
 fn code_schema() -> Json {
     let codes = Code::ALL.iter().flat_map(|code| [code.to_string(), code.name().to_owned()]);
     json!({ "enum": codes.collect::<Vec<_>>() })
+}
+
+/// Whether the name of a post is a file name: it has an extension or a directory.
+pub(crate) fn is_file_name(name: &str) -> bool {
+    name.contains(std::path::is_separator) || Utf8Path::new(name).extension().is_some()
 }

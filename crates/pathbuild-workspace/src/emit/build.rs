@@ -1,9 +1,5 @@
 //! Builds the files of one program, natively or through a post-processor. Runs on worker threads.
 
-use std::borrow::Borrow;
-use std::fmt::Debug;
-use std::ops::Add;
-use std::slice;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -11,49 +7,18 @@ use pathbuild_db::{Database, program};
 use pathbuild_diagnostic::limits::{exceeded, moves_cut};
 use pathbuild_diagnostic::messages::{files, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity};
-use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::{self, probe_name};
-use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::read::LONGEST_LINE;
-use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Correction, Outside, Program, Step, Total, memory};
+use pathbuild_toolpath::{Correction, Outside, Program, Step, memory};
 
+use super::options::{OutputSettings, total};
 use super::outcome::ProgramOutcome;
-use super::plan::{Job, JobBuilder};
-use super::sheet::SheetSettings;
-use super::{options, sheet};
-use crate::config::Settings;
-use crate::config::types::SheetFormat;
-use crate::machine::machine;
-use crate::posting::{PostProcessor, tool_table};
-use crate::session::{CheckedTarget, OutputKind, Session, WriteSettings};
-use crate::workspace::Workspace;
-
-/// How programs are written: natively or through a post-processor.
-pub(super) struct OutputSettings<'a> {
-    pub(super) writing: WriteSettings,
-    pub(super) post_processor: Option<&'a PostProcessor>,
-    pub(super) provenances: Provenances,
-    pub(super) sheets: SheetSettings,
-    machine: Option<Machine>,
-}
-
-impl<'a> OutputSettings<'a> {
-    /// Takes the settings from the configuration.
-    pub(super) fn new(workspace: &Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
-        let provenances = Provenances::new(&workspace.settings, post_processor);
-        let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), post_processor);
-        Self {
-            writing: options::writing(workspace),
-            post_processor,
-            provenances,
-            sheets,
-            machine: machine(workspace),
-        }
-    }
-}
+use super::plan::Job;
+use super::sheet;
+use crate::posting::PostProcessor;
+use crate::session::{OutputKind, WriteSettings};
 
 /// A program with its generated files, which are empty if any of them cannot be written.
 #[derive(Default)]
@@ -89,11 +54,6 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
         Vec::new()
     });
     Built { outcome: delivered, outputs }
-}
-
-/// Sum of the programs' lengths and times; `rapid` is the feed of rapid moves in mm/min.
-pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
-    programs.iter().map(|program| statistics(program, rapid).sum()).fold(Total::default(), Add::add)
 }
 
 /// PB005: the output file is too large. Files on disk are not read beyond this limit either.
@@ -270,69 +230,4 @@ fn posted(
 /// Adds the path to a diagnostic of the post-processor.
 fn in_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
-}
-
-/// The part of the provenance that all programs of a run share.
-#[derive(Clone, Debug)]
-pub struct Provenances {
-    /// All options besides the moves that influence a program's text.
-    options: Vec<u8>,
-    dialect: Option<Dialect>,
-}
-
-impl Provenances {
-    /// Provenance of programs written with these settings, natively or through a post-processor.
-    pub fn new(settings: &Settings, post_processor: Option<&PostProcessor>) -> Self {
-        let general = &settings.general;
-        let mut options = Vec::new();
-        let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
-        add(&(general.rapid.value, general.compatible.value));
-        add(&(general.z_model.value, settings.z_split()));
-        add(&(settings.comment_lang(), general.charset.value));
-        options.extend(post_processor.map(PostProcessor::identity).unwrap_or_default());
-        let dialect = match post_processor {
-            None => Some(Dialect::Native),
-            Some(post_processor) => post_processor.reader(),
-        };
-        Self { options, dialect }
-    }
-
-    /// Provenance of the programs in one file.
-    pub fn of<P: Borrow<Program>>(&self, programs: &[P]) -> Provenance {
-        Provenance::of_programs(programs, &self.options, self.dialect)
-    }
-}
-
-/// A program file in memory.
-pub(crate) struct ProgramText {
-    /// Path that `emit` would write it to.
-    pub(crate) file: Utf8PathBuf,
-    pub(crate) bytes: Vec<u8>,
-    /// Dialect to read it in.
-    pub(crate) dialect: Dialect,
-}
-
-/// Generates the program of a checked path; `None` if the path has errors.
-///
-/// # Errors
-/// Why `emit` would refuse to write it.
-pub(crate) fn program_text(
-    session: &Session<'_>,
-    post_processor: Option<&PostProcessor>,
-    checked: &CheckedTarget,
-) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
-    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let Some(job) = builder.job(slice::from_ref(checked))? else { return Ok(None) };
-    let settings = OutputSettings::new(session.workspace(), post_processor);
-    let work = |db: &Database, job: &Job| build(db, job, &settings);
-    let files =
-        session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(Built::default()));
-    let files = files.map_err(|problem| vec![*problem])?;
-    // Without a known dialect, read the text as generic RS274, as when it is read back.
-    let dialect = post_processor
-        .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
-    match files.outputs.into_iter().find(|output| output.kind.is_program()) {
-        Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),
-        None => Err(files.outcome.problems),
-    }
 }

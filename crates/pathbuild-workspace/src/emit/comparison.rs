@@ -13,10 +13,8 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::PathName;
 use pathbuild_toolpath::Program;
 
-use super::Request;
-use super::build::Provenances;
-use super::options::writing;
-use super::outcome::{State, Task};
+use super::options::{Provenances, writing};
+use super::outcome::{Request, State, Task};
 use super::plan::Job;
 use crate::session::{OutputKind, SelectedPath, Session};
 use crate::workspace::Workspace;

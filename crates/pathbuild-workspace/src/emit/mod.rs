@@ -11,16 +11,16 @@ mod plan;
 mod select;
 mod settle;
 mod sheet;
+mod shown;
 mod stale;
 
 use std::collections::HashMap;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use pathbuild_db::Target;
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Diagnostic;
 
-use crate::Inputs;
 use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, ExtraInput, Memo, is_transient};
@@ -28,47 +28,17 @@ use crate::posting::PostProcessor;
 use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
-pub use build::Provenances;
-pub(crate) use build::program_text;
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
-pub use options::{missing_values, writing};
-pub use outcome::{ProgramOutcome, State, Task};
+pub use options::{Provenances, missing_values, writing};
+pub use outcome::{Emission, ProgramOutcome, Request, State, Task};
+pub use plan::FileOwners;
 use plan::{Job, JobBuilder, Plan, mark_clashes, plan};
 pub use select::TargetPatterns;
 use select::TargetSelection;
 use settle::deliver;
-pub use sheet::{SheetOutcome, sheet_bytes, sheet_of};
+pub use sheet::sheet_bytes;
+pub use shown::{SceneReport, SheetOutcome, ShownText, sheet_of};
 use stale::StaleOutcome;
-
-/// A request to emit programs.
-#[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
-    /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
-    pub inputs: &'a Inputs,
-    /// What to do with the generated files.
-    pub task: Task,
-    /// The post-processor to write programs through; `None` writes native programs.
-    pub post_processor: Option<&'a PostProcessor>,
-    /// Joins all paths, in the order of the inputs, into one program of this name.
-    pub join: Option<&'a str>,
-    /// Dependency file to write for `make` and `ninja`.
-    pub deps: Option<&'a Utf8Path>,
-    /// Whether to remove stale programs.
-    pub removes_stale: bool,
-}
-
-/// The outcome of `emit`.
-#[derive(Debug)]
-pub struct Emission {
-    /// The outcome of each program, in the order of the targets.
-    pub delivered: Vec<ProgramOutcome>,
-    /// Stale programs that were removed.
-    pub removed: Vec<Utf8PathBuf>,
-    /// Adjusted programs that no longer match their path's program.
-    pub outdated: Vec<Utf8PathBuf>,
-    /// All diagnostics, unsorted, with duplicates.
-    pub diagnostics: Vec<Diagnostic>,
-}
 
 impl Request<'_> {
     /// Opens a session that suits this request.
@@ -250,9 +220,6 @@ fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
     let is_current = |(_, state): &(_, State)| matches!(state, State::Current);
     Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
 }
-
-/// The target that each file was written for. File names are in lower case.
-pub type FileOwners = HashMap<String, Target>;
 
 /// Writes the programs of these targets in a long-lived session and returns what is wrong with the programs themselves; drawing errors are
 /// reported by `check`.

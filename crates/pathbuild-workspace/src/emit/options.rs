@@ -1,12 +1,24 @@
-//! Options that programs need.
+//! What programs depend on besides their paths: options that they need, and settings for writing them.
+
+use std::borrow::Borrow;
+use std::fmt::Debug;
+use std::ops::Add;
+use std::sync::Arc;
 
 use pathbuild_db::MissingOption;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::{Charset, WriteOptions};
-use pathbuild_toolpath::{Correction, ZModel};
+use pathbuild_gcode::provenance::Provenance;
+use pathbuild_gcode::statistics::statistics;
+use pathbuild_gcode::verify::Machine;
+use pathbuild_post::ToolTable;
+use pathbuild_toolpath::{Correction, Program, Total, ZModel};
 
 use super::outcome::Task;
-use crate::config::types;
+use crate::config::{Settings, types};
+use crate::machine::machine;
+use crate::posting::{PostProcessor, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
 
@@ -97,4 +109,74 @@ fn correction(context: &Workspace) -> Correction {
         types::ZModel::Tin => ZModel::Tin,
     };
     Correction { model, longest: context.settings.z_split() }
+}
+
+/// How programs are written: natively or through a post-processor.
+pub(super) struct OutputSettings<'a> {
+    pub(super) writing: WriteSettings,
+    pub(super) post_processor: Option<&'a PostProcessor>,
+    pub(super) provenances: Provenances,
+    pub(super) sheets: SheetSettings,
+    pub(super) machine: Option<Machine>,
+}
+
+impl<'a> OutputSettings<'a> {
+    /// Takes the settings from the configuration.
+    pub(super) fn new(workspace: &Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
+        let provenances = Provenances::new(&workspace.settings, post_processor);
+        let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), post_processor);
+        Self { writing: writing(workspace), post_processor, provenances, sheets, machine: machine(workspace) }
+    }
+}
+
+/// Settings shared by all sheets of a run.
+#[derive(Debug)]
+pub(super) struct SheetSettings {
+    pub(super) lang: Lang,
+    pub(super) tools: ToolTable,
+    pub(super) starts_spindle: bool,
+}
+
+impl SheetSettings {
+    /// Takes the settings from the configuration, for programs written natively or through a post-processor.
+    pub(super) fn new(settings: &Settings, tools: ToolTable, post_processor: Option<&PostProcessor>) -> Self {
+        let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
+        Self { lang: settings.comment_lang(), tools, starts_spindle }
+    }
+}
+
+/// Sum of the programs' lengths and times; `rapid` is the feed of rapid moves in mm/min.
+pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
+    programs.iter().map(|program| statistics(program, rapid).sum()).fold(Total::default(), Add::add)
+}
+
+/// The part of the provenance that all programs of a run share.
+#[derive(Clone, Debug)]
+pub struct Provenances {
+    /// All options besides the moves that influence a program's text.
+    options: Vec<u8>,
+    dialect: Option<Dialect>,
+}
+
+impl Provenances {
+    /// Provenance of programs written with these settings, natively or through a post-processor.
+    pub fn new(settings: &Settings, post_processor: Option<&PostProcessor>) -> Self {
+        let general = &settings.general;
+        let mut options = Vec::new();
+        let mut add = |value: &dyn Debug| options.extend(format!("{value:?}\n").into_bytes());
+        add(&(general.rapid.value, general.compatible.value));
+        add(&(general.z_model.value, settings.z_split()));
+        add(&(settings.comment_lang(), general.charset.value));
+        options.extend(post_processor.map(PostProcessor::identity).unwrap_or_default());
+        let dialect = match post_processor {
+            None => Some(Dialect::Native),
+            Some(post_processor) => post_processor.reader(),
+        };
+        Self { options, dialect }
+    }
+
+    /// Provenance of the programs in one file.
+    pub fn of<P: Borrow<Program>>(&self, programs: &[P]) -> Provenance {
+        Provenance::of_programs(programs, &self.options, self.dialect)
+    }
 }

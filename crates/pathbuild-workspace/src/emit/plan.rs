@@ -1,6 +1,6 @@
 //! Plans programs: which files the paths become. (book: reference/commands, `emit`)
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -11,13 +11,15 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::native;
 use serde::{Deserialize, Serialize};
 
-use super::outcome::{ProgramOutcome, Task, cannot_write};
-use super::settle::is_of_other_version;
-use super::{FileOwners, Request, options};
+use super::options;
+use super::outcome::{ProgramOutcome, Request, Task, cannot_write, is_of_other_version};
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Inputs, Memo, OutputState};
 use crate::posting::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
+
+/// The target that each file was written for. File names are in lower case.
+pub type FileOwners = HashMap<String, Target>;
 
 /// What becomes of the paths of one program.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -385,7 +387,9 @@ pub(super) fn mark_clashes<'p>(
             let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
             diagnostics.push(same_output(path.file_name(), first, second, drawing));
         }
-        owners.into_iter().for_each(|owner| jobs[owner].clashes = true);
+        for owner in owners {
+            jobs[owner].clashes = true;
+        }
     }
 }
 

@@ -11,11 +11,12 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
-use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION, is_same_program};
+use pathbuild_gcode::provenance::is_same_program;
 use pathbuild_gcode::verify::{self, Ends, Tolerance};
 
-use super::build::{Built, Output, OutputSettings, build};
-use super::outcome::{ProgramOutcome, State, Task, cannot_write};
+use super::build::{Built, Output, build};
+use super::options::OutputSettings;
+use super::outcome::{ProgramOutcome, State, Task, cannot_write, is_of_other_version};
 use super::plan::Job;
 use crate::memo::hash_output;
 use crate::posting::PostProcessor;
@@ -121,12 +122,6 @@ fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     {
         output.text = present;
     }
-}
-
-/// Whether a program on disk was written by another version of pathbuild.
-pub(super) fn is_of_other_version(system: &dyn System, program: &Utf8Path) -> bool {
-    let head = system.head(program, HEAD).unwrap_or_default();
-    Provenance::of_head(&head).is_some_and(|(found, _)| *found.version != *VERSION)
 }
 
 /// Writes files; each comes with the hash of the content that this version generates.

@@ -2,133 +2,21 @@
 
 use std::sync::Arc;
 
-use pathbuild_db::{Database, Role, SourceFile, Target, keep_outs, placed_keep_outs, traced_program};
+use pathbuild_db::{Database, SourceFile, Target, keep_outs, placed_keep_outs, traced_program};
 use pathbuild_diagnostic::{Diagnostic, Lang, Value};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::summary::cutting_box;
 use pathbuild_motion::Turning;
-use pathbuild_path::PathName;
 use pathbuild_post::ToolTable;
 use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, SheetTool};
 
-use super::build::{OutputSettings, build, total};
-use super::options;
-use super::outcome::{Task, cannot_write};
-use super::plan::{Job, JobBuilder, Plan};
-use crate::config;
+use super::options::{OutputSettings, total};
+use super::outcome::cannot_write;
+use super::plan::Job;
 use crate::config::types::SheetFormat;
-use crate::posting::PostProcessor;
-use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, WriteSettings, program_scene};
-
-/// Settings shared by all sheets of a run.
-#[derive(Debug)]
-pub(super) struct SheetSettings {
-    lang: Lang,
-    tools: ToolTable,
-    starts_spindle: bool,
-}
-
-impl SheetSettings {
-    /// Takes the settings from the configuration, for programs written natively or through a post-processor.
-    pub(super) fn new(
-        settings: &config::Settings,
-        tools: ToolTable,
-        post_processor: Option<&PostProcessor>,
-    ) -> Self {
-        let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
-        Self { lang: settings.comment_lang(), tools, starts_spindle }
-    }
-}
-
-/// A sheet with the diagnostics of its path.
-#[derive(Debug)]
-pub struct SheetOutcome {
-    /// `None` if the path has errors.
-    pub sheet: Option<Sheet>,
-    /// All diagnostics of the path.
-    pub diagnostics: Vec<Diagnostic>,
-}
-
-/// Creates the setup sheet of a path, or of a drawing's only path.
-///
-/// # Errors
-/// Why the argument makes no sense, or which options are missing.
-pub fn sheet_of(
-    session: &mut Session<'_>,
-    post_processor: Option<&PostProcessor>,
-    what: &str,
-) -> Result<SheetOutcome, String> {
-    session.with_stable_files(|session| match resolve_target(session, what)? {
-        Ok(target) => of_target(session, post_processor, target),
-        Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics: session.with_hints(diagnostics) }),
-    })
-}
-
-/// Resolves an argument to a path, or returns the diagnostics of its drawing.
-fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
-    let context = session.workspace();
-    match session.one_path(what, Role::Emitted) {
-        Ok(target) => Ok(Ok(target)),
-        Err(NotOnePath::Wrong(diagnostics)) => Ok(Err(diagnostics)),
-        Err(NotOnePath::Several(NamedPaths { names, .. })) => {
-            let names: Vec<&str> = names.iter().map(PathName::as_str).collect();
-            Err(context.phrase(
-                "a setup sheet shows a single path: name one of {}",
-                "ein Einrichteblatt zeigt einen einzelnen Pfad: einen von diesen nennen: {}",
-                &names.join(", "),
-            ))
-        }
-        Err(NotOnePath::Directory) => Err(context
-            .choose(
-                "a setup sheet shows a single path: this is a directory",
-                "ein Einrichteblatt zeigt einen einzelnen Pfad: das ist ein Verzeichnis",
-            )
-            .into()),
-    }
-}
-
-fn of_target(
-    session: &Session<'_>,
-    post_processor: Option<&PostProcessor>,
-    target: Target,
-) -> Result<SheetOutcome, String> {
-    let context = session.workspace();
-    let checked = session.check(&[target]);
-    if let Some(refusal) = options::missing(context, Task::Write { force: false }, &checked) {
-        return Err(refusal);
-    }
-    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let Plan { mut diagnostics, refusals, job } = builder.plan(&checked);
-    diagnostics.extend(refusals);
-    let sheet = job.and_then(|job| of_job(session, &job, post_processor, &mut diagnostics));
-    Ok(SheetOutcome { sheet, diagnostics: session.with_hints(diagnostics) })
-}
-
-/// Sheet of a job; `None` if its program would not be written.
-fn of_job(
-    session: &Session<'_>,
-    job: &Job,
-    post_processor: Option<&PostProcessor>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Sheet> {
-    let settings = OutputSettings::new(session.workspace(), post_processor);
-    let work = |db: &Database, job: &&Job| {
-        let result = build(db, job, &settings);
-        let sheet = if result.outcome.is_refused { Ok(None) } else { sheet(db, job, &settings) };
-        (result.outcome.problems, sheet)
-    };
-    let result = session.map_guarded(&[job], work).pop()?;
-    let sheet = result.and_then(|(problems, sheet)| {
-        diagnostics.extend(problems);
-        sheet
-    });
-    sheet.unwrap_or_else(|problem| {
-        diagnostics.push(problem.in_file(job.drawing(session.db()).path(session.db())));
-        None
-    })
-}
+use crate::session::{OutputKind, WriteSettings, program_scene};
 
 /// Content of a job's sheet; `None` if a drawing changed in the meantime.
 ///
@@ -160,7 +48,11 @@ pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec
 }
 
 /// Collects the data of a job's sheet.
-fn sheet(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Option<Sheet>, Box<Diagnostic>> {
+pub(super) fn sheet(
+    db: &Database,
+    job: &Job,
+    settings: &OutputSettings<'_>,
+) -> Result<Option<Sheet>, Box<Diagnostic>> {
     let mut scene = Scene::new(&job.path);
     let mut programs: Vec<Arc<Program>> = Vec::new();
     for target in &job.targets {

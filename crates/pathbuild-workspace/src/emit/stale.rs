@@ -17,8 +17,7 @@ use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
-use super::Request;
-use super::outcome::{ProgramOutcome, State, Task};
+use super::outcome::{ProgramOutcome, Request, State, Task};
 use super::plan::{Job, output_directory, program_name};
 use super::select::TargetSelection;
 use crate::memo::{Answer, DrawingResult};

@@ -9,11 +9,34 @@ use pathbuild_cache::{Catalogue, DirectoryFact, FileFact, FileState, Lookup, Rec
 use pathbuild_db::{Database, Db, NameLookup, SourceFile, content, drawing_names};
 use pathbuild_files::{Clock, Stamp};
 
-use super::{ExtraInput, FreshResult, GeneratedFile, Store};
+use super::store::{ExtraInput, FreshResult, GeneratedFile, Store};
 use crate::session::Session;
 
+impl Store {
+    /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
+    pub(super) fn keep(&self, session: &Session<'_>, fresh: &[FreshResult<'_>]) {
+        let is_as_it_was = fresh.is_empty() && self.verdict.is_current;
+        let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
+        let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| fresh.subject).collect();
+        let mut builder = CatalogueBuilder::new(self, session, begun, fresh);
+        for (record, _) in
+            self.kept.records.iter().zip(&self.verdict.is_sound).filter(|(_, is_sound)| **is_sound)
+        {
+            let subject = &*record.subject;
+            if !fresh_subjects.contains(subject) && self.scope.may_return(subject, session.db().system()) {
+                builder.add_kept(record);
+            }
+        }
+        for fresh in fresh {
+            builder.add_fresh(fresh);
+        }
+        // Without write access, the results are not cached.
+        _ = self.place.store(&self.key, builder.finish());
+    }
+}
+
 /// A catalogue under construction.
-pub(super) struct CatalogueBuilder<'a> {
+struct CatalogueBuilder<'a> {
     store: &'a Store,
     session: &'a Session<'a>,
     begun: Clock,
@@ -31,12 +54,7 @@ pub(super) struct CatalogueBuilder<'a> {
 }
 
 impl<'a> CatalogueBuilder<'a> {
-    pub(super) fn new(
-        store: &'a Store,
-        session: &'a Session<'a>,
-        begun: Clock,
-        fresh: &'a [FreshResult<'a>],
-    ) -> Self {
+    fn new(store: &'a Store, session: &'a Session<'a>, begun: Clock, fresh: &'a [FreshResult<'a>]) -> Self {
         let kept = &store.kept;
         Self {
             store,
@@ -53,13 +71,13 @@ impl<'a> CatalogueBuilder<'a> {
         }
     }
 
-    pub(super) fn finish(self) -> Catalogue {
+    fn finish(self) -> Catalogue {
         self.catalogue
     }
 
     /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings or generated one of its
     /// files from other inputs.
-    pub(super) fn add_kept(&mut self, record: &Record) {
+    fn add_kept(&mut self, record: &Record) {
         let kept = &self.store.kept;
         let has_written = |file: &usize| self.run.written.contains(&*kept.files[*file].path);
         if record.files.iter().any(|file| self.is_other(*file)) || record.outputs.iter().any(has_written) {
@@ -73,7 +91,7 @@ impl<'a> CatalogueBuilder<'a> {
     }
 
     /// Adds a new result, unless one of its drawings could not be read or changed during the run: such a result is not stable.
-    pub(super) fn add_fresh(&mut self, result: &FreshResult<'_>) {
+    fn add_fresh(&mut self, result: &FreshResult<'_>) {
         let Some(payload) = &result.payload else { return };
         let db = self.session.db();
         let inputs = result.inputs;

@@ -6,8 +6,9 @@ use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_path::PathName;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Answer, Inputs, Memo};
-use crate::session::Session;
+use super::Memo;
+use super::store::{Answer, Inputs};
+use crate::session::{MOST_UNKNOWN, Session};
 
 /// The result of checking a drawing, or only of reading it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -65,6 +66,43 @@ pub(crate) fn read_drawings(
         files.into_iter().map(read).collect()
     };
     memo.get_or(paths, subject, |_, result| Some(result), read)
+}
+
+impl Session<'_> {
+    /// Names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
+    pub fn names_of_library(&self) -> Vec<PathName> {
+        let paths = self.paths_of_library(MOST_UNKNOWN);
+        let mut names: Vec<PathName> = paths.into_iter().map(|(name, _)| name).collect();
+        names.dedup();
+        names
+    }
+
+    /// The same with the drawings that define them. A drawing that the last `check` of the library knows is not read again. Of the others
+    /// only the first `most_unknown` are read, and the rest are left out.
+    pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
+        let (files, _) = self.all_drawings();
+        let memo = Memo::of_checks(self.workspace()).unwrap_or_default();
+        let read = |open: &[&SourceFile]| {
+            let open: Vec<SourceFile> = open.iter().take(most_unknown).map(|file| **file).collect();
+            self.parse_ahead(&open);
+            let read = |file: SourceFile| {
+                let names = path_names(self.db(), file).to_vec();
+                (DrawingResult { names, diagnostics: Vec::new() }, Inputs::default())
+            };
+            open.into_iter().map(read).collect()
+        };
+        let path = |file: &SourceFile| file.path(self.db()).as_str().into();
+        let drawings = memo.get_or(&files, path, |_, result| Some(result), read);
+        let paths = drawings.into_iter().flat_map(|answer| {
+            let file = self.file(answer.drawing());
+            answer.value.names.into_iter().map(move |name| (name, file))
+        });
+        let mut paths: Vec<(PathName, SourceFile)> = paths.collect();
+        paths.sort_by(|(a, one), (b, other)| {
+            a.cmp(b).then_with(|| one.path(self.db()).cmp(other.path(self.db())))
+        });
+        paths
+    }
 }
 
 /// Finds a drawing in answers that are sorted by path.

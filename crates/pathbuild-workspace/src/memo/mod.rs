@@ -5,133 +5,30 @@
 mod builder;
 mod drawings;
 mod key;
+mod store;
 
-use std::cell::Cell;
-use std::collections::HashSet;
-
-use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_cache::{
-    CacheFault, Catalogue, FileState, Key, Listings, Lookup, Reason, TreeStore, Verdict, VerifyContext,
-    decode, encode, reasons, verify,
-};
-use pathbuild_db::system::FileKind;
-use pathbuild_db::{Database, Db, SourceFile, Trace};
-use pathbuild_diagnostic::reasons::IN_STRANGERS_TREE;
-use pathbuild_files::{Clock, Stamp};
-use serde::{Serialize, de::DeserializeOwned};
+use camino::Utf8Path;
+use pathbuild_cache::{Listings, Reason, decode};
+use pathbuild_db::{Database, SourceFile};
+use serde::de::DeserializeOwned;
 
 use crate::config::ResultKind;
 use crate::inputs::Inputs as Arguments;
-use crate::session::{ArgumentMatches, OutputKind, Session, without_values};
+use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
-use builder::CatalogueBuilder;
 pub use drawings::{DrawingResult, is_transient};
 pub(crate) use drawings::{find, read_drawings, subject};
+use key::Scope;
 pub use key::{BUILD, Coverage, CoveredPaths};
-use key::{Scope, query_text};
+use store::Store;
+pub use store::{
+    Answer, Dependencies, ExtraInput, FreshResult, GeneratedFile, Inputs, OutputState, hash_output,
+};
 
 /// Results of earlier runs of a command, if there are any.
 #[derive(Debug, Default)]
 pub struct Memo(Option<Store>);
-
-/// A result, of an earlier run or of this one.
-#[derive(Debug)]
-pub struct Answer<T> {
-    /// What it is about. It begins with the path of a drawing; anything more specific follows after a NUL.
-    pub subject: Box<str>,
-    /// The result.
-    pub value: T,
-    /// What this run computed it from; `None` if an earlier run did.
-    pub inputs: Option<Inputs>,
-}
-
-/// What a result of this run was computed from, and which files were generated from it.
-#[derive(Clone, Debug, Default)]
-pub struct Inputs {
-    /// The drawings and lookups that it depends on.
-    pub traces: Vec<Trace>,
-    /// Other files that it depends on.
-    pub further: Vec<ExtraInput>,
-    /// The files that were generated from it.
-    pub outputs: Vec<GeneratedFile>,
-    /// Whether another run may get a different result although no input changes.
-    pub is_transient: bool,
-}
-
-/// A result of this run, encoded for the cache.
-#[derive(Debug)]
-pub struct FreshResult<'a> {
-    subject: &'a str,
-    inputs: &'a Inputs,
-    /// `None` if it must not be cached.
-    payload: Option<Vec<u8>>,
-}
-
-impl<T: Serialize> Answer<T> {
-    /// The encoded result, if this run computed it.
-    pub fn fresh(&self) -> Option<FreshResult<'_>> {
-        let inputs = self.inputs.as_ref()?;
-        let payload = if inputs.is_transient { None } else { encode(&self.value) };
-        Some(FreshResult { subject: &self.subject, inputs, payload })
-    }
-}
-
-/// The cached results of a query.
-#[derive(Debug)]
-struct Store {
-    place: TreeStore,
-    key: Key,
-    base: Utf8PathBuf,
-    coverage: Coverage,
-    scope: Scope,
-    /// The time before anything was read; `None` if the cache is not writable.
-    begun: Option<Clock>,
-    kept: Catalogue,
-    verdict: Verdict,
-    /// Index of the record that is likely requested next, since requests come in order.
-    next: Cell<usize>,
-}
-
-/// A file other than a drawing that a result depends on.
-#[derive(Clone, Debug)]
-pub struct ExtraInput {
-    /// Its path.
-    pub path: Utf8PathBuf,
-    /// Hash of the bytes that were read; `None` if reading failed.
-    pub hash: Option<[u8; 32]>,
-}
-
-/// A generated file.
-#[derive(Clone, Debug)]
-pub struct GeneratedFile {
-    /// Its path.
-    pub path: Utf8PathBuf,
-    /// Hash of its expected content, as computed by [`hash_output`].
-    pub hash: [u8; 32],
-    /// Whether the file on disk has that content.
-    pub is_there: bool,
-}
-
-/// State of a generated file on disk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OutputState {
-    /// Has the expected content.
-    Current,
-    /// Has other content.
-    Outdated,
-    /// Does not exist.
-    Missing,
-}
-
-/// The inputs of a cached result.
-#[derive(Clone, Debug)]
-pub struct Dependencies<'a> {
-    /// Paths of the files that were read.
-    pub files: Vec<&'a Utf8Path>,
-    /// Lookups, as directory and path name.
-    pub lookups: Vec<(&'a Utf8Path, &'a str)>,
-}
 
 impl Memo {
     /// Loads the results of earlier runs. `text` is what they depend on besides settings and files. No results are known if the session does
@@ -153,9 +50,11 @@ impl Memo {
         memo
     }
 
-    /// All results of earlier runs; `None` if none are cached.
-    pub fn of_all(workspace: &Workspace, kind: ResultKind, text: &str) -> Option<Self> {
-        Store::open(workspace, kind, text, Scope::All, Listings::new()).map(|store| Self(Some(store)))
+    /// Results of the last checks; `None` if no results are cached.
+    pub fn of_checks(workspace: &Workspace) -> Option<Self> {
+        let store =
+            Store::open(workspace, ResultKind::Check, &check_query(false), Scope::All, Listings::new());
+        store.map(|store| Self(Some(store)))
     }
 
     /// The result for each item: that of an earlier run if it still holds and `accept` takes it, otherwise the one that `build` computes. It
@@ -168,8 +67,8 @@ impl Memo {
         build: impl FnOnce(&[&K]) -> Vec<(T, Inputs)>,
     ) -> Vec<Answer<T>> {
         let subjects: Vec<Box<str>> = items.iter().map(subject).collect();
-        let cached = |subject: &Box<str>| accept(subject, decode(self.0.as_ref()?.payload(subject)?).ok()?);
-        let cached: Vec<Option<T>> = subjects.iter().map(cached).collect();
+        let cached = |subject: &str| accept(subject, decode(self.0.as_ref()?.payload(subject)?).ok()?);
+        let cached: Vec<Option<T>> = subjects.iter().map(|subject| cached(subject)).collect();
         let open = items.iter().zip(&cached).filter(|(_, cached)| cached.is_none());
         let open: Vec<&K> = open.map(|(item, _)| item).collect();
         let mut built = build(&open).into_iter();
@@ -228,189 +127,7 @@ impl Memo {
     }
 }
 
-impl<'a> Dependencies<'a> {
-    fn of(db: &'a Database, traces: &'a [Trace]) -> Self {
-        let files = traces.iter().flat_map(|trace| &trace.files).map(|file| &**file.path(db));
-        let lookups = traces.iter().flat_map(|trace| &trace.lookups).flat_map(|lookup| {
-            lookup.directories.iter().map(|directory| (&**directory, lookup.name.as_str()))
-        });
-        Self { files: files.collect(), lookups: lookups.collect() }
-    }
-}
-
-impl Store {
-    /// Loads the cached results and verifies them against the files; `None` without a configuration, or if nothing is to be cached.
-    fn open(
-        context: &Workspace,
-        kind: ResultKind,
-        text: &str,
-        scope: Scope,
-        listings: Listings,
-    ) -> Option<Self> {
-        let base = context.settings.directory()?.to_owned();
-        let place = context.cache_place()?;
-        let confined = context.settings.confined.as_ref();
-        let is_untrusted = confined.is_some_and(|confined| confined.may_hold(place.directory()));
-        if let Some(reason) = is_untrusted.then_some(&IN_STRANGERS_TREE).or_else(|| place.refusal()) {
-            let phrase =
-                context.choose("no results are cached there", "dort werden keine Ergebnisse gespeichert");
-            let reason = reason.in_lang(context.lang());
-            context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
-            return None;
-        }
-        // Without write access, the run goes on without a cache.
-        if place.make().is_ok_and(|is_new| is_new) {
-            report_old_cache(context, &base);
-        }
-        let key = Key::new(BUILD, &query_text(context, kind, text));
-        // Taken before any file is examined, so that later changes are detected.
-        let begun = place.clock().ok();
-        let kept = match place.load(&key) {
-            Ok(kept) => kept.unwrap_or_default(),
-            Err(reason) => {
-                report_fault(context, reason);
-                Catalogue::default()
-            }
-        };
-        let coverage = Coverage::new(context);
-        let verdict = verify_snapshot(context, &kept, &coverage, &scope, listings);
-        Some(Self { place, key, base, coverage, scope, begun, kept, verdict, next: Cell::new(0) })
-    }
-
-    /// The encoded result of a subject, if it still holds.
-    fn payload(&self, subject: &str) -> Option<&[u8]> {
-        let number = self.record(subject)?;
-        self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
-    }
-
-    /// States of the files that were generated from a result, in the order in which they were stored.
-    fn outputs(&self, subject: &str) -> Vec<OutputState> {
-        let Some(number) = self.record(subject) else { return Vec::new() };
-        let state = |file: &usize| match self.verdict.files[*file] {
-            FileState::Unchanged | FileState::Touched(_) => OutputState::Current,
-            FileState::Changed | FileState::Unchecked
-                if Stamp::of(&self.kept.files[*file].path) == Stamp::MISSING =>
-            {
-                OutputState::Missing
-            }
-            FileState::Changed | FileState::Unchecked => OutputState::Outdated,
-        };
-        self.kept.records[number].outputs.iter().map(state).collect()
-    }
-
-    /// The inputs of a cached result.
-    fn dependencies(&self, subject: &str) -> Option<Dependencies<'_>> {
-        let record = &self.kept.records[self.record(subject)?];
-        let files = record.files.iter().map(|file| &*self.kept.files[*file].path);
-        let lookup = |lookup: &usize| {
-            let Lookup { directories, name } = &self.kept.lookups[*lookup];
-            let list = self.kept.directory_lists[*directories].iter();
-            list.map(move |directory| (&*self.kept.directories[*directory].path, &**name))
-        };
-        Some(Dependencies {
-            files: files.collect(),
-            lookups: record.lookups.iter().flat_map(lookup).collect(),
-        })
-    }
-
-    /// Why a cached result no longer holds: empty if it holds, `None` if there is none.
-    fn why(&self, subject: &str) -> Option<Vec<Reason>> {
-        let number = self.record(subject)?;
-        let coverage = &self.coverage;
-        Some(reasons(&self.kept, &self.verdict, number, &|file, path| coverage.may_hold(file, path)))
-    }
-
-    fn record(&self, subject: &str) -> Option<usize> {
-        let number = self.kept.find(subject, self.next.get())?;
-        self.next.set(number + 1);
-        Some(number)
-    }
-
-    /// Stores new results together with those that still hold, including results of other drawings. Writes nothing if nothing has changed.
-    fn keep(&self, session: &Session<'_>, fresh: &[FreshResult<'_>]) {
-        let is_as_it_was = fresh.is_empty() && self.verdict.is_current;
-        let Some(begun) = self.begun.filter(|_| !is_as_it_was) else { return };
-        let fresh_subjects: HashSet<&str> = fresh.iter().map(|fresh| fresh.subject).collect();
-        let mut builder = CatalogueBuilder::new(self, session, begun, fresh);
-        for (record, _) in
-            self.kept.records.iter().zip(&self.verdict.is_sound).filter(|(_, is_sound)| **is_sound)
-        {
-            let subject = &*record.subject;
-            if !fresh_subjects.contains(subject) && self.scope.may_return(subject, session.db().system()) {
-                builder.add_kept(record);
-            }
-        }
-        for fresh in fresh {
-            builder.add_fresh(fresh);
-        }
-        // Without write access, the results are not cached.
-        _ = self.place.store(&self.key, builder.finish());
-    }
-}
-
-/// Verifies the cached results against the files.
-fn verify_snapshot(
-    workspace: &Workspace,
-    kept: &Catalogue,
-    coverage: &Coverage,
-    scope: &Scope,
-    listings: Listings,
-) -> Verdict {
-    let base = workspace.settings.directory().unwrap_or(Utf8Path::new(""));
-    let is_requested = |subject: &str| scope.holds(subject);
-    let covers = |file: &str, path: &str| coverage.may_hold(file, path);
-    let (system, limits) = (&*workspace.system, &workspace.settings.limits);
-    let read = |file: &Utf8Path, is_output: bool| {
-        let mut room = Vec::new();
-        let limit = if is_output { limits.output_size.value } else { limits.file_size.value };
-        let (bytes, stamp) = system.read_stamped(file, limit, &mut room).ok()?;
-        let length = bytes.len();
-        room.truncate(length);
-        Some((room, stamp))
-    };
-    let confined = workspace.settings.confined.as_ref();
-    let is_allowed = |file: &Utf8Path| confined.is_none_or(|confined| confined.allows(file));
-    let context = VerifyContext {
-        base,
-        covers: &covers,
-        is_requested: &is_requested,
-        is_allowed: &is_allowed,
-        read: &read,
-        hash_output: &hash_output,
-    };
-    verify(kept, context, listings)
-}
-
-/// Hash of an output file. In a file of measured values, the values that users entered do not count.
-pub fn hash_output(path: &Utf8Path, bytes: &[u8]) -> [u8; 32] {
-    let is_values = path.as_str().ends_with(OutputKind::Values.suffix());
-    let hash = if is_values { blake3::hash(without_values(bytes).as_bytes()) } else { blake3::hash(bytes) };
-    *hash.as_bytes()
-}
-
-/// Tells users that the cache of earlier versions, beside the configuration, can be deleted.
-fn report_old_cache(context: &Workspace, base: &Utf8Path) {
-    if context.system.kind(&base.join(OLD)) == FileKind::Directory {
-        context.reporter.status(context.choose(
-            "results are now cached in your cache directory: .pathbuild beside the configuration is no longer used and can be deleted",
-            "Ergebnisse werden jetzt in Ihrem Cache-Verzeichnis gespeichert: .pathbuild neben der Konfiguration wird nicht mehr benutzt und kann gelöscht werden",
-        ));
-    }
-}
-
-/// Directory of that cache.
-const OLD: &str = ".pathbuild";
-
-fn report_fault(context: &Workspace, reason: CacheFault) {
-    let phrase = match reason {
-        CacheFault::Damaged => context.choose(
-            "the cache is damaged and will be rebuilt",
-            "der Cache ist beschädigt und wird neu angelegt",
-        ),
-        CacheFault::Foreign => context.choose(
-            "the cache was written by another build of pathbuild and will be rebuilt",
-            "der Cache stammt von einer anderen Fassung von pathbuild und wird neu angelegt",
-        ),
-    };
-    context.reporter.status(phrase);
+/// Everything that results of `check` depend on besides drawings and settings.
+pub(crate) fn check_query(with_all_values: bool) -> String {
+    format!("check {with_all_values}")
 }

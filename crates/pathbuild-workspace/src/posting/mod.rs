@@ -19,7 +19,7 @@ use pathbuild_post::{
     BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable, TranslatedText, samples,
 };
 
-use crate::config::{Origin, types};
+use crate::config::{Origin, is_file_name, types};
 use crate::machine::machine;
 use crate::workspace::Workspace;
 
@@ -332,11 +332,6 @@ pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: 
         .ok()
         .flatten()
         .map_or_else(|| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
-}
-
-/// Whether the name of a post is a file name: it has an extension or a directory.
-pub(crate) fn is_file_name(name: &str) -> bool {
-    name.contains(std::path::is_separator) || Utf8Path::new(name).extension().is_some()
 }
 
 /// A file name relative to the working directory, if it is inside.

@@ -5,8 +5,8 @@ use std::cell::LazyCell;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, join, spelt};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
 use pathbuild_db::{Db, SourceFile, catch_bugs};
 use pathbuild_diagnostic::messages::{configuration, files, outputs, paths};
 use pathbuild_diagnostic::{Diagnostic, Message, Value, nearest};
@@ -15,7 +15,7 @@ use pathbuild_path::PathName;
 use super::argument_matches::SearchedDirectory;
 use super::{Session, library};
 use crate::config::{Origin, SourcedValue};
-use crate::list::MOST_UNKNOWN;
+use crate::workspace::relative;
 
 impl Session<'_> {
     /// Adds to each PB503 of a subpath where in the library the path is defined. The library is searched only if there is such a
@@ -61,18 +61,6 @@ fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
         Value::Quoted(name) if *argument == "name" => Some(PathName::new(name)),
         _ => None,
     })
-}
-
-/// Path to a directory relative to another, both absolute. Returns the directory itself if there is no relative path, as between drives.
-pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
-    let (target, start): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
-    let common = target.iter().zip(&start).take_while(|(a, b)| a == b).count();
-    if common == 0 {
-        return directory.to_owned();
-    }
-    let up = start[common..].iter().map(|_| Utf8Component::ParentDir);
-    let relative: Utf8PathBuf = up.chain(target[common..].iter().copied()).collect();
-    if relative.as_str().is_empty() { Utf8PathBuf::from(".") } else { spelt(relative) }
 }
 
 impl Session<'_> {
@@ -238,3 +226,6 @@ fn no_drawing(directories: &[&Utf8Path]) -> Diagnostic {
     let directories: Value = shown.collect();
     Diagnostic::new(&outputs::NO_DRAWING).with("directories", directories)
 }
+
+/// Upper bound on the number of drawings that are read just for the names of their paths; takes half a second.
+pub(crate) const MOST_UNKNOWN: usize = 2000;

@@ -28,12 +28,11 @@ use crate::workspace::{Advance, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub(crate) use hints::relative;
+pub(crate) use hints::MOST_UNKNOWN;
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};
-pub(crate) use scene::program_scene;
-pub use scene::{SceneReport, ShownText};
+pub(crate) use scene::{drawn_source, examples, program_scene};
 pub use settings::{limits, reading};
 pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pairs};
 

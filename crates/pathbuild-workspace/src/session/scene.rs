@@ -1,46 +1,19 @@
 //! Scenes of paths for display, computed by the same queries as their programs.
 
-use std::slice;
-
 use camino::Utf8Path;
 use pathbuild_db::{
-    Db, DrawnPath, Role, Settings, SourceFile, Target, TracedProgram, assigned_texts, check_file, drawn_path,
-    file_index, in_force, keep_outs, other_layers, path_names, placed_keep_outs, program, traced_program,
+    Db, DrawnPath, Settings, SourceFile, TracedProgram, assigned_texts, drawn_path, in_force, keep_outs,
+    other_layers, path_names, program,
 };
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Number};
+use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_path::{ElementParameters, KeepOut, PathName, PathRole};
+use pathbuild_path::{ElementParameters, PathName, PathRole};
 use pathbuild_toolpath::{Correction, Move, Step};
-use pathbuild_view::{
-    self as view, BilingualText, DrawnSource, EmittedText, Example, ProgramSource, Scene, ScenePath,
-};
+use pathbuild_view::{self as view, DrawnSource, EmittedText, Example, ProgramSource, Scene, ScenePath};
 
 use super::work::about;
 use super::{CheckedTarget, Session, WriteSettings};
-use crate::config::Origin;
-use crate::emit::{program_text, writing};
-use crate::findings::Findings;
-use crate::posting::PostProcessor;
-use crate::workspace::Workspace;
-
-/// A scene, with the diagnostics of its paths.
-#[derive(Debug)]
-pub struct SceneReport {
-    /// The scene. Its findings are empty until severities are applied.
-    pub scene: Scene,
-    /// Diagnostics with their locations.
-    pub diagnostics: Vec<Diagnostic>,
-}
-
-/// Which program text is shown beside the moves.
-#[derive(Clone, Copy, Debug)]
-pub enum ShownText<'a> {
-    /// The native program.
-    Native,
-    /// What `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
-    Emitted(Option<&'a PostProcessor>),
-}
 
 /// A hash of a path's moves, to compare paths without drawing them.
 #[derive(Debug)]
@@ -55,54 +28,7 @@ pub struct HashedPath {
     pub problems: Vec<Diagnostic>,
 }
 
-impl SceneReport {
-    /// Completes the scene with its findings, according to the configured severities. `file` is the drawing that is shown.
-    pub fn with_findings(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
-        let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
-        scene.findings = view::findings(&findings.diagnostics, file);
-        (scene, findings)
-    }
-}
-
 impl Session<'_> {
-    /// The scene of some paths of a drawing, with their texts. If options are missing, or if a path has variables, its program is that of a
-    /// check: with example values, and with S as if it were embedded.
-    pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> SceneReport {
-        let name = file.path(&self.db).as_str();
-        let title = match names {
-            [path] => path.as_str(),
-            _ => file.path(&self.db).file_name().unwrap_or(name),
-        };
-        let mut scene = Scene::new(title);
-        let mut diagnostics = check_file(&self.db, file).to_vec();
-        scene
-            .keep_outs
-            .extend(keep_outs(&self.db, file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
-        for path in names {
-            let (seen, found, clamps) = self.scene_path(file, path, text);
-            let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
-            scene.keep_outs.extend(clamps.iter().map(|clamp| view::keep_out(clamp, zero)));
-            scene.paths.extend(seen);
-            diagnostics.extend(found);
-        }
-        scene.other_layers = view::other_layers(other_layers(&self.db, file));
-        self.add_origins(&mut scene);
-        SceneReport { scene, diagnostics }
-    }
-
-    /// Says of each parameter that an option gives where in pathbuild.toml that stands.
-    fn add_origins(&self, scene: &mut Scene) {
-        let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
-        for parameter in elements.flat_map(|element| &mut element.parameters) {
-            let option = parameter.which.as_deref().filter(|_| parameter.from == "option");
-            let origin = option.map(|option| self.context.settings.origin_of_option(option));
-            parameter.line = match origin {
-                Some(Origin::File(line)) => Some(line),
-                Some(Origin::Default | Origin::CommandLine(_)) | None => None,
-            };
-        }
-    }
-
     /// Scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.
     pub fn drawn_scenes(&self, files: &[&Utf8Path]) -> Vec<Option<Scene>> {
         let files: Vec<SourceFile> = files.iter().map(|file| self.file(file)).collect();
@@ -111,62 +37,7 @@ impl Session<'_> {
         scenes.into_iter().map(Result::ok).collect()
     }
 
-    /// The scene of a path, its diagnostics, and the clamps that it embeds, at their places in the program.
-    fn scene_path(
-        &self,
-        file: SourceFile,
-        name: &PathName,
-        text: ShownText<'_>,
-    ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
-        let checked = self
-            .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
-            .pop();
-        let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
-        let writing = &writing(self.context);
-        // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
-        let is_written = *checked.target.role(&self.db) == Role::Emitted
-            && self.context.settings.general.rapid.value.is_some();
-        let (emitted, refusal) = match text {
-            ShownText::Native => (None, None),
-            ShownText::Emitted(post_processor) => match program_text(self, post_processor, &checked) {
-                Ok(emitted) => (emitted, None),
-                Err(problems) => {
-                    (None, problems.iter().find(|problem| problem.is_error() && is_written).map(bilingual))
-                }
-            },
-        };
-        let shown = emitted.as_ref().map(|emitted| EmittedText {
-            file: is_written.then_some(emitted.file.as_str()),
-            bytes: &emitted.bytes,
-            dialect: emitted.dialect,
-            is_posted: matches!(text, ShownText::Emitted(Some(_))),
-        });
-        let work = |db: &pathbuild_db::Database, target: &Target| -> Result<_, Box<Diagnostic>> {
-            let Some(traced) = traced_program(db, *target) else { return Ok(None) };
-            let mut scene = program_scene(db, traced, writing, shown)?;
-            if let Some(scene) = &mut scene {
-                scene.examples = examples(db, traced, writing);
-                scene.refusal.clone_from(&refusal);
-            }
-            let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
-            Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
-        };
-        let mut diagnostics = checked.diagnostics;
-        let at = |problem: Diagnostic| problem.in_file(file.path(&self.db)).in_path(name.as_str());
-        let result = self.map_guarded(slice::from_ref(&checked.target), work).pop();
-        match result {
-            Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),
-            Some(Err(problem) | Ok(Err(problem))) => diagnostics.push(at(*problem)),
-            Some(Ok(Ok(None))) | None => {}
-        }
-        let drawn = drawn_path(&self.db, file, name);
-        let examples = file_index(&self.db, file).path(name).map(|path| path.examples.clone());
-        let parameters = in_force(&self.db, file, name, &examples.unwrap_or_default(), true);
-        let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(&self.db, file, drawn, &parameters)));
-        (drawn, diagnostics, Vec::new())
-    }
-
-    /// Hashes the moves of each path in some drawings. The programs are those that [`scene`](Self::scene) shows.
+    /// Hashes the moves of each path in some drawings. The programs are those that `scene` shows.
     pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<HashedPath> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
         let paths: Vec<(SourceFile, PathName)> =
@@ -199,13 +70,8 @@ fn stops_making(problem: &Diagnostic) -> bool {
     matches!(problem.code(), Code::LimitReached | Code::InternalError) && problem.is_error()
 }
 
-/// The message of a diagnostic in both languages.
-fn bilingual(problem: &Diagnostic) -> BilingualText {
-    BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
-}
-
 /// Values that were chosen only for display: of variables, of S, and of options that are not set.
-fn examples(
+pub(crate) fn examples(
     db: &dyn Db,
     TracedProgram { program, parts, .. }: &TracedProgram,
     writing: &WriteSettings,
@@ -278,7 +144,7 @@ pub(crate) fn program_scene(
     })))
 }
 
-fn drawn_source<'db>(
+pub(crate) fn drawn_source<'db>(
     db: &'db dyn Db,
     file: SourceFile,
     drawn: DrawnPath<'db>,

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -10,8 +10,8 @@ use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Config, Event, PollWatcher, RecommendedWatcher, Watcher as _};
 use pathbuild_db::System;
 
-use super::Request;
 use super::directories::{EventPath, WatchedDirectories, event_path};
+use super::events::{Bell, Changes, Request, Restart, Signal};
 use super::library::Library;
 use crate::session::Session;
 
@@ -41,29 +41,6 @@ pub(super) struct Watcher {
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
 
-/// Messages from other threads.
-enum Signal {
-    Changed(notify::Result<Event>),
-    Rung,
-    Over,
-}
-
-/// Wakes the watching thread. May be cloned and used by any thread.
-#[derive(Clone, Debug)]
-pub struct Bell(Sender<Signal>);
-
-impl Bell {
-    /// Requests a call of [`Listener::woken`](super::Listener::woken) as soon as the session is idle. Has no effect once watching has ended.
-    pub fn ring(&self) {
-        _ = self.0.send(Signal::Rung);
-    }
-
-    /// Ends watching as soon as the current work is done.
-    pub fn end(&self) {
-        _ = self.0.send(Signal::Over);
-    }
-}
-
 /// The outcome of waiting.
 pub(super) enum Batch {
     /// Files have changed.
@@ -74,25 +51,6 @@ pub(super) enum Batch {
     Rung,
     /// Watching is to end.
     Over,
-}
-
-/// Why everything must be restarted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Restart {
-    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced.
-    Directories,
-    /// The configuration or a file of the post-processor changed.
-    Configuration,
-}
-
-/// Changed paths: normalized names of files and directories that were written, created, renamed or removed.
-#[derive(Debug, Default)]
-pub(super) struct Changes {
-    pub(super) paths: BTreeSet<Utf8PathBuf>,
-    /// Whether events were lost, so that more may have changed.
-    pub(super) is_incomplete: bool,
-    /// Why everything must be restarted, if it must.
-    restart: Option<Restart>,
 }
 
 /// Interval at which network drives are polled.
@@ -326,12 +284,6 @@ impl Watcher {
         let is_ready =
             |path: &Utf8PathBuf, until: &mut Instant| now >= *until || !is_unfinished(system, path);
         changes.paths.extend(self.unfinished.extract_if(.., is_ready).map(|(path, _)| path));
-    }
-}
-
-impl Changes {
-    fn is_empty(&self) -> bool {
-        self.paths.is_empty() && !self.is_incomplete && self.restart.is_none()
     }
 }
 

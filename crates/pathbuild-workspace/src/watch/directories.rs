@@ -10,7 +10,7 @@ use notify::{ErrorKind, RecursiveMode, Watcher};
 use pathbuild_db::System;
 use pathbuild_db::system::{FileKind, FileLink, join};
 
-use super::Request;
+use super::events::Request;
 use crate::Input;
 use crate::config::clean;
 use crate::session::Session;

@@ -7,7 +7,7 @@ use pathbuild_db::system::FileKind;
 use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
-use super::changes::Changes;
+use super::events::Changes;
 use super::index::{NameSnapshots, ReverseIndex};
 use crate::Inputs;
 use crate::check::check_drawings;

@@ -6,119 +6,23 @@
 
 mod changes;
 mod directories;
+mod events;
 mod index;
 mod library;
 mod writing;
 
-use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use camino::Utf8PathBuf;
 use pathbuild_db::SourceFile;
-use pathbuild_diagnostic::Diagnostic;
 
-use crate::Inputs;
-use crate::emit::ProgramOutcome;
-use crate::posting::PostProcessor;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
-pub use changes::Bell;
-use changes::{Batch, Restart, Watcher};
+use changes::{Batch, Watcher};
+pub use events::{Bell, FirstCheck, Listener, Request, Update, WatchEnd};
+use events::{Changes, Restart};
 use library::Library;
 use writing::Writer;
-
-/// A request to watch drawings.
-#[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
-    /// The drawings, paths and directories; if empty, the library.
-    pub inputs: &'a Inputs,
-    /// Whether to write the programs of `[emit] targets`.
-    pub emits: bool,
-    /// Whether the listener lists paths, for which it needs the post-processor.
-    pub lists: bool,
-    /// Whether to poll for changes, on systems that send no events.
-    pub polls: bool,
-}
-
-/// Receives events from the watcher. Callbacks get the session so that they can query more than the findings.
-pub trait Listener {
-    /// Hands over the handle that wakes the watcher from other threads.
-    fn set_bell(&self, _: Bell) {}
-    /// Drawings were found and read, and will be checked. The diagnostics are those of arguments and directories.
-    fn drawings_found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
-    /// Drawings were checked, and on request their programs were written through this post-processor.
-    fn drawings_checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
-    /// A wake-up was requested through the [`Bell`].
-    fn woken(&self, _: &mut Session<'_>) {}
-    /// All drawings were checked for the first time.
-    fn first_check_done(&self, _: &FirstCheck) {}
-    /// A batch of changes was processed.
-    fn batch_done(&self, _: &Update) {}
-    /// The targets of these links cannot be watched, for the reason that the system gives.
-    fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
-    /// Programs were written.
-    fn programs_written(&self, _: &[ProgramOutcome]) {}
-    /// Programs cannot be written because options are missing; the text says which.
-    fn options_missing(&self, _: &str) {}
-}
-
-/// The result of the first check.
-#[derive(Debug)]
-pub struct FirstCheck {
-    /// Number of drawings.
-    pub drawings: usize,
-    /// Number of their paths.
-    pub paths: usize,
-    /// All diagnostics.
-    pub diagnostics: Vec<Diagnostic>,
-    /// Duration of the check.
-    pub time: Duration,
-}
-
-/// The result of a batch of changes.
-#[derive(Clone, Debug)]
-pub struct Update {
-    /// Number of the batch, counted from 1.
-    pub revision: u64,
-    /// Files that changed.
-    pub changed: BTreeSet<Utf8PathBuf>,
-    /// Those of them that no longer exist.
-    pub removed: BTreeSet<Utf8PathBuf>,
-    /// Diagnostics of arguments and directories, if they have changed; they are part of `now` as well.
-    pub problems: Option<Vec<Diagnostic>>,
-    /// Unchanged drawings that were checked again because of transient diagnostics, and directories that can be listed again.
-    pub tried_again: BTreeSet<Utf8PathBuf>,
-    /// Number of drawings that were checked.
-    pub checked: usize,
-    /// Number of drawings still to be checked, because more changes arrived.
-    pub open: usize,
-    /// Previous diagnostics of these drawings.
-    pub before: Vec<Diagnostic>,
-    /// Current diagnostics of these drawings.
-    pub now: Vec<Diagnostic>,
-    /// Duration of the batch.
-    pub time: Duration,
-}
-
-/// Why watching ended.
-#[derive(Debug)]
-pub enum WatchEnd {
-    /// No more changes will arrive, or the end was requested.
-    Over,
-    /// The configuration, or a file of the configured post-processor, changed: everything must be restarted.
-    ConfigurationChanged,
-    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced: the system still watches the old one.
-    DirectoriesChanged,
-    /// There are no arguments, and the configuration names no library.
-    NothingNamed,
-    /// Programs are to be written, but the configuration names no targets.
-    NoTargets,
-    /// The post-processor has errors.
-    BadPost(Vec<Diagnostic>),
-    /// The system does not report changes; the text says why.
-    CannotWatch(String),
-}
 
 impl Request<'_> {
     /// Watches until it is told to end, or until everything must be restarted.
@@ -197,7 +101,7 @@ impl WatchLoop<'_> {
         self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, time });
     }
 
-    fn update(&mut self, changes: &changes::Changes) {
+    fn update(&mut self, changes: &Changes) {
         let affected = self.library.apply(changes);
         if !self.library.has_backlog() && !affected.has_news() {
             return;

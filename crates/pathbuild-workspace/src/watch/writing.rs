@@ -6,7 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Db, Role, SourceFile, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 
-use super::{Listener, Request};
+use super::events::{Listener, Request};
 use crate::emit::{self, FileOwners, TargetPatterns};
 use crate::memo::is_transient;
 use crate::posting::{PostArguments, PostProcessor};

@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::args::{Format, GraphArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::check::cached_results;
+use pathbuild_workspace::memo::Memo;
 use pathbuild_workspace::session::Session;
 
 /// Runs the command: for each drawing, shows whether the result of the last `check` of the library still holds, and otherwise which inputs
@@ -21,7 +21,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
-    let Some(memo) = cached_results(context) else {
+    let Some(memo) = Memo::of_checks(context) else {
         return context.usage(context.choose(
             "why needs cached results: there are none without a pathbuild.toml, or with --no-cache",
             "why braucht gespeicherte Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",

@@ -9,9 +9,10 @@ use pathbuild_db::{SourceFile, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use pathbuild_view::VisibleParts;
+use pathbuild_workspace::emit::ShownText;
 use pathbuild_workspace::list::{self, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{Session, ShownText};
+use pathbuild_workspace::session::Session;
 use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
 use serde_json::{Value, json};
 

@@ -2,8 +2,6 @@
 
 #![expect(clippy::doc_markdown, reason = "users see these texts in their pathbuild.toml")]
 
-use std::fmt::Debug;
-
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Lang;
 use pathbuild_path::{FilePattern, PathPattern};
@@ -12,14 +10,10 @@ use crate::config::arguments::OptionValues::{
     Directories as SearchDirectories, Directory, Switch, Text, Texts,
 };
 use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
-use crate::config::describe::ShownSetting;
-use crate::config::kinds::Key;
-use crate::config::kinds::{DIRECTORIES, DIRECTORY, choice};
-use crate::config::kinds::{NOT_NEGATIVE, PIECE, POSITIVE, SWITCH};
-use crate::config::kinds::{OPTIONAL_REGEX, REGEX, RESTRICTIONS};
-use crate::config::reader::Table;
-use crate::config::settings::ResultKind;
-use crate::config::settings::SourcedValue;
+use crate::config::kinds::{
+    DIRECTORIES, DIRECTORY, NOT_NEGATIVE, OPTIONAL_REGEX, PIECE, POSITIVE, REGEX, RESTRICTIONS, SWITCH,
+    choice,
+};
 use crate::config::table_kinds::POST;
 use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
 

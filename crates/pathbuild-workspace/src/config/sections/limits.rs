@@ -1,14 +1,8 @@
 //! `[limits]`: upper bounds on sizes and times. PB005 names the key if one is exceeded.
 
-use std::fmt::Debug;
 use std::time::Duration;
 
-use crate::config::describe::ShownSetting;
-use crate::config::kinds::Key;
 use crate::config::kinds::{COUNT, SECONDS, SIZE};
-use crate::config::reader::Table;
-use crate::config::settings::ResultKind;
-use crate::config::settings::SourcedValue;
 
 /// Like [`section!`], for values that an untrusted configuration may lower but not raise.
 macro_rules! limits {

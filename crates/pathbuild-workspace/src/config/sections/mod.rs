@@ -1,28 +1,19 @@
 //! The keys of all tables, each with its type, default and description.
 
-use std::fmt::Debug;
-use std::time::Duration;
-
-use pathbuild_diagnostic::Code;
-
-use crate::config::describe::ShownSetting;
-use crate::config::kinds::{AXES, DURATION, EXTENT, Key, NOT_NEGATIVE, PATTERNS, POSITIVE, SWITCH, choice};
-use crate::config::reader::Table;
-use crate::config::settings::{ResultKind, SourcedValue};
-use crate::config::table_kinds::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
-use crate::config::types::{
-    DwellTime, Extent, Level, LineTypeAlias, Macro, Pattern, SeveritiesIn, SheetFormat, Tool,
-};
-
 /// Declares a table of the configuration. Each key has: a description and a field, its name in the file, its [`ValueType`], its default, a
 /// TOML value for the file that `init` writes, and the cached results that depend on it ([`ResultKind`]).
 ///
-/// [`ValueType`]: super::kinds::Kind
+/// [`ValueType`]: super::reader::ValueType
 macro_rules! section {
     ($(
         $(#[doc = $meaning:literal])+
         $field:ident: $type:ty = $name:literal, $kind:expr, $default:expr, $example:literal, $results:ident;
     )*) => {
+        use std::fmt::Debug;
+
+        use crate::config::origin::{Key, ResultKind, ShownSetting, SourcedValue};
+        use crate::config::reader::Table;
+
         /// The values that a source sets.
         #[derive(Clone, Debug, Default)]
         pub struct Options {
@@ -77,7 +68,8 @@ pub mod limits;
 
 /// `[emit]`: what `emit` writes without arguments.
 pub mod emit {
-    use super::*;
+    use crate::config::kinds::{PATTERNS, choice};
+    use crate::config::types::{Pattern, SheetFormat};
 
     section! {
         /// globs of path names: the paths that `emit` without arguments and `watch --emit` write
@@ -89,7 +81,8 @@ pub mod emit {
 
 /// `[machine]`: capabilities of the machine, for `emit`, `verify` and time estimates. (book: program/reading)
 pub mod machine {
-    use super::*;
+    use crate::config::kinds::{AXES, EXTENT, NOT_NEGATIVE, POSITIVE, choice};
+    use crate::config::types::{DwellTime, Extent};
 
     section! {
         /// s: how long the spindle takes to reach its speed; posts wait this long after M3
@@ -119,7 +112,10 @@ pub mod machine {
 
 /// Tables with user-defined keys.
 pub mod tables {
-    use super::*;
+    use pathbuild_diagnostic::Code;
+
+    use crate::config::table_kinds::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
+    use crate::config::types::{Level, LineTypeAlias, Macro, SeveritiesIn, Tool};
 
     section! {
         /// further names: name in the drawing = one of the known line types
@@ -139,7 +135,7 @@ pub mod tables {
 
 /// `[warnings]`: thresholds beyond which something allowed is doubtful.
 pub mod warnings {
-    use super::*;
+    use crate::config::kinds::NOT_NEGATIVE;
 
     section! {
         /// mm: how far B may be below the plate (PB211)
@@ -157,7 +153,9 @@ pub mod warnings {
 
 /// `[watch]`: how changes are detected.
 pub mod watch {
-    use super::*;
+    use std::time::Duration;
+
+    use crate::config::kinds::{DURATION, SWITCH};
 
     section! {
         /// how long no file may change before drawings are read again

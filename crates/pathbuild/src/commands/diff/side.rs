@@ -6,7 +6,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
-use pathbuild_workspace::session::{Session, ShownText};
+use pathbuild_workspace::emit::ShownText;
+use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace};
 
 use super::revision::{self, Revision};

@@ -3,9 +3,10 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, shown};
 use pathbuild_view::Scene;
+use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_there;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{self, NamedPaths, Session, ShownText};
+use pathbuild_workspace::session::{NamedPaths, Session};
 
 use crate::args::ViewArgs;
 use crate::commands::program::Program;
@@ -13,7 +14,7 @@ use crate::context::Context;
 
 /// The scene of an argument.
 pub(super) struct TargetScene {
-    pub(super) report: session::SceneReport,
+    pub(super) report: SceneReport,
     /// The drawing or program that is shown.
     pub(super) file: String,
 }
@@ -39,7 +40,7 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Target
         Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
     scene.paths.push(program.scene_path(context));
-    let report = session::SceneReport { scene, diagnostics: program.read.problems };
+    let report = SceneReport { scene, diagnostics: program.read.problems };
     Ok(TargetScene { report, file: file.to_string() })
 }
 

@@ -1,0 +1,84 @@
+//! A value of a setting with its source, and facts about its key.
+
+use std::fmt::{self, Debug};
+
+use serde_json::Value as Json;
+
+/// Source of a setting's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The built-in default: nothing sets the value.
+    Default,
+    /// A line of the configuration, counted from 1.
+    File(u32),
+    /// The command-line option of this name, without hyphens.
+    CommandLine(&'static str),
+}
+
+/// A value with its source.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourcedValue<T> {
+    /// The value.
+    pub value: T,
+    /// What set the value.
+    pub origin: Origin,
+}
+
+impl<T> SourcedValue<T> {
+    /// A default value.
+    pub fn default(value: T) -> Self {
+        Self { value, origin: Origin::Default }
+    }
+
+    /// The value of a command-line option.
+    pub fn option(name: &'static str, value: T) -> Self {
+        Self { value, origin: Origin::CommandLine(name) }
+    }
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Default => f.write_str("default"),
+            Self::File(line) => write!(f, "line {line}"),
+            Self::CommandLine(name) => write!(f, "--{name}"),
+        }
+    }
+}
+
+/// The cached results that depend on a setting.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ResultKind {
+    /// Results of `check`, and hence those of `emit`.
+    Check,
+    /// Results of `emit` only.
+    Emit,
+    /// No results: the setting changes only what is requested or how it is reported.
+    Neither,
+}
+
+impl ResultKind {
+    /// Whether the cached results of the command `result_kind` depend on this setting.
+    pub(in crate::config) fn is_part_of(self, result_kind: Self) -> bool {
+        self != Self::Neither && self <= result_kind
+    }
+}
+
+/// Facts about a key that do not depend on its type.
+pub(super) struct Key {
+    /// Name within its table.
+    pub(super) name: &'static str,
+    /// Description, in one or more lines.
+    pub(super) meaning: &'static [&'static str],
+    /// A value as TOML: the default, or an example if there is no default.
+    pub(super) example: &'static str,
+    /// JSON schema of its value.
+    pub(super) schema: fn() -> Json,
+}
+
+/// A key with its value as TOML, and its source.
+pub(super) struct ShownSetting {
+    pub(super) name: &'static str,
+    pub(super) value: Option<String>,
+    pub(super) origin: Origin,
+}

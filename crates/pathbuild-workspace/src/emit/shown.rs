@@ -1,0 +1,274 @@
+//! What other commands show of a path: its scene, the text of its program, its setup sheet.
+
+use std::slice;
+
+use camino::Utf8PathBuf;
+use pathbuild_db::{
+    Database, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
+    other_layers, placed_keep_outs, traced_program,
+};
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_path::{KeepOut, PathName};
+use pathbuild_view::{self as view, BilingualText, EmittedText, Scene, ScenePath, Sheet};
+
+use super::build::{Built, build};
+use super::options::{self, OutputSettings, writing};
+use super::outcome::Task;
+use super::plan::{Job, JobBuilder, Plan};
+use super::sheet::sheet;
+use crate::config::Origin;
+use crate::config::types::SheetFormat;
+use crate::findings::Findings;
+use crate::posting::PostProcessor;
+use crate::session::{CheckedTarget, NamedPaths, NotOnePath, Session, drawn_source, examples, program_scene};
+use crate::workspace::Workspace;
+
+/// A scene, with the diagnostics of its paths.
+#[derive(Debug)]
+pub struct SceneReport {
+    /// The scene. Its findings are empty until severities are applied.
+    pub scene: Scene,
+    /// Diagnostics with their locations.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Which program text is shown beside the moves.
+#[derive(Clone, Copy, Debug)]
+pub enum ShownText<'a> {
+    /// The native program.
+    Native,
+    /// What `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
+    Emitted(Option<&'a PostProcessor>),
+}
+
+impl SceneReport {
+    /// Completes the scene with its findings, according to the configured severities. `file` is the drawing that is shown.
+    pub fn with_findings(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
+        let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
+        scene.findings = view::findings(&findings.diagnostics, file);
+        (scene, findings)
+    }
+}
+
+impl Session<'_> {
+    /// The scene of some paths of a drawing, with their texts. If options are missing, or if a path has variables, its program is that of a
+    /// check: with example values, and with S as if it were embedded.
+    pub fn scene(&self, file: SourceFile, names: &[PathName], text: ShownText<'_>) -> SceneReport {
+        let name = file.path(self.db()).as_str();
+        let title = match names {
+            [path] => path.as_str(),
+            _ => file.path(self.db()).file_name().unwrap_or(name),
+        };
+        let mut scene = Scene::new(title);
+        let mut diagnostics = check_file(self.db(), file).to_vec();
+        scene
+            .keep_outs
+            .extend(keep_outs(self.db(), file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
+        for path in names {
+            let (seen, found, clamps) = self.scene_path(file, path, text);
+            let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
+            scene.keep_outs.extend(clamps.iter().map(|clamp| view::keep_out(clamp, zero)));
+            scene.paths.extend(seen);
+            diagnostics.extend(found);
+        }
+        scene.other_layers = view::other_layers(other_layers(self.db(), file));
+        self.add_origins(&mut scene);
+        SceneReport { scene, diagnostics }
+    }
+
+    /// Says of each parameter that an option gives where in pathbuild.toml that stands.
+    fn add_origins(&self, scene: &mut Scene) {
+        let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
+        for parameter in elements.flat_map(|element| &mut element.parameters) {
+            let option = parameter.which.as_deref().filter(|_| parameter.from == "option");
+            let origin = option.map(|option| self.workspace().settings.origin_of_option(option));
+            parameter.line = match origin {
+                Some(Origin::File(line)) => Some(line),
+                Some(Origin::Default | Origin::CommandLine(_)) | None => None,
+            };
+        }
+    }
+
+    /// The scene of a path, its diagnostics, and the clamps that it embeds, at their places in the program.
+    fn scene_path(
+        &self,
+        file: SourceFile,
+        name: &PathName,
+        text: ShownText<'_>,
+    ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
+        let checked = self
+            .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
+            .pop();
+        let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
+        let writing = &writing(self.workspace());
+        // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
+        let is_written = *checked.target.role(self.db()) == Role::Emitted
+            && self.workspace().settings.general.rapid.value.is_some();
+        let (emitted, refusal) = match text {
+            ShownText::Native => (None, None),
+            ShownText::Emitted(post_processor) => match program_text(self, post_processor, &checked) {
+                Ok(emitted) => (emitted, None),
+                Err(problems) => {
+                    (None, problems.iter().find(|problem| problem.is_error() && is_written).map(bilingual))
+                }
+            },
+        };
+        let shown = emitted.as_ref().map(|emitted| EmittedText {
+            file: is_written.then_some(emitted.file.as_str()),
+            bytes: &emitted.bytes,
+            dialect: emitted.dialect,
+            is_posted: matches!(text, ShownText::Emitted(Some(_))),
+        });
+        let work = |db: &Database, target: &Target| -> Result<_, Box<Diagnostic>> {
+            let Some(traced) = traced_program(db, *target) else { return Ok(None) };
+            let mut scene = program_scene(db, traced, writing, shown)?;
+            if let Some(scene) = &mut scene {
+                scene.examples = examples(db, traced, writing);
+                scene.refusal.clone_from(&refusal);
+            }
+            let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
+            Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
+        };
+        let mut diagnostics = checked.diagnostics;
+        let at = |problem: Diagnostic| problem.in_file(file.path(self.db())).in_path(name.as_str());
+        let result = self.map_guarded(slice::from_ref(&checked.target), work).pop();
+        match result {
+            Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),
+            Some(Err(problem) | Ok(Err(problem))) => diagnostics.push(at(*problem)),
+            Some(Ok(Ok(None))) | None => {}
+        }
+        let drawn = drawn_path(self.db(), file, name);
+        let examples = file_index(self.db(), file).path(name).map(|path| path.examples.clone());
+        let parameters = in_force(self.db(), file, name, &examples.unwrap_or_default(), true);
+        let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(self.db(), file, drawn, &parameters)));
+        (drawn, diagnostics, Vec::new())
+    }
+}
+
+/// The message of a diagnostic in both languages.
+fn bilingual(problem: &Diagnostic) -> BilingualText {
+    BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
+}
+
+/// A sheet with the diagnostics of its path.
+#[derive(Debug)]
+pub struct SheetOutcome {
+    /// `None` if the path has errors.
+    pub sheet: Option<Sheet>,
+    /// All diagnostics of the path.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Creates the setup sheet of a path, or of a drawing's only path.
+///
+/// # Errors
+/// Why the argument makes no sense, or which options are missing.
+pub fn sheet_of(
+    session: &mut Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    what: &str,
+) -> Result<SheetOutcome, String> {
+    session.with_stable_files(|session| match resolve_target(session, what)? {
+        Ok(target) => of_target(session, post_processor, target),
+        Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics: session.with_hints(diagnostics) }),
+    })
+}
+
+/// Resolves an argument to a path, or returns the diagnostics of its drawing.
+fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Vec<Diagnostic>>, String> {
+    let context = session.workspace();
+    match session.one_path(what, Role::Emitted) {
+        Ok(target) => Ok(Ok(target)),
+        Err(NotOnePath::Wrong(diagnostics)) => Ok(Err(diagnostics)),
+        Err(NotOnePath::Several(NamedPaths { names, .. })) => {
+            let names: Vec<&str> = names.iter().map(PathName::as_str).collect();
+            Err(context.phrase(
+                "a setup sheet shows a single path: name one of {}",
+                "ein Einrichteblatt zeigt einen einzelnen Pfad: einen von diesen nennen: {}",
+                &names.join(", "),
+            ))
+        }
+        Err(NotOnePath::Directory) => Err(context
+            .choose(
+                "a setup sheet shows a single path: this is a directory",
+                "ein Einrichteblatt zeigt einen einzelnen Pfad: das ist ein Verzeichnis",
+            )
+            .into()),
+    }
+}
+
+fn of_target(
+    session: &Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    target: Target,
+) -> Result<SheetOutcome, String> {
+    let context = session.workspace();
+    let checked = session.check(&[target]);
+    if let Some(refusal) = options::missing(context, Task::Write { force: false }, &checked) {
+        return Err(refusal);
+    }
+    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
+    let Plan { mut diagnostics, refusals, job } = builder.plan(&checked);
+    diagnostics.extend(refusals);
+    let sheet = job.and_then(|job| of_job(session, &job, post_processor, &mut diagnostics));
+    Ok(SheetOutcome { sheet, diagnostics: session.with_hints(diagnostics) })
+}
+
+/// Sheet of a job; `None` if its program would not be written.
+fn of_job(
+    session: &Session<'_>,
+    job: &Job,
+    post_processor: Option<&PostProcessor>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Sheet> {
+    let settings = OutputSettings::new(session.workspace(), post_processor);
+    let work = |db: &Database, job: &&Job| {
+        let result = build(db, job, &settings);
+        let sheet = if result.outcome.is_refused { Ok(None) } else { sheet(db, job, &settings) };
+        (result.outcome.problems, sheet)
+    };
+    let result = session.map_guarded(&[job], work).pop()?;
+    let sheet = result.and_then(|(problems, sheet)| {
+        diagnostics.extend(problems);
+        sheet
+    });
+    sheet.unwrap_or_else(|problem| {
+        diagnostics.push(problem.in_file(job.drawing(session.db()).path(session.db())));
+        None
+    })
+}
+
+/// A program file in memory.
+struct ProgramText {
+    /// Path that `emit` would write it to.
+    file: Utf8PathBuf,
+    bytes: Vec<u8>,
+    /// Dialect to read it in.
+    dialect: Dialect,
+}
+
+/// Generates the program of a checked path; `None` if the path has errors.
+///
+/// # Errors
+/// Why `emit` would refuse to write it.
+fn program_text(
+    session: &Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    checked: &CheckedTarget,
+) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
+    let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
+    let Some(job) = builder.job(slice::from_ref(checked))? else { return Ok(None) };
+    let settings = OutputSettings::new(session.workspace(), post_processor);
+    let work = |db: &Database, job: &Job| build(db, job, &settings);
+    let files =
+        session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(Built::default()));
+    let files = files.map_err(|problem| vec![*problem])?;
+    // Without a known dialect, read the text as generic RS274, as when it is read back.
+    let dialect = post_processor
+        .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
+    match files.outputs.into_iter().find(|output| output.kind.is_program()) {
+        Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),
+        None => Err(files.outcome.problems),
+    }
+}

@@ -1,0 +1,155 @@
+//! What watching is asked for, what it hears, and what it reports.
+
+use std::collections::BTreeSet;
+use std::sync::mpsc::Sender;
+use std::time::Duration;
+
+use camino::Utf8PathBuf;
+use notify::Event;
+use pathbuild_db::SourceFile;
+use pathbuild_diagnostic::Diagnostic;
+
+use crate::Inputs;
+use crate::emit::ProgramOutcome;
+use crate::posting::PostProcessor;
+use crate::session::Session;
+
+/// A request to watch drawings.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// The drawings, paths and directories; if empty, the library.
+    pub inputs: &'a Inputs,
+    /// Whether to write the programs of `[emit] targets`.
+    pub emits: bool,
+    /// Whether the listener lists paths, for which it needs the post-processor.
+    pub lists: bool,
+    /// Whether to poll for changes, on systems that send no events.
+    pub polls: bool,
+}
+
+/// Receives events from the watcher. Callbacks get the session so that they can query more than the findings.
+pub trait Listener {
+    /// Hands over the handle that wakes the watcher from other threads.
+    fn set_bell(&self, _: Bell) {}
+    /// Drawings were found and read, and will be checked. The diagnostics are those of arguments and directories.
+    fn drawings_found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
+    /// Drawings were checked, and on request their programs were written through this post-processor.
+    fn drawings_checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
+    /// A wake-up was requested through the [`Bell`].
+    fn woken(&self, _: &mut Session<'_>) {}
+    /// All drawings were checked for the first time.
+    fn first_check_done(&self, _: &FirstCheck) {}
+    /// A batch of changes was processed.
+    fn batch_done(&self, _: &Update) {}
+    /// The targets of these links cannot be watched, for the reason that the system gives.
+    fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
+    /// Programs were written.
+    fn programs_written(&self, _: &[ProgramOutcome]) {}
+    /// Programs cannot be written because options are missing; the text says which.
+    fn options_missing(&self, _: &str) {}
+}
+
+/// The result of the first check.
+#[derive(Debug)]
+pub struct FirstCheck {
+    /// Number of drawings.
+    pub drawings: usize,
+    /// Number of their paths.
+    pub paths: usize,
+    /// All diagnostics.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Duration of the check.
+    pub time: Duration,
+}
+
+/// The result of a batch of changes.
+#[derive(Clone, Debug)]
+pub struct Update {
+    /// Number of the batch, counted from 1.
+    pub revision: u64,
+    /// Files that changed.
+    pub changed: BTreeSet<Utf8PathBuf>,
+    /// Those of them that no longer exist.
+    pub removed: BTreeSet<Utf8PathBuf>,
+    /// Diagnostics of arguments and directories, if they have changed; they are part of `now` as well.
+    pub problems: Option<Vec<Diagnostic>>,
+    /// Unchanged drawings that were checked again because of transient diagnostics, and directories that can be listed again.
+    pub tried_again: BTreeSet<Utf8PathBuf>,
+    /// Number of drawings that were checked.
+    pub checked: usize,
+    /// Number of drawings still to be checked, because more changes arrived.
+    pub open: usize,
+    /// Previous diagnostics of these drawings.
+    pub before: Vec<Diagnostic>,
+    /// Current diagnostics of these drawings.
+    pub now: Vec<Diagnostic>,
+    /// Duration of the batch.
+    pub time: Duration,
+}
+
+/// Why watching ended.
+#[derive(Debug)]
+pub enum WatchEnd {
+    /// No more changes will arrive, or the end was requested.
+    Over,
+    /// The configuration, or a file of the configured post-processor, changed: everything must be restarted.
+    ConfigurationChanged,
+    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced: the system still watches the old one.
+    DirectoriesChanged,
+    /// There are no arguments, and the configuration names no library.
+    NothingNamed,
+    /// Programs are to be written, but the configuration names no targets.
+    NoTargets,
+    /// The post-processor has errors.
+    BadPost(Vec<Diagnostic>),
+    /// The system does not report changes; the text says why.
+    CannotWatch(String),
+}
+
+/// Messages from other threads.
+pub(super) enum Signal {
+    Changed(notify::Result<Event>),
+    Rung,
+    Over,
+}
+
+/// Wakes the watching thread. May be cloned and used by any thread.
+#[derive(Clone, Debug)]
+pub struct Bell(pub(super) Sender<Signal>);
+
+impl Bell {
+    /// Requests a call of [`Listener::woken`] as soon as the session is idle. Has no effect once watching has ended.
+    pub fn ring(&self) {
+        _ = self.0.send(Signal::Rung);
+    }
+
+    /// Ends watching as soon as the current work is done.
+    pub fn end(&self) {
+        _ = self.0.send(Signal::Over);
+    }
+}
+
+/// Why everything must be restarted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Restart {
+    /// A watched directory, or one on the way to it, appeared, disappeared or was replaced.
+    Directories,
+    /// The configuration or a file of the post-processor changed.
+    Configuration,
+}
+
+/// Changed paths: normalized names of files and directories that were written, created, renamed or removed.
+#[derive(Debug, Default)]
+pub(super) struct Changes {
+    pub(super) paths: BTreeSet<Utf8PathBuf>,
+    /// Whether events were lost, so that more may have changed.
+    pub(super) is_incomplete: bool,
+    /// Why everything must be restarted, if it must.
+    pub(super) restart: Option<Restart>,
+}
+
+impl Changes {
+    pub(super) fn is_empty(&self) -> bool {
+        self.paths.is_empty() && !self.is_incomplete && self.restart.is_none()
+    }
+}
