@@ -96,7 +96,7 @@ words! {
     /// G01, G02, G03.
     CUT: "cut", "Schnitt";
     /// G38.2, G31.
-    PROBING_MOVE: "probing move", "Messbewegung";
+    PROBING_MOVE: "probing move", "Antastbewegung";
     /// The value comes from the element.
     OWN_TEXT: "own text", "eigener Text";
     /// The value comes from the first segment of the chain.

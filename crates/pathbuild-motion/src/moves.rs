@@ -68,9 +68,9 @@ impl Pace {
     /// The name of such a move in messages.
     pub fn word(self) -> &'static Text {
         match self {
-            Self::Rapid => &Text { en: "a rapid move", de: "eine Eilgangbewegung" },
+            Self::Rapid => &Text { en: "a rapid move", de: "ein Eilgang" },
             Self::Feed(_) => &Text { en: "a cutting move", de: "eine Fräsbewegung" },
-            Self::Probe { .. } => &Text { en: "a probing move", de: "eine Messbewegung" },
+            Self::Probe { .. } => &Text { en: "a probing move", de: "eine Antastbewegung" },
         }
     }
 }

@@ -69,7 +69,7 @@ messages! {
     /// A layer that is both a path layer and a layer with clamps.
     KEEP_OUT_IS_PATH: InvalidConfiguration {
         en: "layer {layer} is a path layer by `path-pattern`, but also holds clamps by `keep-out`",
-        de: "Layer {layer} ist nach `path-pattern` ein Pfad-Layer, enthält nach `keep-out` aber auch Spannmittel",
+        de: "Layer {layer} ist nach `path-pattern` ein Pfadlayer, enthält nach `keep-out` aber auch Spannmittel",
         help_en: "write `keep-out` so that it matches only the whole names of layers with clamps, or rename the layer",
         help_de: "`keep-out` so schreiben, dass es nur auf die ganzen Namen von Layern mit Spannmitteln passt, oder den Layer umbenennen",
     }
@@ -156,9 +156,9 @@ messages! {
     /// A restriction without a colon.
     RESTRICT_WITHOUT_COLON: InvalidConfiguration {
         en: "`{key}` must be PARENT:CHILD, two regular expressions with a colon between",
-        de: "`{key}` muss PARENT:CHILD sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
+        de: "`{key}` muss AUSSEN:INNEN sein, zwei reguläre Ausdrücke mit einem Doppelpunkt dazwischen",
         help_en: "paths whose names match PARENT embed only paths whose names match CHILD: \"^8:P$\"",
-        help_de: "Pfade, deren Namen PARENT entsprechen, betten nur Pfade ein, deren Namen CHILD entsprechen: \"^8:P$\"",
+        help_de: "Pfade, deren Namen AUSSEN entsprechen, betten nur Pfade ein, deren Namen INNEN entsprechen: \"^8:P$\"",
     }
     /// A severity for an unknown code, with a similar known one.
     UNKNOWN_CODE: InvalidConfiguration {

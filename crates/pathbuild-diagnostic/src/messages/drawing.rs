@@ -11,12 +11,12 @@ messages! {
     /// Note: a start marker on a layer without a path.
     START_ON_OTHER_LAYER: MissingStart {
         en: "layer {layer}, which is not a path layer, has a start marker at {point}: is it on the wrong layer?",
-        de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Anfangsmarke: liegt sie auf dem falschen Layer?",
+        de: "auf Layer {layer}, der kein Pfadlayer ist, liegt bei {point} eine Anfangsmarke: liegt sie auf dem falschen Layer?",
     }
     /// Note: an end marker on a layer without a path.
     END_MARKER_ON_OTHER_LAYER: MissingEnd {
         en: "layer {layer}, which is not a path layer, has an end marker at {point}: is it on the wrong layer?",
-        de: "auf Layer {layer}, der kein Pfad-Layer ist, liegt bei {point} eine Endmarke: liegt sie auf dem falschen Layer?",
+        de: "auf Layer {layer}, der kein Pfadlayer ist, liegt bei {point} eine Endmarke: liegt sie auf dem falschen Layer?",
     }
     /// Note: a circle with the text of a start.
     MEANT_AS_START: MissingStart {
@@ -69,14 +69,14 @@ messages! {
     /// A line type without a meaning.
     UNKNOWN_LINE_TYPE: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
-        de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
+        de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; Elemente damit: {count}",
         help_en: "the known line types are {known}, each also with 2, X2 or TINY; [line-types] in pathbuild.toml can add names",
         help_de: "bekannt sind {known}, jeweils auch mit 2, X2 oder TINY; [line-types] in pathbuild.toml kann weitere festlegen",
     }
     /// A line type without a meaning, with a suggestion.
     LINE_TYPE_LIKE_ANOTHER: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
-        de: "Linientyp {line_type} hat auf einem Pfad-Layer keine Bedeutung; Elemente damit: {count}",
+        de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; Elemente damit: {count}",
         help_en: "if it means {like}, add this line under [line-types] in pathbuild.toml: \"{line_type}\" = \"{like}\"",
         help_de: "wenn {like} gemeint ist, unter [line-types] in pathbuild.toml diese Zeile einfügen: \"{line_type}\" = \"{like}\"",
     }
@@ -409,7 +409,7 @@ messages! {
     /// Polylines, blocks and curves with `compatible`, reported once per drawing.
     NOT_COMPATIBLE: UnsupportedCurve {
         en: "polylines, blocks and curves on path layers are left out, as PathDxf2GCode does; the first is {entity}",
-        de: "Polylinien, Blöcke und Kurven auf Pfad-Layern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
+        de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
         help_en: "explode it into lines and arcs, or work without `compatible`, where it is milled",
         help_de: "in Linien und Bögen auflösen oder ohne `compatible` arbeiten: dann wird gefräst",
     }

@@ -102,7 +102,7 @@ messages! {
         en: "line {line} of {name} has {length} bytes, which exceeds the limit of {limit}; nothing is written",
         de: "Zeile {line} von {name} hat {length} Byte und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
         help_en: "shorten the comment Q; with many probes, another `z-model` than \"plane\" writes four of them in a line",
-        help_de: "den Kommentar Q kürzen; bei vielen Messpunkten schreibt ein anderes `z-model` als \"plane\" vier davon in eine Zeile",
+        help_de: "den Kommentar Q kürzen; bei vielen Proben schreibt ein anderes `z-model` als \"plane\" vier davon in eine Zeile",
     }
     /// A program that is too large to write.
     OUTPUT_TOO_LARGE: LimitReached {

@@ -9,7 +9,7 @@ messages! {
     /// A comment that the controller obeys, such as `(LOGOPEN,name)`.
     ACTIVE_COMMENT: ActiveComment {
         en: "{dialect} obeys this comment: {word}",
-        de: "{dialect} gehorcht diesem Kommentar: {word}",
+        de: "{dialect} führt diesen Kommentar aus: {word}",
         help_en: "put another word in front if it is only a remark",
         help_de: "ein anderes Wort davorsetzen, wenn es nur eine Bemerkung ist",
     }
@@ -23,7 +23,7 @@ messages! {
     /// Lower-case words such as `g0 f1000`, where only upper case is accepted.
     SMALL_LETTER: UnknownWord {
         en: "common builds of {dialect} do not read lower-case letters: write {letter}",
-        de: "übliche Ausgaben von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
+        de: "gängige Versionen von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
         help_en: "write all words in upper case",
         help_de: "alle Wörter in Großbuchstaben schreiben",
     }
@@ -58,21 +58,21 @@ messages! {
     /// A line that does not begin with a command.
     NO_COMMAND: UnknownWord {
         en: "the line begins with `{word}`: {dialect} obeys only lines that begin with G, M or T",
-        de: "die Zeile beginnt mit `{word}`: {dialect} gehorcht nur Zeilen, die mit G, M oder T beginnen",
+        de: "die Zeile beginnt mit `{word}`: {dialect} führt nur Zeilen aus, die mit G, M oder T beginnen",
         help_en: "put the command in front",
         help_de: "den Befehl davorsetzen",
     }
     /// Two commands in one line.
     SECOND_COMMAND: ConflictingWords {
         en: "{dialect} obeys one command a line: {first}, not {word}",
-        de: "{dialect} gehorcht einem Befehl je Zeile: {first}, nicht {word}",
+        de: "{dialect} führt je Zeile nur einen Befehl aus: {first}, nicht {word}",
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
     /// Two G words, or two M words, in one line.
     SECOND_WORD: ConflictingWords {
         en: "{dialect} obeys one {letter} word a line: {first}, not {word}",
-        de: "{dialect} gehorcht einem {letter}-Wort je Zeile: {first}, nicht {word}",
+        de: "{dialect} führt je Zeile nur ein {letter}-Wort aus: {first}, nicht {word}",
         help_en: "write {word} into a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
@@ -226,7 +226,7 @@ messages! {
     /// A character that GRBL obeys immediately.
     REAL_TIME_CHARACTER: RealTimeCharacter {
         en: "{dialect} obeys `{found}` at once, even in a comment: {effect}",
-        de: "{dialect} gehorcht `{found}` sofort, auch in einem Kommentar: {effect}",
+        de: "{dialect} führt `{found}` sofort aus, auch in einem Kommentar: {effect}",
         help_en: "write ASCII only, and no ! ? ~",
         help_de: "nur ASCII schreiben, kein ! ? ~",
     }
@@ -256,7 +256,7 @@ messages! {
         en: "{dialect} drops `/` and runs the line",
         de: "{dialect} lässt `/` weg und führt die Zeile aus",
         help_en: "remove the line if it is not meant",
-        help_de: "die Zeile entfernen, wenn sie nicht gemeint ist",
+        help_de: "die Zeile entfernen, wenn sie nicht ausgeführt werden soll",
     }
     /// An unknown G or M code.
     CODE_NOT_KNOWN: UnknownWord {
@@ -373,14 +373,14 @@ messages! {
     /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
         en: "F is ignored as requested: the layers' feeds apply",
-        de: "F wird wie verlangt übergangen: es gilt der Vorschub der Ebenen",
+        de: "F wird wie verlangt übergangen: es gelten die Vorschübe der Layer",
     }
     /// A speed that replaces an earlier one of the same layer.
     SPEED_REPLACED: IgnoredWord {
         en: "layer {layer} already has the speed {old}; {new} takes its place",
-        de: "die Ebene {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
+        de: "Layer {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
         help_en: "give each layer one S",
-        help_de: "jeder Ebene nur ein S geben",
+        help_de: "jedem Layer nur ein S geben",
     }
     /// Two words of the same modal group.
     SAME_GROUP: ConflictingWords {
@@ -619,14 +619,14 @@ messages! {
     /// A probing move that does not go down.
     USELESS_PROBE: UselessProbe {
         en: "the probing move does not go down, so it touches nothing",
-        de: "die Messbewegung führt nicht nach unten und berührt daher nichts",
+        de: "die Antastbewegung führt nicht nach unten und berührt daher nichts",
         help_en: "probe towards the material; G38.4 and G38.5 go away from it",
         help_de: "zum Material hin messen; G38.4 und G38.5 führen von ihm weg",
     }
     /// A probing move without length.
     PROBE_WITHOUT_WAY: UselessProbe {
         en: "the probing move ends where it begins",
-        de: "die Messbewegung endet, wo sie beginnt",
+        de: "die Antastbewegung endet, wo sie beginnt",
         help_en: "probe to a height below the material",
         help_de: "bis zu einer Höhe unter dem Material messen",
     }

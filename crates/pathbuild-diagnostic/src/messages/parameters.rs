@@ -55,7 +55,7 @@ messages! {
         en: "\"{text}\" looks like a remark and contains no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
         help_en: "move a remark to a layer that is no path layer; Q puts a comment into the program",
-        help_de: "eine Bemerkung auf einen Layer legen, der kein Pfad-Layer ist; mit Q kommt ein Kommentar ins Programm",
+        help_de: "eine Bemerkung auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm",
     }
     /// A zero instead of O.
     ZERO_FOR_O: UnknownParameter {
@@ -186,7 +186,7 @@ messages! {
     /// Material or a probe that H raises to the sweep height.
     RAISED_INTO_SWEEPS: ParameterOutOfRange {
         en: "the material here reaches up to {limit}, but this path sweeps at {value}: rapid moves would hit it",
-        de: "das Material hier reicht bis {limit}, die Leerfahrten dieses Pfads laufen aber auf {value}: Eilgangbewegungen würden damit kollidieren",
+        de: "das Material hier reicht bis {limit}, die Leerfahrten dieses Pfads laufen aber auf {value}: Eilgänge würden damit kollidieren",
         help_en: "give this path a greater S, or raise the material less (H)",
         help_de: "diesem Pfad ein größeres S geben oder das Material weniger anheben (H)",
     }

@@ -230,7 +230,7 @@ messages! {
     /// A name that the controller would execute.
     TEXT_AMONG_WORDS: RejectedWord {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
-        de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführte",
+        de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführen würde",
         help_en: "write it in a comment in the post, or give the drawing another name",
         help_de: "es im Postprozessor in einen Kommentar schreiben oder die Zeichnung anders nennen",
     }
@@ -251,7 +251,7 @@ messages! {
     /// A word for an axis that another axis replaces.
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\", but {angle} stands in place of {axis}: the machine would move both",
-        de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine bewegte beide",
+        de: "der Postprozessor schreibt \"{line}\", aber {angle} steht anstelle von {axis}: die Maschine würde beide bewegen",
         help_en: "take {axis} out of the post's texts",
         help_de: "{axis} aus den Texten des Postprozessors nehmen",
     }
@@ -375,7 +375,7 @@ messages! {
         en: "{text}, line {line}, column {column}: this brace closes nothing",
         de: "{text}, Zeile {line}, Spalte {column}: diese Klammer schließt nichts",
         help_en: "a brace that is to be written is preceded by a backslash",
-        help_de: "eine Klammer, die ausgegeben werden soll, erhält einen Rückstrich davor",
+        help_de: "eine Klammer, die ausgegeben werden soll, erhält einen Backslash davor",
     }
     /// A missing `}`.
     OPEN_BRACE: InvalidControlText {
@@ -503,9 +503,9 @@ messages! {
     /// A text without Z for a helix.
     NO_Z_IN_ARC: InvalidControlText {
         en: "{operation} has a helix from Z {from} to Z {to}, but the text arc has no ~Z1~",
-        de: "{operation} hat eine Wendel von Z {from} nach Z {to}, aber der Text arc hat kein ~Z1~",
+        de: "{operation} hat eine Helix von Z {from} nach Z {to}, aber der Text arc hat kein ~Z1~",
         help_en: "add Z with ~Z1~ to the text arc; where the control knows no helix, to the text line, and it is written as lines",
-        help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Wendel, in den Text line, dann werden es Strecken",
+        help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Helix, in den Text line, dann werden es Strecken",
     }
     /// A text for something that programs do not contain.
     TEXT_NEVER_CALLED: InvalidControlText {
@@ -637,7 +637,7 @@ messages! {
     /// A work offset such as G55.
     OFFSET_CHOSEN: DoubtfulPost {
         en: "the output selects a work offset of the machine ({word}), which determines the position of the drawing's zero",
-        de: "die Ausgabe wählt einen Nullpunktversatz der Maschine ({word}), der die Lage des Zeichnungsnullpunkts bestimmt",
+        de: "die Ausgabe wählt eine Nullpunktverschiebung der Maschine ({word}), die die Lage des Zeichnungsnullpunkts bestimmt",
     }
     /// Note: the line of the unwritten output that contains the problem.
     IN_OUTPUT: PostDiffers {
@@ -676,9 +676,9 @@ messages! {
     /// A plunge directly after a tool change.
     CUT_AFTER_CHANGE: NothingToPost {
         en: "{operation} goes on at Z {z}, below the surface at {surface}, right after the change to T{index}: the new tool would plunge where the old one ended",
-        de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug tauchte ein, wo das alte aufhörte",
+        de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug würde eintauchen, wo das alte aufgehört hat",
         help_en: "put a rapid move to a place above the material between the tool change and the next cut",
-        help_de: "zwischen Werkzeugwechsel und nächstem Schnitt eine Eilgangbewegung über das Material setzen",
+        help_de: "zwischen Werkzeugwechsel und nächstem Schnitt einen Eilgang über das Material setzen",
     }
     /// G28, G30 or G53.
     JOB_NAMED_PLACE: NothingToPost {

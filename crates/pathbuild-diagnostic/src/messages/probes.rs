@@ -32,7 +32,7 @@ messages! {
     /// A value that differs from the one in the log.
     VALUE_DIFFERS_FROM_LOG: InvalidProbeLine {
         en: "#{probe} has a value here, but {measured} in the log",
-        de: "#{probe} hat hier einen Wert, im Log aber {measured}",
+        de: "#{probe} hat hier einen Wert, im Protokoll aber {measured}",
         help_en: "remove the wrong one: the value here, or --log",
         help_de: "das Falsche entfernen: den Wert hier oder --log",
     }
@@ -41,7 +41,7 @@ messages! {
         en: "this probe made no contact",
         de: "diese Probe hatte keinen Kontakt",
         help_en: "probe again; remove lines of other probes or of earlier runs from the log",
-        help_de: "noch einmal messen; aus dem Log Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
+        help_de: "noch einmal messen; aus dem Protokoll Zeilen entfernen, die von anderen Proben oder einem früheren Lauf sind",
     }
     /// A malformed line of a log.
     BROKEN_LOG_LINE: InvalidProbeLine {
@@ -53,9 +53,9 @@ messages! {
     /// A log with another number of results.
     LOG_COUNT: InvalidProbeLine {
         en: "the log has {found} probe results, but {file} has {expected} probes",
-        de: "das Log hat {found} Ergebnisse von Proben, {file} aber {expected} Proben",
+        de: "das Protokoll hat {found} Ergebnisse von Proben, {file} aber {expected} Proben",
         help_en: "the log must have one result [PRB:X,Y,Z:1] for each probe, in the order of the probing run, and no other",
-        help_de: "das Log muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Probenlaufs, und kein anderes",
+        help_de: "das Protokoll muss für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] enthalten, in der Reihenfolge des Antastprogramms, und kein anderes",
     }
     /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {

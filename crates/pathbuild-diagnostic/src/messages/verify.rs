@@ -130,14 +130,14 @@ messages! {
     /// A rapid move down and up again, as in `G0 Z-3`, `G0 Z2`.
     RAPID_DIP: RapidPlunge {
         en: "a rapid move down to Z {z} below the material's surface, and up again: nothing was cut there before",
-        de: "eine Eilgangbewegung hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
+        de: "ein Eilgang hinunter auf Z {z} unter die Oberfläche des Materials und wieder hinauf: dort wurde vorher nichts gefräst",
         help_en: "drill with G01 and a feed",
         help_de: "mit G01 und einem Vorschub bohren",
     }
     /// `G28` while the tool is below the surface.
     HOME_FROM_DEPTH: RapidInMaterial {
         en: "a rapid move to a place of the machine from Z {z}: the material stands up to Z {surface}",
-        de: "eine Eilgangbewegung zu einem Ort der Maschine ab Z {z}: das Material reicht bis Z {surface}",
+        de: "ein Eilgang ab Z {z} zu einer festen Position der Maschine: das Material reicht bis Z {surface}",
         help_en: "raise the tool above the material first",
         help_de: "das Werkzeug zuerst über das Material heben",
     }
@@ -277,14 +277,14 @@ messages! {
     /// A rapid move in the plane through material.
     RAPID_IN_MATERIAL: RapidInMaterial {
         en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
-        de: "eine Eilgangbewegung auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
+        de: "ein Eilgang auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
         help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {
         en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",
-        de: "eine Eilgangbewegung hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
+        de: "ein Eilgang hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
         help_en: "go down with G1 and a feed (stock known at {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
@@ -305,7 +305,7 @@ messages! {
     /// A rapid move in the plane and down at the same time.
     DIAGONAL_RAPID: DiagonalRapid {
         en: "a rapid move in the plane and down to Z {z} at once: many machines do not go straight",
-        de: "eine Eilgangbewegung in der Ebene und zugleich hinunter auf Z {z}: viele Maschinen fahren nicht gerade",
+        de: "ein Eilgang in der Ebene und zugleich hinunter auf Z {z}: viele Maschinen fahren nicht gerade",
         help_en: "move in the plane first, then down",
         help_de: "zuerst in der Ebene fahren, dann hinunter",
     }

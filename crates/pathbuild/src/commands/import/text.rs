@@ -44,8 +44,7 @@ impl Formatter<'_> {
             lines.extend(self.extent(&summary.cut).map(|box_| (self.choose("cutting", "Fräsen"), box_)));
         }
         let is_layer = facts.program.dialect == Dialect::Xpertmill;
-        let tools =
-            if is_layer { self.choose("layers", "Ebenen") } else { self.choose("tools", "Werkzeuge") };
+        let tools = if is_layer { self.choose("layers", "Layer") } else { self.choose("tools", "Werkzeuge") };
         for (index, used) in summary.tools.iter().enumerate() {
             lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer, facts)));
         }
