@@ -56,7 +56,7 @@ fn posts(name: &str, lang: Lang) -> String {
 
 const POST_HEADS: [(&str, &str, &str); 10] = [
     ("post-keys", "key | takes | sets", "Schlüssel | nimmt | setzt"),
-    ("control-texts", "text | called", "Text | wird gerufen"),
+    ("control-texts", "text | called", "Text | wird aufgerufen"),
     ("control-variables", "variable | holds | has a value", "Variable | enthält | hat einen Wert"),
     ("control-statements", "statement | result", "Anweisung | Ergebnis"),
     ("control-operators", "operators", "Operatoren"),

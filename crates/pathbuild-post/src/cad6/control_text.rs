@@ -50,7 +50,7 @@ kinds! {
     BeforeRepeat "before-repeat" "once, after `primary-run`" "einmal, nach `primary-run`";
     SubprogramStart "subprogram-start" "never: no program has subprograms" "nie: Kein Programm hat Unterprogramme";
     SubprogramEnd "subprogram-end" "never: no program has subprograms" "nie: Kein Programm hat Unterprogramme";
-    Rapid "rapid" "pathbuild's own: for each rapid move. With it, `contour-start` and `contour-end` are not called, and every move is written as it is" "Zusatz von pathbuild: bei jedem Eilgang. Damit werden `contour-start` und `contour-end` nicht gerufen, und jede Bewegung steht für sich";
+    Rapid "rapid" "pathbuild's own: for each rapid move. With it, `contour-start` and `contour-end` are not called, and every move is written as it is" "Zusatz von pathbuild: bei jedem Eilgang. Damit werden `contour-start` und `contour-end` nicht aufgerufen, und jede Bewegung steht für sich";
     Stop "stop" "pathbuild's own: where the machine waits for the operator" "Zusatz von pathbuild: wo die Maschine auf den Bediener wartet";
     Dwell "dwell" "pathbuild's own: where the tool stands still for `~DwellTime~` seconds" "Zusatz von pathbuild: wo das Werkzeug `~DwellTime~` Sekunden steht";
     Comment "comment" "pathbuild's own: for each comment, `~CommentText~`" "Zusatz von pathbuild: bei jedem Kommentar, `~CommentText~`";

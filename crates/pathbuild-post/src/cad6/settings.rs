@@ -85,7 +85,7 @@ settings! {
         "unit of all lengths; that of the program without it",
         "Einheit aller Längen; sonst die des Programms";
     "number-lines" |s, v| put(&mut s.number_lines, v.as_bool()), "true or false", "true oder false",
-        "whether `line-number` is called; `true` without it", "ob `line-number` gerufen wird; sonst `true`";
+        "whether `line-number` is called; `true` without it", "ob `line-number` aufgerufen wird; sonst `true`";
     "trim" |s, v| put(&mut s.trim, v.as_bool()), "true or false", "true oder false",
         "whether blanks at line ends are removed; `true` without it",
         "ob Leerzeichen am Zeilenende entfallen; sonst `true`";

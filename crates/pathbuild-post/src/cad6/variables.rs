@@ -139,7 +139,7 @@ variables! {
     "Decimals" number Always, "`[post] decimals`", "`[post] decimals`";
     "Date" text Dated, "the date", "das Datum";
     "PeckDepth" number Holes,
-        "depth of each plunge, 0 without chip breaking", "Tiefe je Stich, 0 ohne Spanbruch";
+        "depth of each peck, 0 without peck drilling", "Tiefe je Stufe, 0 ohne Bohren in Stufen";
     "DwellTime" number Waits, "seconds", "Sekunden";
     "CommentText" text Comments, "the comment", "der Kommentar";
     "SpinUpTime" number Always,

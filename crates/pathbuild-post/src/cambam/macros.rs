@@ -163,12 +163,12 @@ impl Value {
             Self::MopDepthIncrement => word("I, else 0", "I, sonst 0"),
             Self::MopDwell => word(
                 "seconds of the first hole that waits, else 0",
-                "Sekunden der ersten Bohrung, die verweilt, sonst 0",
+                "Sekunden, die die erste Bohrung mit Wartezeit wartet, sonst 0",
             ),
             Self::MopHoleDiameter => word("diameter of a hole: O", "Durchmesser einer Bohrung: O"),
             Self::MopPeckDistance => word(
-                "depth of a plunge of the first hole with chip breaking, else 0",
-                "Tiefe je Stich der ersten Bohrung mit Spanbruch, sonst 0",
+                "depth of a peck of the first hole drilled in pecks, else 0",
+                "Tiefe je Stufe der ersten Bohrung in Stufen, sonst 0",
             ),
             Self::MopStockSurface => word("T", "T"),
             Self::MopTargetDepth => {

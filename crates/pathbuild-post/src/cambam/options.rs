@@ -108,7 +108,7 @@ element_options! {
     "EndOfLine" = "\\r\\n", |o, v| put(&mut o.end_of_line, end_of_line(v)),
         "line ends", "Zeilenenden";
     "UpperCase" = "false", |o, v| put(&mut o.upper_case, boolean(v)),
-        "whether lines are written in capitals", "ob Zeilen groß geschrieben werden";
+        "whether lines are written in capitals", "ob Zeilen in Großbuchstaben geschrieben werden";
     "AddLineNumbers" = "false", |o, v| put(&mut o.add_line_numbers, boolean(v)),
         "whether lines are numbered", "ob Zeilen nummeriert werden";
     "LineNumberStart" = "1", |o, v| put(&mut o.numbering.start, count(v)),
