@@ -1,6 +1,6 @@
 //! Lengths and times of a program, calculated from its own moves. (book: program/gcode)
 
-use pathbuild_motion::{Action, Axes, Move, Pace, Path, Step};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
 /// The statistics of a program with a rapid feed in mm/min, calculated from its moves. A compatible program has those of the original tool.
@@ -90,7 +90,7 @@ impl Tally {
 
     /// Adds a move. `has_length` tells whether its length is known and counts.
     pub(crate) fn add(&mut self, it: &Move, has_length: bool) {
-        self.arcs += u64::from(matches!(it.path, Path::Arc(_)));
+        self.arcs += u64::from(matches!(it.shape, MoveShape::Arc(_)));
         let kind = match it.pace {
             Pace::Probe { .. } => {
                 self.probing += 1;

@@ -8,7 +8,9 @@ use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Ends, Tolerance, compare};
 use pathbuild_motion::Move;
-use pathbuild_toolpath::{Class, Comment, Count, Height, Move as Emitted, Names, Program, Step, Xy};
+use pathbuild_toolpath::{
+    Class, Comment, Count, Height, Names, PlannedMove as Emitted, Program, ProgramStep, Xy,
+};
 
 fn moves(program: &str) -> Vec<(u32, Move)> {
     let text = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\nF100\n{program}\nM30\n");
@@ -206,11 +208,11 @@ fn a_difference_is_said_with_both_lines() {
     );
 }
 
-fn emitted(to: Emitted) -> Step {
+fn emitted(to: Emitted) -> ProgramStep {
     // The only arc is a full circle.
     let length =
         if let Emitted::Arc { centre, .. } = to { std::f64::consts::TAU * centre.coords.norm() } else { 0.0 };
-    Step::Move { to, count: Count { class: Class::Milling, length, feed: None } }
+    ProgramStep::Move { to, count: Count { class: Class::Milling, length, feed: None } }
 }
 
 fn height(z: f64) -> Height {
@@ -231,7 +233,7 @@ fn program() -> Program {
             emitted(Emitted::Sweep { to: Xy::new(third, -third) }),
             emitted(Emitted::Lift { z: height(5.0) }),
             emitted(Emitted::Drill { feed: 150.0, z: height(4.0 + third) }),
-            Step::Comment(question),
+            ProgramStep::Comment(question),
             emitted(Emitted::Line { feed: 80.0, to: Xy::new(10.0 + third, 0.0), z: height(4.0) }),
             emitted(Emitted::Drill { feed: 80.0, z: height(3.0) }),
             emitted(Emitted::Arc {

@@ -1008,9 +1008,9 @@ fn an_arc_begins_and_ends_along_its_tangents() {
     for (code, ends) in [("G3", [[0.0, 1.0], [-1.0, 0.0]]), ("G2", [[0.0, -1.0], [1.0, 0.0]])] {
         let program = format!("{HEAD}G0 X5 Y0 Z0\n{code} X0 Y5 I-5 F10\nM30\n");
         let interpreted = interpret(program.as_bytes(), LinuxCnc, &Options::default());
-        let arc = interpreted.moves().into_iter().find_map(|(_, it)| match it.path {
-            pathbuild_motion::Path::Arc(arc) => Some((arc, it)),
-            pathbuild_motion::Path::Line => None,
+        let arc = interpreted.moves().into_iter().find_map(|(_, it)| match it.shape {
+            pathbuild_motion::MoveShape::Arc(arc) => Some((arc, it)),
+            pathbuild_motion::MoveShape::Line => None,
         });
         let (arc, it) = arc.expect("there is an arc");
         let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12;

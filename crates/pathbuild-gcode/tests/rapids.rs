@@ -1,48 +1,48 @@
 //! Tests of rapid moves into material, in programs made from drawings. (book: program/reading)
 
 use pathbuild_gcode::verify::rapids_into_material;
-use pathbuild_toolpath::{Class, Comment, Count, ElementKind, Height, Move, Program, Step, Xy};
+use pathbuild_toolpath::{Class, Comment, Count, ElementKind, Height, PlannedMove, Program, ProgramStep, Xy};
 
-fn go(to: Move) -> Step {
-    Step::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
+fn go(to: PlannedMove) -> ProgramStep {
+    ProgramStep::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
 }
 
-fn sweep(x: f64, y: f64) -> Step {
-    go(Move::Sweep { to: Xy::new(x, y) })
+fn sweep(x: f64, y: f64) -> ProgramStep {
+    go(PlannedMove::Sweep { to: Xy::new(x, y) })
 }
 
 fn height(z: f64) -> Height {
     Height { z, at: Xy::new(0.0, 0.0) }
 }
 
-fn lift(z: f64) -> Step {
-    go(Move::Lift { z: height(z) })
+fn lift(z: f64) -> ProgramStep {
+    go(PlannedMove::Lift { z: height(z) })
 }
 
-fn mill(x: f64, y: f64, z: f64) -> Step {
-    go(Move::Line { feed: 150.0, to: Xy::new(x, y), z: height(z) })
+fn mill(x: f64, y: f64, z: f64) -> ProgramStep {
+    go(PlannedMove::Line { feed: 150.0, to: Xy::new(x, y), z: height(z) })
 }
 
 /// Half a circle clockwise, to a position straight above or below.
-fn half_circle(x: f64, y: f64, radius: f64, z: f64) -> Step {
+fn half_circle(x: f64, y: f64, radius: f64, z: f64) -> ProgramStep {
     let (to, centre) = (Xy::new(x, y), Xy::new(0.0, radius));
-    go(Move::Arc { feed: 150.0, clockwise: true, centre, to, z: height(z), is_spiral: true })
+    go(PlannedMove::Arc { feed: 150.0, clockwise: true, centre, to, z: height(z), is_spiral: true })
 }
 
 /// The following cuts have this upper face and a cutter with this diameter.
-fn element(surface: f64, cutter: f64) -> Step {
+fn element(surface: f64, cutter: f64) -> ProgramStep {
     let (kind, at) = (ElementKind::MillingChain, Xy::new(0.0, 0.0));
-    Step::Comment(Comment::Element { kind, at, bottom: 0.0, surface, cutter, peck: None })
+    ProgramStep::Comment(Comment::Element { kind, at, bottom: 0.0, surface, cutter, peck: None })
 }
 
 /// The codes of the problems in a program on a plate of 5 mm, with a cutter of 3 mm.
-fn found(steps: Vec<Step>) -> Vec<String> {
+fn found(steps: Vec<ProgramStep>) -> Vec<String> {
     let program = Program { tool: 3.0, sweep_height: 20.0, thickness: 5.0, steps, ..Program::default() };
     rapids_into_material(&program).iter().map(|it| it.code().to_string()).collect()
 }
 
 /// A helical circle around (30, 30), from whose bottom the tool moves to the centre.
-fn circle(radius: f64, cutter: f64) -> Vec<Step> {
+fn circle(radius: f64, cutter: f64) -> Vec<ProgramStep> {
     let (low, high) = (30.0 - radius, 30.0 + radius);
     let turn = |z: f64| [half_circle(30.0, high, radius, z), half_circle(30.0, low, -radius, z)];
     let mut steps = vec![lift(7.0), element(5.0, cutter), sweep(30.0, low), lift(5.0)];
@@ -65,7 +65,7 @@ fn an_embedded_path_is_cut_by_its_own_cutter() {
 
 #[test]
 fn material_elsewhere_is_no_obstacle() {
-    let plates = |way: [Step; 2]| {
+    let plates = |way: [ProgramStep; 2]| {
         let thin = [lift(3.0), element(2.0, 3.0), mill(10.0, 0.0, 1.0), lift(3.0)];
         let thick =
             [lift(20.0), sweep(50.0, 0.0), lift(5.0), element(5.0, 3.0), mill(60.0, 0.0, 1.0), lift(20.0)];
@@ -79,7 +79,7 @@ fn material_elsewhere_is_no_obstacle() {
 
 #[test]
 fn a_milled_slot_is_free_and_what_is_beside_it_is_not() {
-    let back = |to: Step| vec![lift(5.0), mill(0.0, 0.0, 2.0), mill(20.0, 0.0, 2.0), to, lift(20.0)];
+    let back = |to: ProgramStep| vec![lift(5.0), mill(0.0, 0.0, 2.0), mill(20.0, 0.0, 2.0), to, lift(20.0)];
     assert_eq!(found(back(sweep(0.0, 0.0))), [""; 0]);
     assert_eq!(found(back(sweep(0.0, 0.8))), ["PB740"]);
     // A slope makes room only down to its own depth: everything above its highest point is free.

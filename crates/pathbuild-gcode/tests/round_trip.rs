@@ -9,8 +9,8 @@ use pathbuild_gcode::dialect::is_active_comment;
 use pathbuild_gcode::interpret::{Options, guess, interpret};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
-use pathbuild_motion::Path;
-use pathbuild_toolpath::{Class, Comment, Count, Height, Move, ProbePoint, Program, Step, Xy};
+use pathbuild_motion::MoveShape;
+use pathbuild_toolpath::{Class, Comment, Count, Height, PlannedMove, ProbePoint, Program, ProgramStep, Xy};
 use proptest::prelude::*;
 
 /// A move in numbers that do not depend on the position of the tool.
@@ -49,10 +49,10 @@ fn program(sketches: &[Sketch]) -> Program {
         let height = |z| Height { z, at };
         let mut length = 0.0;
         let to = match *sketch {
-            Sketch::Sweep(x, y) => Move::Sweep { to: Xy::new(x, y) },
-            Sketch::Lift(z) => Move::Lift { z: height(z) },
-            Sketch::Drill(z) => Move::Drill { feed: 80.0, z: height(z) },
-            Sketch::Line(x, y, z, feed) => Move::Line { feed, to: Xy::new(x, y), z: height(z) },
+            Sketch::Sweep(x, y) => PlannedMove::Sweep { to: Xy::new(x, y) },
+            Sketch::Lift(z) => PlannedMove::Lift { z: height(z) },
+            Sketch::Drill(z) => PlannedMove::Drill { feed: 80.0, z: height(z) },
+            Sketch::Line(x, y, z, feed) => PlannedMove::Line { feed, to: Xy::new(x, y), z: height(z) },
             Sketch::Arc(radius, direction, angle, clockwise, z, feed) => {
                 length = radius * angle;
                 let spoke =
@@ -63,22 +63,26 @@ fn program(sketches: &[Sketch]) -> Program {
                 // Slopes are never so steep that a move of less than a digit in the plane descends.
                 let z = if length < 0.01 { height_now } else { z };
                 let to = if is_full { at } else { at + centre.coords - turned.coords };
-                Move::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }
+                PlannedMove::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }
             }
         };
-        if let Move::Lift { z } | Move::Drill { z, .. } | Move::Line { z, .. } | Move::Arc { z, .. } = to {
+        if let PlannedMove::Lift { z }
+        | PlannedMove::Drill { z, .. }
+        | PlannedMove::Line { z, .. }
+        | PlannedMove::Arc { z, .. } = to
+        {
             height_now = z.z;
         }
-        if let Move::Sweep { to } | Move::Line { to, .. } | Move::Arc { to, .. } = to {
+        if let PlannedMove::Sweep { to } | PlannedMove::Line { to, .. } | PlannedMove::Arc { to, .. } = to {
             at = to;
         }
         let count = Count { class: Class::Milling, length, feed: None };
-        steps.push(Step::Move { to, count });
-        if matches!(to, Move::Arc { .. }) && length < 0.01 {
+        steps.push(ProgramStep::Move { to, count });
+        if matches!(to, PlannedMove::Arc { .. }) && length < 0.01 {
             // Such arcs are beside support bars, so that another part of the edge always follows.
             at += Xy::new(0.5, 0.5).coords;
-            steps.push(Step::Move {
-                to: Move::Line { feed: 100.0, to: at, z: Height { z: height_now, at } },
+            steps.push(ProgramStep::Move {
+                to: PlannedMove::Line { feed: 100.0, to: at, z: Height { z: height_now, at } },
                 count,
             });
         }
@@ -169,7 +173,7 @@ fn no_text_of_others_leaves_its_comment() {
             let mut program = program(&[Sketch::Line(1.0, 2.0, -1.0, 100.0)]);
             let name = program.names.intern(text);
             let comments = [Comment::Question(name), Comment::StartSubpath(name), Comment::EndSubpath(name)];
-            program.steps.splice(0..0, comments.map(Step::Comment));
+            program.steps.splice(0..0, comments.map(ProgramStep::Comment));
             (program.path, program.drawing, program.compatible) = (text.into(), text.into(), compatible);
             let (at, label) = (Xy::new(3.0, 4.0), Some(text.into()));
             program.probes = vec![ProbePoint { at, drawn_at: at, height: 5.0, feed: 40.0, label }];
@@ -188,15 +192,21 @@ fn no_text_of_others_leaves_its_comment() {
 }
 
 /// A single arc from this position: as it is written and read back, and as it is in the program.
-fn arc_from(at: [f64; 2], radius: f64, direction: f64, clockwise: bool, length: f64) -> (Move, Program) {
+fn arc_from(
+    at: [f64; 2],
+    radius: f64,
+    direction: f64,
+    clockwise: bool,
+    length: f64,
+) -> (PlannedMove, Program) {
     let angle = length / radius;
     let program = program(&[
         Sketch::Lift(1.0),
         Sketch::Line(at[0], at[1], 1.0, 100.0),
         Sketch::Arc(radius, direction, angle, clockwise, 1.0, 100.0),
     ]);
-    let is_arc = |step: &Step| match step {
-        Step::Move { to: to @ Move::Arc { .. }, .. } => Some(*to),
+    let is_arc = |step: &ProgramStep| match step {
+        ProgramStep::Move { to: to @ PlannedMove::Arc { .. }, .. } => Some(*to),
         _ => None,
     };
     (program.steps.iter().find_map(is_arc).expect("an arc"), program)
@@ -229,9 +239,9 @@ fn for_arcs_with_gaps(mut each: impl FnMut([f64; 2], f64, f64, bool, f64)) {
 fn arc_in(text: &str) -> ([f64; 3], f64) {
     let read = interpret(text.as_bytes(), Native, &Options::default());
     let moves = read.moves();
-    let arc = moves.iter().find_map(|(_, it)| match it.path {
-        Path::Arc(arc) => Some((it.to.at, arc.sweep(&it.from, &it.to))),
-        Path::Line => None,
+    let arc = moves.iter().find_map(|(_, it)| match it.shape {
+        MoveShape::Arc(arc) => Some((it.to.at, arc.sweep(&it.from, &it.to))),
+        MoveShape::Line => None,
     });
     arc.unwrap_or_else(|| panic!("{text}"))
 }
@@ -243,7 +253,7 @@ fn an_arc_just_short_of_a_whole_turn_stays_one() {
         let (arc, program) = arc_from(at, radius, direction, clockwise, TAU * radius - gap);
         let text = text_of(&program);
         native::read_back(&text, &program).unwrap_or_else(|problem| panic!("{problem:?}\n{text}"));
-        let Move::Arc { to, .. } = arc else { unreachable!() };
+        let PlannedMove::Arc { to, .. } = arc else { unreachable!() };
         let (end, sweep) = arc_in(&text);
         assert!(sweep > PI, "{sweep}: {text}");
         let is_beside = |printed: f64, drawn: f64| (printed - drawn).abs() <= 0.001 + 1e-9;
@@ -251,9 +261,9 @@ fn an_arc_just_short_of_a_whole_turn_stays_one() {
         if gap > 0.003 {
             assert!(sweep < TAU - 1e-6, "a full circle: {text}");
         }
-        let said = program.moves().find_map(|(_, it)| match it.path {
-            Path::Arc(_) => Some(it.to),
-            Path::Line => None,
+        let said = program.moves().find_map(|(_, it)| match it.shape {
+            MoveShape::Arc(_) => Some(it.to),
+            MoveShape::Line => None,
         });
         let said = said.unwrap_or_else(|| panic!("{text}"));
         // The expected arc is the one that was drawn, not a full circle instead.
@@ -280,9 +290,9 @@ fn half_a_tiny_circle_stays_half() {
         let length = 1.0001 * std::f64::consts::PI * radius;
         for (angle, clockwise) in [(0.0, false), (0.7, true), (2.0, false), (4.1, true)] {
             let (arc, program) = arc_from([0.0, 0.0], radius, angle, clockwise, length);
-            let Move::Arc { to, .. } = arc else { unreachable!() };
+            let PlannedMove::Arc { to, .. } = arc else { unreachable!() };
             let is_there = |it: &pathbuild_motion::Move| {
-                matches!(it.path, Path::Arc(_))
+                matches!(it.shape, MoveShape::Arc(_))
                     && (it.to.x() - to.x).abs() < 1e-9
                     && (it.to.y() - to.y).abs() < 1e-9
             };

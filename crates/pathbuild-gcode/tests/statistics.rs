@@ -7,7 +7,9 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::statistics::{Tally, statistics};
 use pathbuild_gcode::summary::Summary;
-use pathbuild_toolpath::{Class, Correction, Count, Height, Move, Program, Statistics, Step, Xy};
+use pathbuild_toolpath::{
+    Class, Correction, Count, Height, PlannedMove, Program, ProgramStep, Statistics, Xy,
+};
 
 /// Lengths of milling, drilling and sweeps of a text.
 fn lengths(text: &str, dialect: Dialect) -> [f64; 3] {
@@ -106,9 +108,9 @@ fn times_are_those_of_counted_lengths() {
 fn drawn() -> Program {
     let height = |z| Height { z, at: Xy::origin() };
     let count = |class, feed| Count { class, length: 1000.0, feed };
-    let step = |to, class, feed| Step::Move { to, count: count(class, feed) };
+    let step = |to, class, feed| ProgramStep::Move { to, count: count(class, feed) };
     let centre = Xy::new(-10.0, 0.0);
-    let helix = Move::Arc {
+    let helix = PlannedMove::Arc {
         feed: 100.0,
         clockwise: true,
         centre,
@@ -120,12 +122,12 @@ fn drawn() -> Program {
         path: "1234.1P".into(),
         sweep_height: 10.0,
         steps: vec![
-            step(Move::Sweep { to: Xy::new(3.0, 4.0) }, Class::Sweep, None),
-            step(Move::Lift { z: height(6.0) }, Class::Sweep, None),
-            step(Move::Drill { feed: 50.0, z: height(4.0) }, Class::Drilling, Some(50.0)),
+            step(PlannedMove::Sweep { to: Xy::new(3.0, 4.0) }, Class::Sweep, None),
+            step(PlannedMove::Lift { z: height(6.0) }, Class::Sweep, None),
+            step(PlannedMove::Drill { feed: 50.0, z: height(4.0) }, Class::Drilling, Some(50.0)),
             // Descends by a move planned as milling, like half circles with no radius.
             step(
-                Move::Line { feed: 100.0, to: Xy::new(3.0, 4.0), z: height(3.0) },
+                PlannedMove::Line { feed: 100.0, to: Xy::new(3.0, 4.0), z: height(3.0) },
                 Class::Milling,
                 Some(100.0),
             ),

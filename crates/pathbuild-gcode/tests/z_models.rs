@@ -9,7 +9,7 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_toolpath::{
-    Class, Correction, Count, Height, Move, ProbePoint, Program, Step, Surface, Xy, ZModel,
+    Class, Correction, Count, Height, PlannedMove, ProbePoint, Program, ProgramStep, Surface, Xy, ZModel,
 };
 
 const TIN: Correction = Correction { model: ZModel::Tin, longest: 20.0 };
@@ -161,26 +161,29 @@ fn places_far_out_do_no_harm() {
     assert!(Surface::new(ZModel::Tin, &[]).weights(Xy::origin()).is_empty());
 }
 
-fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> Step {
+fn line(to: (f64, f64), z: f64, from: (f64, f64)) -> ProgramStep {
     let (to, from) = (Xy::new(to.0, to.1), Xy::new(from.0, from.1));
     let count = Count { class: Class::Milling, length: (to - from).norm(), feed: Some(200.0) };
-    Step::Move { to: Move::Line { feed: 200.0, to, z: Height { z, at: from } }, count }
+    ProgramStep::Move { to: PlannedMove::Line { feed: 200.0, to, z: Height { z, at: from } }, count }
 }
 
 /// An arc whose centre is relative to its start.
-fn arc(centre: (f64, f64), to: (f64, f64), z: f64, (clockwise, angle): (bool, f64)) -> Step {
+fn arc(centre: (f64, f64), to: (f64, f64), z: f64, (clockwise, angle): (bool, f64)) -> ProgramStep {
     let (centre, to) = (Xy::new(centre.0, centre.1), Xy::new(to.0, to.1));
     let length = centre.coords.norm() * angle.to_radians();
     let count = Count { class: Class::Milling, length, feed: Some(200.0) };
     let z = Height { z, at: Xy::origin() };
-    Step::Move { to: Move::Arc { feed: 200.0, clockwise, centre, to, z, is_spiral: angle == 180.0 }, count }
+    ProgramStep::Move {
+        to: PlannedMove::Arc { feed: 200.0, clockwise, centre, to, z, is_spiral: angle == 180.0 },
+        count,
+    }
 }
 
-fn upright(step: Move, length: f64) -> Step {
-    Step::Move { to: step, count: Count { class: Class::Sweep, length, feed: None } }
+fn upright(step: PlannedMove, length: f64) -> ProgramStep {
+    ProgramStep::Move { to: step, count: Count { class: Class::Sweep, length, feed: None } }
 }
 
-fn program(points: &[(f64, f64)], steps: Vec<Step>) -> Program {
+fn program(points: &[(f64, f64)], steps: Vec<ProgramStep>) -> Program {
     let probe = |at: Xy| ProbePoint { at, drawn_at: at, height: 5.0, feed: 40.0, label: None };
     let probes = places(points).into_iter().map(probe).collect();
     Program {
@@ -223,9 +226,9 @@ fn the_compatible_model_stays_as_it_is() {
 fn better_models_correct_a_move_at_its_own_end() {
     let steps = vec![
         line((10.0, 0.0), 1.0, (0.0, 0.0)),
-        upright(Move::Lift { z: Height { z: 20.0, at: Xy::new(0.0, 0.0) } }, 19.0),
-        upright(Move::Sweep { to: Xy::new(5.0, 0.0) }, 5.0),
-        upright(Move::Drill { feed: 150.0, z: Height { z: 2.5, at: Xy::new(5.0, 0.0) } }, 17.5),
+        upright(PlannedMove::Lift { z: Height { z: 20.0, at: Xy::new(0.0, 0.0) } }, 19.0),
+        upright(PlannedMove::Sweep { to: Xy::new(5.0, 0.0) }, 5.0),
+        upright(PlannedMove::Drill { feed: 150.0, z: Height { z: 2.5, at: Xy::new(5.0, 0.0) } }, 17.5),
         arc((-5.0, 0.0), (0.0, 5.0), 0.25, (false, 90.0)),
     ];
     let program = program(&[(0.0, 0.0), (10.0, 0.0), (0.0, 10.0)], steps);
@@ -244,11 +247,11 @@ fn better_models_correct_a_move_at_its_own_end() {
 #[test]
 fn what_is_milled_right_after_a_sweep_begins_at_its_own_height() {
     let steps = vec![
-        upright(Move::Lift { z: Height { z: 8.0, at: Xy::origin() } }, 12.0),
-        upright(Move::Sweep { to: Xy::new(10.0, 0.0) }, 10.0),
+        upright(PlannedMove::Lift { z: Height { z: 8.0, at: Xy::origin() } }, 12.0),
+        upright(PlannedMove::Sweep { to: Xy::new(10.0, 0.0) }, 10.0),
         arc((-5.0, 0.0), (0.0, 0.0), 5.0, (true, 180.0)),
-        upright(Move::Sweep { to: Xy::new(10.0, 0.0) }, 10.0),
-        upright(Move::Lift { z: Height { z: 20.0, at: Xy::origin() } }, 12.0),
+        upright(PlannedMove::Sweep { to: Xy::new(10.0, 0.0) }, 10.0),
+        upright(PlannedMove::Lift { z: Height { z: 20.0, at: Xy::origin() } }, 12.0),
     ];
     let program = program(&[(0.0, 0.0), (10.0, 0.0)], steps);
     let whole = Correction { model: ZModel::Tin, longest: 0.0 };
@@ -323,7 +326,7 @@ fn arcs_stay_arcs_and_pieces_end_on_the_circle() {
     let mut at = Xy::new(50.0, 0.0);
     let mut arcs = 0;
     for step in cut.iter().skip(3) {
-        let Step::Move { to: Move::Arc { clockwise, centre, to, z, .. }, count } = step else {
+        let ProgramStep::Move { to: PlannedMove::Arc { clockwise, centre, to, z, .. }, count } = step else {
             panic!("{step:?}")
         };
         assert!(!clockwise);
@@ -402,7 +405,7 @@ fn the_header_says_what_the_program_was_made_with() {
 
 #[test]
 fn milling_outside_the_probes_is_found() {
-    let outside = |model, steps: Vec<Step>| {
+    let outside = |model, steps: Vec<ProgramStep>| {
         let found = Correction { model, longest: 20.0 }.outside(&program(&grid(), steps));
         found.map(|outside| (outside.at.x, outside.at.y, outside.distance))
     };
@@ -412,11 +415,15 @@ fn milling_outside_the_probes_is_found() {
         assert!(found.0 == 300.0 && (found.2 - 0.002).abs() < 1e-9);
         let two = vec![line((-3.0, -4.0), 1.0, (0.0, 0.0)), line((301.0, 100.0), 1.0, (-3.0, -4.0))];
         assert_eq!(outside(model, two), Some((-3.0, -4.0, 5.0)));
-        let drilled = upright(Move::Drill { feed: 150.0, z: Height { z: 1.0, at: Xy::origin() } }, 4.0);
-        let beside = upright(Move::Sweep { to: Xy::new(-7.0, 0.0) }, 7.0);
+        let drilled =
+            upright(PlannedMove::Drill { feed: 150.0, z: Height { z: 1.0, at: Xy::origin() } }, 4.0);
+        let beside = upright(PlannedMove::Sweep { to: Xy::new(-7.0, 0.0) }, 7.0);
         assert_eq!(outside(model, vec![beside, drilled]), Some((-7.0, 0.0, 7.0)));
         assert_eq!(
-            outside(model, vec![beside, upright(Move::Lift { z: Height { z: 9.0, at: Xy::origin() } }, 1.0)]),
+            outside(
+                model,
+                vec![beside, upright(PlannedMove::Lift { z: Height { z: 9.0, at: Xy::origin() } }, 1.0)]
+            ),
             None
         );
         // An arc whose ends are inside the probes.

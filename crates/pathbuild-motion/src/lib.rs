@@ -3,17 +3,13 @@
 //! All parts of pathbuild use these [`Step`]s to describe the effects of a program: writers, reader, `verify`, posts, pictures and
 //! statistics. Everything is absolute and in millimetres. This crate knows neither drawings nor texts.
 
-mod arc;
-mod moves;
-mod position;
+mod geometry;
 mod step;
-mod written_arc;
 
-pub use arc::{Arc, Course, is_same_direction, turn, widest_chord};
-pub use moves::{Move, Named, Pace, Path};
-pub use position::{Axes, Plane, Position};
-pub use step::{
-    Action, Change, Coolant, Corners, Group, Spindle, StatedWord, Step, ToolLength, Turning, WordEffect,
-    WorkSystem,
+pub use geometry::{
+    Arc, Axes, Course, Plane, Position, WrittenArc, is_same_direction, turn, widest_chord,
 };
-pub use written_arc::WrittenArc;
+pub use step::{
+    Action, Change, Coolant, Corners, Group, Move, MoveShape, Named, Pace, Spindle, StatedWord, Step,
+    ToolLength, Turning, WordEffect, WorkSystem,
+};

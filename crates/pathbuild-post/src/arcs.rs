@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
-use pathbuild_motion::{Course, Move, Path, WrittenArc, widest_chord};
+use pathbuild_motion::{Course, Move, MoveShape, WrittenArc, widest_chord};
 
 /// Maximum number of chords per arc.
 pub(crate) const MOST_CHORDS: u32 = 100_000;
@@ -24,7 +24,7 @@ pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
 
 /// If the centre of an arc is almost equidistant from start and end, moves it so that it is.
 pub(crate) fn centre(movement: &mut Move) {
-    let Path::Arc(arc) = &mut movement.path else { return };
+    let MoveShape::Arc(arc) = &mut movement.shape else { return };
     let difference = (arc.radius(&movement.from) - arc.radius(&movement.to)).abs();
     let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
     let chord = [to[0] - from[0], to[1] - from[1]];
@@ -55,7 +55,7 @@ pub(crate) struct Rounding<'r> {
 impl Rounding<'_> {
     /// Whether the arc would be read as a full circle because its ends are equal after rounding.
     pub(crate) fn closes(&self, movement: &Move) -> bool {
-        let Path::Arc(arc) = movement.path else { return false };
+        let MoveShape::Arc(arc) = movement.shape else { return false };
         let alike =
             |axis: usize| (self.length)(movement.from.at[axis]) == (self.length)(movement.to.at[axis]);
         arc.sweep(&movement.from, &movement.to) < PI && arc.plane.axes().into_iter().all(alike)
@@ -63,7 +63,7 @@ impl Rounding<'_> {
 
     /// Adjusts the centre so that after rounding it is equidistant from start and end: see [`WrittenArc::fit`].
     pub(crate) fn fitted(&self, movement: &Move, unit: f64) -> Result<Move, Box<Diagnostic>> {
-        let Path::Arc(mut arc) = movement.path else { return Ok(*movement) };
+        let MoveShape::Arc(mut arc) = movement.shape else { return Ok(*movement) };
         let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
         let origin = if self.is_absolute { [0.0; 2] } else { from };
         let written = WrittenArc {
@@ -76,7 +76,7 @@ impl Rounding<'_> {
         };
         let by = written.fit().map_err(|radii| not_round(movement, radii))?;
         arc.centre = [arc.centre[0] + by[0], arc.centre[1] + by[1]];
-        Ok(Move { path: Path::Arc(arc), ..*movement })
+        Ok(Move { shape: MoveShape::Arc(arc), ..*movement })
     }
 }
 

@@ -5,9 +5,9 @@ use std::borrow::Borrow;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_motion as motion;
-use pathbuild_motion::{Coolant, Pace, Path, Turning};
+use pathbuild_motion::{Coolant, MoveShape, Pace, Turning};
 use pathbuild_path::approx::{at_least, near};
-use pathbuild_toolpath::{Comment, ElementKind, Move, Names, Program, Step as ProgramStep, ToolTip};
+use pathbuild_toolpath::{Comment, ElementKind, Names, PlannedMove, Program, ProgramStep, ToolTip};
 use regex::Regex;
 
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
@@ -110,17 +110,18 @@ impl<'a> Builder<'a> {
     fn hole(&mut self, peck: Option<f64>, steps: &'a [ProgramStep]) -> Option<&'a [ProgramStep]> {
         let (remarks, steps) = comments(steps);
         let (retract, steps) = match steps.split_first()? {
-            (ProgramStep::Move { to: Move::Lift { z }, .. }, rest) => (z.z, rest),
+            (ProgramStep::Move { to: PlannedMove::Lift { z }, .. }, rest) => (z.z, rest),
             _ => (self.tool.at.z(), steps),
         };
-        let (ProgramStep::Move { to: Move::Drill { feed, z: bottom }, .. }, rest) = steps.split_first()?
+        let (ProgramStep::Move { to: PlannedMove::Drill { feed, z: bottom }, .. }, rest) =
+            steps.split_first()?
         else {
             return None;
         };
         // The lift itself is left to the next step, for which the tool is then already at its target.
         let exit = match comments(rest).1.first() {
             None => self.program.sweep_height,
-            Some(ProgramStep::Move { to: Move::Lift { z }, .. }) => z.z,
+            Some(ProgramStep::Move { to: PlannedMove::Lift { z }, .. }) => z.z,
             Some(_) => return None,
         };
         let [x, y, level] = self.tool.at.at;
@@ -148,10 +149,10 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds a move whose length is given in mm.
-    fn go(&mut self, to: &Move, length: f64) {
+    fn go(&mut self, to: &PlannedMove, length: f64) {
         let mut movement = self.tool.go(to, length);
         if length < SHORTEST_ARC {
-            movement.path = Path::Line;
+            movement.shape = MoveShape::Line;
         }
         self.push(movement);
     }

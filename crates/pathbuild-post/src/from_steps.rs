@@ -6,7 +6,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::{
-    Action, Axes, Coolant, Move, Pace, Path, Plane, Position, Spindle, Step, Turning, WorkSystem,
+    Action, Axes, Coolant, Move, MoveShape, Pace, Plane, Position, Spindle, Step, Turning, WorkSystem,
 };
 
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
@@ -310,9 +310,9 @@ impl Builder {
         if movement.named.is_some() {
             return self.refuse(line, &posts::JOB_NAMED_PLACE);
         }
-        match (movement.path, movement.pace) {
-            (Path::Line, Pace::Rapid | Pace::Feed(_) | Pace::Probe { toward: true, .. }) => {}
-            (Path::Arc(arc), _) if arc.extra_turns == 0 => {
+        match (movement.shape, movement.pace) {
+            (MoveShape::Line, Pace::Rapid | Pace::Feed(_) | Pace::Probe { toward: true, .. }) => {}
+            (MoveShape::Arc(arc), _) if arc.extra_turns == 0 => {
                 self.state.plane = arc.plane;
                 self.update();
             }
@@ -431,7 +431,7 @@ impl<'a> Moves<'a> {
         let (step, rest) = self.next()?;
         let Action::Move(movement) = step.action else { return None };
         let is_plain =
-            movement.path == Path::Line && movement.named.is_none() && movement.to.known == Axes::ALL;
+            movement.shape == MoveShape::Line && movement.named.is_none() && movement.to.known == Axes::ALL;
         (is_plain && is_wanted(&movement)).then(|| {
             self.steps = rest;
             movement

@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_motion::{Coolant, Move, Pace, Path, Plane, Position, Turning};
+use pathbuild_motion::{Coolant, Move, MoveShape, Pace, Plane, Position, Turning};
 
 use crate::arcs;
 
@@ -389,7 +389,7 @@ fn is_straight_down(before: &JobStep, step: &JobStep) -> bool {
         _ => [None; 3],
     };
     let (from, to) = (end_of(before), end_of(step));
-    let is_line = step.as_cut().is_some_and(|movement| movement.path == Path::Line);
+    let is_line = step.as_cut().is_some_and(|movement| movement.shape == MoveShape::Line);
     is_line && from[..2] == to[..2] && to[2] < from[2]
 }
 
@@ -467,7 +467,7 @@ impl JobStep {
 
     fn straight(to: impl Into<Position>, pace: Pace) -> Self {
         let from = Position::default();
-        Self::Move(Move { from, to: to.into(), path: Path::Line, pace, named: None })
+        Self::Move(Move { from, to: to.into(), shape: MoveShape::Line, pace, named: None })
     }
 
     /// The move, if it cuts.

@@ -32,17 +32,17 @@ impl NumberFormat {
 
     /// Formats a number; never as `-0`.
     pub(crate) fn format(self, value: f64) -> String {
-        let digits = Digits::of(value).round(self.most);
-        let mut text = String::new();
-        if value < 0.0 && !digits.is_zero() {
-            text.push('-');
+        let digits = digits(value, self.most);
+        let digits = format!("{digits:0>width$}", width = self.whole + self.most);
+        let (whole, decimals) = digits.split_at(digits.len() - self.most);
+        let sign = if value < 0.0 && digits.contains(|digit| digit != '0') { "-" } else { "" };
+        let mut text = format!("{sign}{whole}");
+        let needed = decimals.trim_end_matches('0').len().max(self.least);
+        if needed > 0 {
+            text.push('.');
+            text.push_str(&decimals[..needed]);
         }
-        digits.push_whole(self.whole, &mut text);
-        digits.push_decimals(self.least, self.most, &mut text);
-        if text.is_empty() || text == "-" {
-            text.push('0');
-        }
-        text
+        if text.is_empty() { "0".to_owned() } else { text }
     }
 
     /// The number represented by the formatted text.
@@ -69,75 +69,24 @@ impl FromStr for NumberFormat {
     }
 }
 
-/// A decimal number: its digits, and how many of them precede the decimal point. If that is negative, zeros follow the point.
+/// The digits of a number up to this many decimals, without leading zeros; empty if they are all zero.
 ///
-/// It is limited to fifteen significant digits, so that intended ties (1.0005) are ties and the noise of converting between inches and
-/// millimetres disappears.
-struct Digits {
-    digits: Vec<u8>,
-    point: i32,
-}
-
-impl Digits {
-    fn of(value: f64) -> Self {
-        let text = format!("{:.14e}", value.abs());
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let digits = mantissa.bytes().filter(u8::is_ascii_digit).map(|digit| digit - b'0').collect();
-        Self { digits, point: exponent.parse::<i32>().unwrap_or(0) + 1 }
-    }
-
-    fn is_zero(&self) -> bool {
-        self.digits.iter().all(|&digit| digit == 0)
-    }
-
-    fn round(mut self, decimals: usize) -> Self {
-        let kept = self.point.saturating_add(i32::try_from(decimals).unwrap_or(i32::MAX));
-        let Ok(kept) = usize::try_from(kept) else { return Self { digits: Vec::new(), point: 1 } };
-        if kept >= self.digits.len() {
-            return self;
-        }
-        let up = self.digits[kept] >= 5;
-        self.digits.truncate(kept);
-        if up {
-            self.increment();
-        }
-        self
-    }
-
-    fn increment(&mut self) {
-        for digit in self.digits.iter_mut().rev() {
-            if *digit < 9 {
-                *digit += 1;
-                return;
-            }
-            *digit = 0;
-        }
-        self.digits.insert(0, 1);
-        self.point += 1;
-    }
-
-    /// The digit with the value 10 to the power of `place`.
-    fn at(&self, place: i32) -> char {
-        let index = usize::try_from(self.point - 1 - place).ok();
-        let digit = index.and_then(|index| self.digits.get(index)).copied().unwrap_or(0);
-        char::from(b'0' + digit)
-    }
-
-    fn push_whole(&self, least: usize, text: &mut String) {
-        let least = i32::try_from(least).unwrap_or(0);
-        let needed = if self.is_zero() { 0 } else { self.point.max(0) };
-        text.extend((0..needed.max(least)).rev().map(|place| self.at(place)));
-    }
-
-    fn push_decimals(&self, least: usize, most: usize, text: &mut String) {
-        let places = 1..=i32::try_from(most).unwrap_or(0);
-        let decimals: String = places.map(|place| self.at(-place)).collect();
-        let needed = decimals.trim_end_matches('0').len().max(least);
-        if needed > 0 {
-            text.push('.');
-            text.push_str(&decimals[..needed]);
-        }
-    }
+/// The number is limited to fifteen significant digits, so that intended ties (1.0005) are ties and the noise of converting between inches
+/// and millimetres disappears.
+fn digits(value: f64, decimals: usize) -> String {
+    let text = format!("{:.14e}", value.abs());
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let mantissa: u64 = mantissa.replace('.', "").parse().unwrap_or(0);
+    let places = exponent.parse::<i32>().unwrap_or(0) - 14 + i32::try_from(decimals).unwrap_or(i32::MAX);
+    let digits = match u32::try_from(places) {
+        Ok(zeros) => format!("{mantissa}{}", "0".repeat(zeros as usize)),
+        // All digits of a number with more places than an u64 are rounded off.
+        Err(_) => match 10_u64.checked_pow(places.unsigned_abs()) {
+            Some(unit) => ((mantissa + unit / 2) / unit).to_string(),
+            None => String::new(),
+        },
+    };
+    digits.trim_start_matches('0').to_owned()
 }
 
 #[cfg(test)]

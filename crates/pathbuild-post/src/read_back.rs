@@ -3,7 +3,9 @@
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_motion as motion;
-use pathbuild_motion::{Action, Axes, Change, Move, Named, Pace, Path, Position, ToolLength, WorkSystem};
+use pathbuild_motion::{
+    Action, Axes, Change, Move, MoveShape, Named, Pace, Position, ToolLength, WorkSystem,
+};
 
 use super::job::{Entry, Job, Operation};
 use super::shadow::{Doubt, TranslatedText};
@@ -237,10 +239,10 @@ impl Mover {
     }
 
     fn rapid(&mut self, to: [Option<f64>; 3]) {
-        self.go(to, Path::Line, Pace::Rapid);
+        self.go(to, MoveShape::Line, Pace::Rapid);
     }
 
-    fn go(&mut self, to: [Option<f64>; 3], path: Path, pace: Pace) {
+    fn go(&mut self, to: [Option<f64>; 3], shape: MoveShape, pace: Pace) {
         let from = self.at;
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {
@@ -249,13 +251,13 @@ impl Mover {
             }
         }
         let named: Option<Named> = None;
-        self.moves.push((self.number, Move { from, to: self.at, path, pace, named }));
+        self.moves.push((self.number, Move { from, to: self.at, shape, pace, named }));
     }
 
     fn step(&mut self, step: &JobStep) -> Result<(), Box<Diagnostic>> {
         match step {
             JobStep::Move(movement) => {
-                self.go(movement.to.axes(), movement.path, movement.pace);
+                self.go(movement.to.axes(), movement.shape, movement.pace);
                 if matches!(movement.pace, Pace::Probe { .. }) {
                     // Only the machine knows where the probe stops.
                     self.at.known = Axes::NONE;

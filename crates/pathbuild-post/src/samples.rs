@@ -1,6 +1,6 @@
 //! Small programs, each with a single feature that a post may have words for.
 
-use pathbuild_motion::{Arc, Coolant, Move, Pace, Path, Plane, Turning};
+use pathbuild_motion::{Arc, Coolant, Move, MoveShape, Pace, Plane, Turning};
 
 use super::job::{Job, Operation, Tool};
 use crate::job::{Hole, HoleKind, JobStep};
@@ -24,7 +24,7 @@ pub fn samples() -> Vec<Job> {
     let arc = JobStep::Move(Move {
         from: [0.0, 0.0, -1.0].into(),
         to: [10.0, 0.0, -1.0].into(),
-        path: Path::Arc(circle),
+        shape: MoveShape::Arc(circle),
         pace: Pace::Feed(100.0),
         named: None,
     });

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Text, Value};
 use pathbuild_gcode::verify::{Difference, DifferenceKind, Tolerance, compare};
-use pathbuild_motion::{Axes, Move, Pace, Path, Position};
+use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -233,7 +233,7 @@ impl<'m> Way<'m> {
                 None if self.is_expected(&movement) => true,
                 None => {
                     matches!(movement.pace, Pace::Rapid | Pace::Feed(_))
-                        && movement.path == Path::Line
+                        && movement.shape == MoveShape::Line
                         && self.is_free(&movement, is_home)
                 }
             };

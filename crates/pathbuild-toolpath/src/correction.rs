@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
+use nalgebra::{Complex, UnitComplex};
 use pathbuild_path::Xy;
 
-use crate::pieces::{Cut, Tool};
-use crate::program::{Class, Count, Height, Move, Program, Step};
+use crate::program::{Class, Count, Height, PlannedMove, Program, ProgramStep};
 use crate::z_model::{Tin, ZModel};
 
 /// How the heights of a program with probes are corrected.
@@ -41,7 +41,7 @@ impl Correction {
 
     /// The steps of a program with probes, split and with each height corrected at the end of its move. Programs without probes, and those
     /// corrected as by the original tool, are returned unchanged.
-    pub fn steps(self, program: &Program) -> Cow<'_, [Step]> {
+    pub fn steps(self, program: &Program) -> Cow<'_, [ProgramStep]> {
         if program.probes.is_empty() || self.is_compatible() {
             return Cow::Borrowed(&program.steps);
         }
@@ -76,7 +76,7 @@ impl Correction {
 }
 
 /// The steps of a program after splitting.
-fn cut(program: &Program, longest: f64) -> impl Iterator<Item = Step> + '_ {
+fn cut(program: &Program, longest: f64) -> impl Iterator<Item = ProgramStep> + '_ {
     walk(program, longest).flat_map(|(before, cut)| {
         let pieces = cut.into_iter().flat_map(|cut| (1..=cut.pieces()).map(move |number| cut.piece(number)));
         before.into_iter().chain(pieces)
@@ -84,15 +84,15 @@ fn cut(program: &Program, longest: f64) -> impl Iterator<Item = Step> + '_ {
 }
 
 /// Yields each step, either as it is or as a move to be split.
-fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Step>, Option<Cut>)> {
+fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<ProgramStep>, Option<Cut>)> {
     let mut tool = Tool { at: Xy::origin(), z: program.start_height() };
     let mut is_settled = true;
     program.steps.iter().map(move |step| match step {
-        Step::Comment(_) => (Some(*step), None),
-        Step::Move { to, count } => {
-            let begins_here = matches!(to, Move::Line { .. } | Move::Arc { .. });
+        ProgramStep::Comment(_) => (Some(*step), None),
+        ProgramStep::Move { to, count } => {
+            let begins_here = matches!(to, PlannedMove::Line { .. } | PlannedMove::Arc { .. });
             let settling = (begins_here && !is_settled).then(|| settle(tool));
-            is_settled = !matches!(to, Move::Sweep { .. });
+            is_settled = !matches!(to, PlannedMove::Sweep { .. });
             let cut = Cut::new(tool, *to, *count, longest);
             tool = cut.end();
             (settling, Some(cut))
@@ -102,16 +102,121 @@ fn walk(program: &Program, longest: f64) -> impl Iterator<Item = (Option<Step>, 
 
 /// After a sweep the tool is still at the corrected height of its previous position. A step that mills at once, such as a helical
 /// circle, must begin at the height corrected for its own position.
-fn settle(tool: Tool) -> Step {
+fn settle(tool: Tool) -> ProgramStep {
     let count = Count { class: Class::Sweep, length: 0.0, feed: None };
-    Step::Move { to: Move::Lift { z: Height { z: tool.z, at: tool.at } }, count }
+    ProgramStep::Move { to: PlannedMove::Lift { z: Height { z: tool.z, at: tool.at } }, count }
 }
 
 /// The point at which a step cuts material.
-fn milled(step: &Step) -> Option<Xy> {
+fn milled(step: &ProgramStep) -> Option<Xy> {
     match step {
-        Step::Move { to: Move::Line { to, .. } | Move::Arc { to, .. }, .. } => Some(*to),
-        Step::Move { to: Move::Drill { z: Height { at, .. }, .. }, .. } => Some(*at),
+        ProgramStep::Move { to: PlannedMove::Line { to, .. } | PlannedMove::Arc { to, .. }, .. } => Some(*to),
+        ProgramStep::Move { to: PlannedMove::Drill { z: Height { at, .. }, .. }, .. } => Some(*at),
         _ => None,
     }
+}
+
+// Splits a move into parts, each of which ends at the height that the move has there.
+
+/// Position of the tool.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tool {
+    pub(crate) at: Xy,
+    pub(crate) z: f64,
+}
+
+/// How far a part of an arc may deviate from its chord, as a fraction of the maximum length. Within a part the height changes linearly
+/// along the arc, whereas that of a tilted plate changes linearly along the chord. The error is at most the tilt times this deviation.
+const DEPARTURE: f64 = 0.01;
+
+/// Relative increase in length that rounding may cause for a move of an exact number of parts.
+const ROUNDING: f64 = 1e-9;
+
+/// A move and the number of parts it is split into.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cut {
+    from: Tool,
+    to: PlannedMove,
+    count: Count,
+    pieces: u64,
+}
+
+impl Cut {
+    /// Splits a move from `from`; `longest` is in mm, with 0 for not splitting at all.
+    pub(crate) fn new(from: Tool, to: PlannedMove, count: Count, longest: f64) -> Self {
+        let parts = match to {
+            _ if longest <= 0.0 => 1.0,
+            PlannedMove::Line { .. } => count.length / longest,
+            PlannedMove::Arc { centre, .. } => {
+                let radius = centre.coords.norm();
+                // The deviation of an arc is radius * (1 - cos(angle / 2)), approximately radius * angle² / 8.
+                let angle = libm::sqrt(8.0 * DEPARTURE * longest / radius);
+                (count.length / longest).max(count.length / radius / angle)
+            }
+            PlannedMove::Sweep { .. } | PlannedMove::Lift { .. } | PlannedMove::Drill { .. } => 1.0,
+        };
+        Self { from, to, count, pieces: whole(parts - ROUNDING) }
+    }
+
+    /// Number of parts, at least 1.
+    pub(crate) fn pieces(&self) -> u64 {
+        self.pieces
+    }
+
+    /// End of the move.
+    pub(crate) fn end(&self) -> Tool {
+        match self.to {
+            PlannedMove::Sweep { to } => Tool { at: to, ..self.from },
+            PlannedMove::Lift { z } | PlannedMove::Drill { z, .. } => Tool { z: z.z, ..self.from },
+            PlannedMove::Line { to, z, .. } | PlannedMove::Arc { to, z, .. } => Tool { at: to, z: z.z },
+        }
+    }
+
+    /// A part, counted from 1, corrected at its end.
+    pub(crate) fn piece(&self, number: u64) -> ProgramStep {
+        let Tool { at: to, z } = self.after(number);
+        let z = Height { z, at: to };
+        let moved = match self.to {
+            PlannedMove::Sweep { .. } => PlannedMove::Sweep { to },
+            PlannedMove::Lift { .. } => PlannedMove::Lift { z },
+            PlannedMove::Drill { feed, .. } => PlannedMove::Drill { feed, z },
+            PlannedMove::Line { feed, .. } => PlannedMove::Line { feed, to, z },
+            PlannedMove::Arc { feed, clockwise, centre, is_spiral, .. } => {
+                let centre = (self.from.at + centre.coords - self.after(number - 1).at).into();
+                // Half circles of a spiral are written with I0, but parts of them are not.
+                let is_spiral = is_spiral && self.pieces == 1;
+                PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral }
+            }
+        };
+        ProgramStep::Move {
+            to: moved,
+            count: Count { length: self.count.length / self.pieces as f64, ..self.count },
+        }
+    }
+
+    /// Position of the tool after this number of parts.
+    fn after(&self, number: u64) -> Tool {
+        let end = self.end();
+        if number == self.pieces {
+            return end;
+        }
+        let part = number as f64 / self.pieces as f64;
+        let at = match self.to {
+            PlannedMove::Arc { centre, clockwise, .. } => self.along_arc(centre, clockwise, part),
+            _ => self.from.at + (end.at - self.from.at) * part,
+        };
+        Tool { at, z: self.from.z + (end.z - self.from.z) * part }
+    }
+
+    fn along_arc(&self, centre: Xy, clockwise: bool, part: f64) -> Xy {
+        let angle = self.count.length / centre.coords.norm() * part;
+        let (sin, cos) = libm::sincos(if clockwise { -angle } else { angle });
+        self.from.at + centre.coords + UnitComplex::new_unchecked(Complex::new(cos, sin)) * -centre.coords
+    }
+}
+
+/// Rounds up, to at least 1.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is positive")]
+fn whole(parts: f64) -> u64 {
+    parts.ceil().max(1.0) as u64
 }

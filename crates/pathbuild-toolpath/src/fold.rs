@@ -1,18 +1,19 @@
 //! The fold: a single walk over a path and its embedded paths that keeps track of the position of the tool.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use pathbuild_path::approx::{at_least, coincide, is_nothing, near};
 use pathbuild_path::{
     ElementClass, Hole, Item, Letter, Origin, Path, PathOptions, PathRole, PlacedSubpath, Placement,
     SegmentKind, Sweep, WalkedPath, Xy, fallback,
 };
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
 
-use crate::probes;
 use crate::program::{
-    Class, Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, Move, Names, ProbePoint, Program, Step,
+    Class, Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, Names, Occurrence, PlannedMove,
+    ProbePoint, Program, ProgramStep, StepOrigin, Trace,
 };
-use crate::trace::{Occurrence, StepOrigin, Trace};
 
 /// Provides the paths to be joined: the emitted path and all paths it embeds.
 pub trait Parts {
@@ -89,7 +90,7 @@ fn folded<P: Parts>(
     program.steps = fold.steps;
     program.names = fold.names;
     program.left_out = fold.left_out.into_values().collect();
-    program.probes = probes::in_order(&fold.probes);
+    program.probes = in_order(&fold.probes);
     (program, fold.trace)
 }
 
@@ -114,7 +115,7 @@ pub(crate) struct Fold<'a, P: Parts> {
     /// F of the last move that had one.
     last_feed: f64,
     pub(crate) tip: Tip,
-    steps: Vec<Step>,
+    steps: Vec<ProgramStep>,
     names: Names,
     probes: Vec<ProbePoint>,
     /// By name of the path.
@@ -278,7 +279,7 @@ impl<'a, P: Parts> Fold<'a, P> {
             let count = Count { class: Class::Drilling, length: (surface - to).abs(), feed: Some(feed) };
             // The original tool writes no feed, so its plunges run at the previous feed.
             let feed = if self.compatible { self.last_feed } else { feed };
-            self.step(Move::Drill { feed, z }, count, Tip { z: to, ..self.tip });
+            self.step(PlannedMove::Drill { feed, z }, count, Tip { z: to, ..self.tip });
         }
     }
 
@@ -290,7 +291,7 @@ impl<'a, P: Parts> Fold<'a, P> {
     /// The same, with the height corrected by the probes around another point, the centre of a helical circle.
     pub(crate) fn lift_corrected_at(&mut self, to: f64, at: Xy, length: f64) {
         let count = Count { class: Class::Sweep, length, feed: None };
-        self.step(Move::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
+        self.step(PlannedMove::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
     }
 
     /// Adds `G00 X Y`. Of several sweeps separated only by comments, the last one is kept, provided that there cannot be obstacles.
@@ -303,26 +304,26 @@ impl<'a, P: Parts> Fold<'a, P> {
         }
         let index = self.steps.len();
         let count = Count { class: Class::Sweep, length, feed: None };
-        self.step(Move::Sweep { to }, count, Tip { at: to, ..self.tip });
+        self.step(PlannedMove::Sweep { to }, count, Tip { at: to, ..self.tip });
         let is_clear = self.compatible || at_least(self.tip.z, self.clearance);
         self.mergeable = is_clear.then_some(index);
     }
 
     /// Adds a move.
-    pub(crate) fn step(&mut self, to: Move, count: Count, tip: Tip) {
+    pub(crate) fn step(&mut self, to: PlannedMove, count: Count, tip: Tip) {
         self.mergeable = None;
-        if let Move::Line { feed, .. } | Move::Arc { feed, .. } = to {
+        if let PlannedMove::Line { feed, .. } | PlannedMove::Arc { feed, .. } = to {
             self.last_feed = feed;
         }
-        self.push(Step::Move { to, count });
+        self.push(ProgramStep::Move { to, count });
         self.tip = tip;
     }
 
     fn comment(&mut self, comment: Comment) {
-        self.push(Step::Comment(comment));
+        self.push(ProgramStep::Comment(comment));
     }
 
-    fn push(&mut self, step: Step) {
+    fn push(&mut self, step: ProgramStep) {
         self.steps.push(step);
         if let Some(trace) = &mut self.trace {
             trace.steps.push(self.here);
@@ -376,4 +377,89 @@ impl<'a, P: Parts> Fold<'a, P> {
 pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
     let (plane, height) = ((b.at - a.at).norm_squared(), b.z - a.z);
     libm::sqrt(plane + height * height)
+}
+
+// The order in which Z-probes are measured. (book: language/probes)
+
+/// Distances in the tree with a smaller relative difference are considered equal and compared exactly.
+const ROUNDING: f64 = 1e-12;
+
+/// Starts at (0, 0) and repeatedly goes to the nearest probe not yet visited; the first of these if there are several.
+fn in_order(found: &[ProbePoint]) -> Vec<ProbePoint> {
+    let mut waiting = Waiting::new(found);
+    let mut at = Xy::origin();
+    let next = || {
+        let probe = &found[waiting.take_nearest(at)?];
+        at = probe.at;
+        Some(probe.clone())
+    };
+    std::iter::from_fn(next).collect()
+}
+
+/// Probes that have not been visited yet.
+struct Waiting {
+    /// The probes of each place, by index.
+    places: Vec<VecDeque<usize>>,
+    tree: RTree<GeomWithData<[f64; 2], usize>>,
+}
+
+impl Waiting {
+    fn new(found: &[ProbePoint]) -> Self {
+        let mut places = BTreeMap::<_, VecDeque<usize>>::new();
+        for (number, probe) in found.iter().enumerate() {
+            places.entry([probe.at.x, probe.at.y].map(f64::to_bits)).or_default().push_back(number);
+        }
+        let points = places.keys().enumerate();
+        let points = points.map(|(place, at)| GeomWithData::new(at.map(f64::from_bits), place)).collect();
+        Self { tree: RTree::bulk_load(points), places: places.into_values().collect() }
+    }
+
+    fn take_nearest(&mut self, at: Xy) -> Option<usize> {
+        let near = self.tree.nearest_neighbor_iter([at.x, at.y]);
+        let mut near = near.map(|place| ((Xy::from(*place.geom()) - at).norm(), place)).peekable();
+        let (least, _) = *near.peek()?;
+        let near = near.take_while(|(distance, _)| *distance <= least * (1.0 + ROUNDING));
+        let first = |place: &GeomWithData<[f64; 2], usize>| self.places[place.data].front();
+        let place = *near.min_by(|(a, p), (b, q)| a.total_cmp(b).then(first(p).cmp(&first(q))))?.1;
+        let number = self.places[place.data].pop_front();
+        if self.places[place.data].is_empty() {
+            self.tree.remove(&place);
+        }
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn probe((x, y): (i32, i32), number: usize) -> ProbePoint {
+        let at = Xy::new(f64::from(x), f64::from(y));
+        ProbePoint { at, drawn_at: at, height: 0.0, feed: 1.0, label: Some(number.to_string().into()) }
+    }
+
+    /// Compares all remaining probes in each step.
+    fn one_by_one(mut found: Vec<ProbePoint>) -> Vec<ProbePoint> {
+        let (mut ordered, mut at) = (Vec::new(), Xy::origin());
+        while !found.is_empty() {
+            let distances: Vec<f64> = found.iter().map(|probe| (probe.at - at).norm()).collect();
+            let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+            let next = distances.iter().position(|distance| *distance <= least).expect("the least is one");
+            ordered.push(found.remove(next));
+            at = ordered[ordered.len() - 1].at;
+        }
+        ordered
+    }
+
+    #[test]
+    fn the_nearest_is_found_wherever_it_lies() {
+        let grid = (0..400).map(|index| (index % 20 - 7, index / 20 - 7));
+        let anywhere = (0..500).map(|index| (index * 7919 % 613, index * 104_729 % 577));
+        let one_place = (0..50).map(|index| (5, index % 2));
+        for points in [grid.collect::<Vec<_>>(), anywhere.collect(), one_place.collect(), Vec::new()] {
+            let probes: Vec<ProbePoint> =
+                points.into_iter().enumerate().map(|(number, at)| probe(at, number)).collect();
+            assert_eq!(in_order(&probes), one_by_one(probes.clone()));
+        }
+    }
 }

@@ -1,9 +1,12 @@
 //! Milling along a curve. (book: program/gcode)
 
-use pathbuild_path::Curve;
+use std::f64::consts::PI;
 
-use crate::fold::{Fold, Parts, Tip};
-use crate::program::{Class, Count, Height, Move};
+use pathbuild_path::approx::{above, at_least};
+use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
+
+use crate::fold::{Fold, Parts, PlacedPath, Tip};
+use crate::program::{Class, Count, ElementKind, Height, PlannedMove};
 
 /// A part of a segment with the heights at its ends, in mm.
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +32,205 @@ impl<P: Parts> Fold<'_, P> {
         let count = Count { class: Class::Milling, length: section.curve.length(), feed: Some(feed) };
         let tip = Tip { at: to, z: section.to_z };
         let to = match section.curve {
-            Curve::Line(_) => Move::Line { feed, to, z },
+            Curve::Line(_) => PlannedMove::Line { feed, to, z },
             Curve::Arc(arc) => {
                 let centre = (arc.centre - arc.start).into();
-                Move::Arc { feed, clockwise: arc.clockwise, centre, to, z, is_spiral: false }
+                PlannedMove::Arc { feed, clockwise: arc.clockwise, centre, to, z, is_spiral: false }
             }
         };
         self.step(to, count, tip);
+    }
+}
+
+// Support bars along a segment. (book: program/gcode)
+
+/// The parts of a curve along which bars are left standing with a cutter of diameter `tool`; the whole curve if there is no room for gaps.
+pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<Curve> {
+    let Some(plan) = BarPlan::new(bars, bottom, tool, curve.length()) else { return vec![*curve] };
+    let tops = plan.pieces.iter().filter(|piece| !piece.starts_low && !piece.ends_low);
+    tops.map(|piece| curve.section(piece.from, piece.to)).collect()
+}
+
+/// How deep the parts of a segment with bars are milled, by position along the segment in mm.
+#[derive(Clone, Debug)]
+pub(crate) struct BarPlan {
+    pieces: Vec<BarSpan>,
+}
+
+/// A range of positions along the segment. A slope leads from one level to the other.
+#[derive(Clone, Copy, Debug)]
+struct BarSpan {
+    from: f64,
+    to: f64,
+    starts_low: bool,
+    ends_low: bool,
+}
+
+impl BarPlan {
+    /// Plans a segment of this length with B at `bottom`. Returns `None` if there is no room for gaps, so that the whole segment remains at
+    /// the height of the bars.
+    pub(crate) fn new(bars: &Bars, bottom: f64, tool: f64, length: f64) -> Option<Self> {
+        let count = bars.count(length);
+        if count <= 0.0 {
+            return None;
+        }
+        let pitch = length / count;
+        // The slopes have 45 degrees if there is room for that, otherwise they are steeper.
+        let slope = (bars.top - bottom).min(bars.length / 2.0).min((pitch - bars.length - tool) / 2.0);
+        let edge = bars.length / 2.0 + tool / 2.0;
+        let between = (pitch - bars.length - 2.0 * slope - tool).max(0.0);
+        let mut plan = Self { pieces: Vec::new() };
+        plan.piece(0.0, edge, false, false);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number, 1 or more"
+        )]
+        let gaps = count as u64;
+        for k in 0..gaps - 1 {
+            let start = edge + k as f64 * pitch;
+            let end = plan.gap(start, slope, between);
+            plan.piece(end, end + bars.length + tool, false, false);
+        }
+        let end = plan.gap(length - edge - 2.0 * slope - between, slope, between);
+        plan.piece(end, length, false, false);
+        Some(plan)
+    }
+
+    /// Adds a gap: down, along the bottom, and up. Returns its end position.
+    fn gap(&mut self, start: f64, slope: f64, between: f64) -> f64 {
+        let (low, high) = (start + slope, start + slope + between);
+        self.piece(start, low, false, true);
+        self.piece(low, high, true, true);
+        self.piece(high, high + slope, true, false);
+        high + slope
+    }
+
+    fn piece(&mut self, from: f64, to: f64, starts_low: bool, ends_low: bool) {
+        self.pieces.push(BarSpan { from, to, starts_low, ends_low });
+    }
+
+    /// The sections along a curve in order from its start, with gaps at `low` and bars at `high`.
+    pub(crate) fn sections(&self, curve: &Curve, low: f64, high: f64) -> Vec<Section> {
+        let level = |is_low| if is_low { low } else { high };
+        let section = |piece: &BarSpan| Section {
+            curve: curve.section(piece.from, piece.to),
+            from_z: level(piece.starts_low),
+            to_z: level(piece.ends_low),
+        };
+        self.pieces.iter().map(section).collect()
+    }
+}
+
+// Helical circles. (book: program/gcode)
+
+/// The circle followed by the cutter's centre, in program coordinates.
+#[derive(Clone, Copy)]
+struct Circle {
+    centre: Xy,
+    radius: f64,
+    feed: f64,
+}
+
+impl Circle {
+    /// The lowest point in the plane, where full circles begin and end.
+    fn low(&self) -> Xy {
+        Xy::new(self.centre.x, self.centre.y - self.radius)
+    }
+
+    fn high(&self) -> Xy {
+        Xy::new(self.centre.x, self.centre.y + self.radius)
+    }
+
+    /// The full circle, clockwise from its lowest point.
+    fn curve(&self) -> Curve {
+        let low = self.low();
+        Curve::Arc(Arc {
+            centre: self.centre,
+            radius: self.radius,
+            start: low,
+            end: low,
+            clockwise: true,
+            degrees: 360.0,
+        })
+    }
+}
+
+impl<P: Parts> Fold<'_, P> {
+    pub(crate) fn helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
+        let circle = Circle {
+            centre: place.placement.place(helix.centre),
+            radius: helix.axis_radius(place.path.tool),
+            feed: self.feed(helix.feed),
+        };
+        let bottom = place.raised + helix.bottom;
+        self.element(ElementKind::HelicalCircle, origin, bottom, place, None);
+        self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
+        self.question(helix.comment.as_deref());
+        self.sweep(circle.low(), circle.radius);
+        let mut done = self.spiral(&circle, place.surface, helix.infeed, bottom);
+        if let Some((depth, bars)) = &helix.bars {
+            done = self.circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
+        }
+        if !at_least(place.path.tool, helix.radius) {
+            self.lift_corrected_at(place.sweep_height, circle.centre, place.sweep_height - done);
+        }
+        self.sweep(circle.centre, circle.radius);
+    }
+
+    /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth at which the last full circle began.
+    fn spiral(&mut self, circle: &Circle, surface: f64, infeed: f64, bottom: f64) -> f64 {
+        let mut depth = surface;
+        if at_least(bottom, surface) {
+            return surface;
+        }
+        loop {
+            let half = (depth - infeed / 2.0).max(bottom);
+            self.half_circle(circle, circle.high(), circle.radius, half);
+            self.half_circle(circle, circle.low(), -circle.radius, (half - infeed / 2.0).max(bottom));
+            if at_least(bottom, depth) {
+                return depth;
+            }
+            depth -= infeed;
+        }
+    }
+
+    fn half_circle(&mut self, circle: &Circle, to: Xy, j: f64, z: f64) {
+        let height = Height { z, at: circle.centre };
+        let half = PlannedMove::Arc {
+            feed: circle.feed,
+            clockwise: true,
+            centre: Xy::new(0.0, j),
+            to,
+            z: height,
+            is_spiral: true,
+        };
+        let count = Count { class: Class::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
+        self.step(half, count, Tip { at: to, z });
+    }
+
+    /// Mills full circles with bars below D, pass by pass down to B. Returns the depth of the last one, or that of the spiral if there is
+    /// none.
+    fn circles_with_bars(
+        &mut self,
+        place: &PlacedPath<'_>,
+        circle: &Circle,
+        (done, infeed): (f64, f64),
+        depth: f64,
+        bars: &Bars,
+    ) -> f64 {
+        let length = 2.0 * PI * circle.radius;
+        let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
+        let (low, high) = (place.raised + depth, place.raised + bars.top);
+        // The original tool continues from the end of its spiral, which may already be below B.
+        let mut z = if self.compatible { done } else { high };
+        while above(z, low) {
+            self.checkpoint();
+            z = if above(z - infeed, low) { z - infeed } else { low };
+            for section in plan.sections(&circle.curve(), z, high) {
+                self.mill(&section, place.surface, circle.feed);
+            }
+        }
+        z
     }
 }

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use pathbuild_diagnostic::{Text, words};
-use pathbuild_motion::{Arc, Axes, Move, Pace, Path, Plane, Position};
+use pathbuild_motion::{Arc, Axes, Move, MoveShape, Pace, Plane, Position};
 use pathbuild_path::{Curve, Line, Way, Xy};
 
-use crate::program::{Move as PlannedMove, Program, Step};
+use crate::program::{PlannedMove, Program, ProgramStep};
 
 impl Program {
     /// The moves as an interpreter of the native text sees them, from (0, 0, S0) to the last lift to S0. Instead of a line, each has the
@@ -17,8 +17,8 @@ impl Program {
         let last = u32::try_from(self.steps.len()).unwrap_or(u32::MAX).saturating_add(1);
         let steps = (1_u32..).zip(self.steps.iter().map(Some)).chain(std::iter::once((last, None)));
         steps.filter_map(move |(number, step)| match step {
-            Some(Step::Move { to, count }) => Some((number, tool.go(to, count.length))),
-            Some(Step::Comment(_)) => None,
+            Some(ProgramStep::Move { to, count }) => Some((number, tool.go(to, count.length))),
+            Some(ProgramStep::Comment(_)) => None,
             None => Some((number, tool.lift(height))),
         })
     }
@@ -54,7 +54,7 @@ impl ToolTip {
                 let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
                 let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
-                let path = if is_next_to_nothing { Path::Line } else { Path::Arc(arc) };
+                let path = if is_next_to_nothing { MoveShape::Line } else { MoveShape::Arc(arc) };
                 let to = if is_whole { self.at_height(z.z) } else { to };
                 self.along(to, path, Pace::Feed(feed))
             }
@@ -71,12 +71,12 @@ impl ToolTip {
     }
 
     fn straight(&mut self, to: Position, pace: Pace) -> Move {
-        self.along(to, Path::Line, pace)
+        self.along(to, MoveShape::Line, pace)
     }
 
-    fn along(&mut self, to: Position, path: Path, pace: Pace) -> Move {
+    fn along(&mut self, to: Position, shape: MoveShape, pace: Pace) -> Move {
         let from = std::mem::replace(&mut self.at, to);
-        Move { from, to, path, pace, named: None }
+        Move { from, to, shape, pace, named: None }
     }
 }
 
@@ -133,7 +133,9 @@ pub fn kind_of_move(movement: &Move) -> &'static Text {
     match movement.pace {
         Pace::Rapid => &words::RAPID_MOVE,
         Pace::Probe { .. } => &words::PROBING_MOVE,
-        Pace::Feed(_) if movement.from.at[..2] == movement.to.at[..2] && movement.path == Path::Line => {
+        Pace::Feed(_)
+            if movement.from.at[..2] == movement.to.at[..2] && movement.shape == MoveShape::Line =>
+        {
             &words::PLUNGE
         }
         Pace::Feed(_) => &words::CUT,
@@ -153,9 +155,9 @@ mod tests {
 
     #[test]
     fn a_radius_that_is_printed_as_zero_makes_a_line() {
-        let path = |radius: f64| arc(Xy::new(radius, 0.0), Xy::new(2.0 * radius, 0.0), PI * radius).path;
-        assert_eq!(path(0.000_49), Path::Line);
-        assert!(matches!(path(0.000_5), Path::Arc(_)));
+        let path = |radius: f64| arc(Xy::new(radius, 0.0), Xy::new(2.0 * radius, 0.0), PI * radius).shape;
+        assert_eq!(path(0.000_49), MoveShape::Line);
+        assert!(matches!(path(0.000_5), MoveShape::Arc(_)));
     }
 
     #[test]

@@ -1,9 +1,12 @@
 //! The finished program. (book: program/gcode)
 
 use std::collections::BTreeMap;
+use std::ptr;
 
 use pathbuild_diagnostic::EntityKind;
-use pathbuild_path::Xy;
+use pathbuild_path::{
+    Bars, Chain, ChainSegment, CutParameters, Helix, Item, Path, Placement, WalkedPath, Xy,
+};
 
 /// A finished program: the steps of the machine before they are written in any dialect.
 ///
@@ -27,7 +30,7 @@ pub struct Program {
     /// Texts referred to by steps.
     pub names: Names,
     /// Moves and comments in order. Sweeps are merged; nothing follows the last step.
-    pub steps: Vec<Step>,
+    pub steps: Vec<ProgramStep>,
     /// Z-probes in the order in which they are measured, starting with #51.
     pub probes: Vec<ProbePoint>,
     /// Elements on the layers of its paths that do not belong to them.
@@ -61,29 +64,25 @@ pub struct ProbePoint {
 impl Program {
     /// O in mm, if the same cutter mills everything.
     pub fn cutter(&self) -> Option<f64> {
-        let mut cutters = self.steps.iter().filter_map(|step| match step {
-            Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
-            _ => None,
-        });
-        cutters.all(|cutter| cutter == self.tool).then_some(self.tool)
+        self.elements().all(|(cutter, _)| cutter == self.tool).then_some(self.tool)
     }
 
     /// Height of the upper face of the material in mm, if it is the same everywhere.
     pub fn surface(&self) -> Option<f64> {
-        let mut surfaces = self.steps.iter().filter_map(|step| match step {
-            Step::Comment(Comment::Element { surface, .. }) => Some(*surface),
-            _ => None,
-        });
-        surfaces.all(|surface| surface == self.thickness).then_some(self.thickness)
+        self.elements().all(|(_, surface)| surface == self.thickness).then_some(self.thickness)
     }
 
     /// The largest cutter diameter O in mm.
     pub fn largest_cutter(&self) -> f64 {
-        let cutters = self.steps.iter().filter_map(|step| match step {
-            Step::Comment(Comment::Element { cutter, .. }) => Some(*cutter),
+        self.elements().map(|(cutter, _)| cutter).fold(self.tool, f64::max)
+    }
+
+    /// The cutter diameter of each element, and the upper face of its material.
+    fn elements(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.steps.iter().filter_map(|step| match step {
+            ProgramStep::Comment(Comment::Element { cutter, surface, .. }) => Some((*cutter, *surface)),
             _ => None,
-        });
-        cutters.fold(self.tool, f64::max)
+        })
     }
 
     /// S0, which is slightly above S, so that the first sweep always writes its Z.
@@ -96,17 +95,20 @@ impl Program {
 pub(crate) const FIRST_FEED: f64 = 150.0;
 
 /// A move or a comment.
+///
+/// It carries what a step of the machine (`pathbuild_motion::Step`) cannot: how the original tool counts the move, the point for which its
+/// height is corrected, half circles of helices, and comments that name elements. [`Program::moves`] gives the machine's moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the type says it")]
-pub enum Step {
-    Move { to: Move, count: Count },
+pub enum ProgramStep {
+    Move { to: PlannedMove, count: Count },
     Comment(Comment),
 }
 
 /// A move from the current position. Coordinates are absolute and in mm, feeds in mm/min.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub enum Move {
+pub enum PlannedMove {
     /// `G00 X Y`: a rapid in the plane at the current height.
     Sweep { to: Xy },
     /// `G00 Z`: a rapid up or down.
@@ -219,4 +221,108 @@ impl Names {
     pub fn get(&self, id: NameId) -> &str {
         &self.texts[id.0 as usize]
     }
+}
+
+// Records which element of which path each step of a program comes from.
+
+/// The origins of the steps of a program. It is as long as the program and only recorded on request.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace<Id> {
+    /// The paths in the program, beginning with the emitted one. A path that is embedded twice occurs twice.
+    pub occurrences: Vec<Occurrence<Id>>,
+    /// The element of each step of the program.
+    pub steps: Vec<StepOrigin>,
+}
+
+/// A path at its place in a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Occurrence<Id> {
+    /// Identifies the path and the values of its variables.
+    pub id: Id,
+    /// The element that embeds it, or `None` for the emitted path.
+    pub parent: Option<StepOrigin>,
+    /// Placement of its drawing in the program.
+    pub placement: Placement,
+    /// Height by which it is raised, in mm.
+    pub raised: f64,
+    /// S in mm, before it is raised.
+    pub sweep_height: f64,
+}
+
+/// An element in a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepOrigin {
+    /// Index into [`Trace::occurrences`].
+    pub occurrence: u32,
+    /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements) of its path; `None` before the first element.
+    pub element: Option<u32>,
+}
+
+impl<Id> Default for Trace<Id> {
+    fn default() -> Self {
+        Self { occurrences: Vec::new(), steps: Vec::new() }
+    }
+}
+
+// Estimates the number of moves of a path before they are computed, so that limits can be checked first.
+
+/// Approximate number of moves of a path without its embedded paths: never less than half the real number; saturates.
+pub fn own_moves(path: &Path, walked: &WalkedPath) -> u64 {
+    walked.items.iter().map(|item| moves(path, walked, item)).fold(0, u64::saturating_add)
+}
+
+/// Approximate memory in bytes for this number of moves in a program, each with a comment.
+pub fn memory(moves: u64) -> u64 {
+    moves.saturating_mul(2 * size_of::<ProgramStep>() as u64)
+}
+
+fn moves(path: &Path, walked: &WalkedPath, item: &Item) -> u64 {
+    match item {
+        Item::Chain(chain) => chain_moves(path, chain, walked.members(chain)),
+        Item::Helix { helix, .. } => helix_moves(path, &path.helices[*helix as usize]),
+        Item::Hole { .. } | Item::Sweep(_) | Item::Subpath(_) => 4,
+    }
+}
+
+fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
+    let first = chain.first_depth.unwrap_or(path.thickness);
+    // Consecutive segments usually share their parameters.
+    let mut last: Option<(&CutParameters, u64)> = None;
+    let segments = members.iter().map(|member| {
+        let cut = member.cut(path);
+        let known = last.filter(|(known, _)| ptr::eq(*known, cut));
+        let (_, passes) =
+            *last.insert(known.unwrap_or_else(|| (cut, passes(first - cut.bottom, chain.infeed))));
+        let sections = cut.bars.map_or(1, |bars| sections(&bars, member.curve(path).length()));
+        passes.saturating_mul(sections.saturating_add(1))
+    });
+    let once = segments.fold(0, u64::saturating_add);
+    if chain.first_depth.is_some() { once.saturating_mul(2) } else { once }
+}
+
+fn helix_moves(path: &Path, helix: &Helix) -> u64 {
+    let spiral = passes(path.thickness - helix.bottom, helix.infeed).saturating_mul(2);
+    let with_bars = helix.bars.map_or(0, |(depth, bars)| {
+        let length = std::f64::consts::TAU * helix.axis_radius(path.tool);
+        passes(helix.bottom - depth, helix.infeed).saturating_mul(sections(&bars, length))
+    });
+    spiral.saturating_add(with_bars)
+}
+
+/// The sections of a segment with bars: each gap is a slope, a low section, a slope and the next bar.
+fn sections(bars: &Bars, length: f64) -> u64 {
+    whole(4.0 * bars.count(length) + 1.0)
+}
+
+fn passes(depth: f64, infeed: f64) -> u64 {
+    whole((depth / infeed).ceil().max(0.0)).saturating_add(1)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, and is never negative"
+)]
+fn whole(number: f64) -> u64 {
+    number as u64
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Add;
 
-use crate::program::{Class, Count, Move, Program, Step};
+use crate::program::{Class, Count, PlannedMove, Program, ProgramStep};
 
 /// The totals of a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,7 +35,7 @@ impl Statistics {
         let mut statistics = Self::default();
         let mut z = program.start_height();
         for step in &program.steps {
-            if let Step::Move { to, count } = step {
+            if let ProgramStep::Move { to, count } = step {
                 statistics.add(count, rapid);
                 z = height_after(to).unwrap_or(z);
             }
@@ -80,9 +80,12 @@ impl Total {
 }
 
 /// Height at the end of a move, or `None` if it does not change.
-fn height_after(to: &Move) -> Option<f64> {
+fn height_after(to: &PlannedMove) -> Option<f64> {
     match to {
-        Move::Sweep { .. } => None,
-        Move::Lift { z } | Move::Drill { z, .. } | Move::Line { z, .. } | Move::Arc { z, .. } => Some(z.z),
+        PlannedMove::Sweep { .. } => None,
+        PlannedMove::Lift { z }
+        | PlannedMove::Drill { z, .. }
+        | PlannedMove::Line { z, .. }
+        | PlannedMove::Arc { z, .. } => Some(z.z),
     }
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
 use pathbuild_diagnostic::{Lang, Number};
-use pathbuild_motion::{Axes, Path, Position};
+use pathbuild_motion::{Axes, MoveShape, Position};
 
 use crate::scene::{MoveKind, Point, SceneMove};
 
@@ -238,9 +238,9 @@ impl MoveIdentity {
         } else {
             (movement.kind, end(&movement.way.from))
         };
-        let arc = match movement.way.path {
-            Path::Line => None,
-            Path::Arc(arc) => {
+        let arc = match movement.way.shape {
+            MoveShape::Line => None,
+            MoveShape::Arc(arc) => {
                 let axes = arc.plane.axes();
                 let centre = [0, 1].map(|index| micrometres(arc.centre[index] - shift(axes[index])));
                 let (is_clockwise, extra_turns) = (arc.clockwise, arc.extra_turns);
@@ -271,9 +271,9 @@ impl Line {
         let drawn = [movement.from(), movement.to()].map(|end| end.map(micrometres));
         let mut ends = drawn;
         ends.sort_unstable();
-        let (centre, is_clockwise) = match movement.way.path {
-            Path::Line => (None, false),
-            Path::Arc(arc) => (Some(arc.centre.map(micrometres)), arc.clockwise == (drawn == ends)),
+        let (centre, is_clockwise) = match movement.way.shape {
+            MoveShape::Line => (None, false),
+            MoveShape::Arc(arc) => (Some(arc.centre.map(micrometres)), arc.clockwise == (drawn == ends)),
         };
         Self { kind: movement.kind, ends, centre, is_clockwise }
     }

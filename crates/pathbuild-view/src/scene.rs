@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::shown;
 use pathbuild_motion as motion;
-use pathbuild_motion::{Axes, Pace, Path};
+use pathbuild_motion::{Axes, MoveShape, Pace};
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
@@ -529,10 +529,10 @@ impl Serialize for SceneMove {
         let place = |end: &motion::Position| {
             [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)).then(|| rounded(end.at[axis])))
         };
-        let motion::Move { from, to, path, pace, .. } = &self.way;
-        let arc = match path {
-            Path::Line => None,
-            Path::Arc(arc) => Some(ArcJson {
+        let motion::Move { from, to, shape, pace, .. } = &self.way;
+        let arc = match shape {
+            MoveShape::Line => None,
+            MoveShape::Arc(arc) => Some(ArcJson {
                 axes: arc.plane.axes(),
                 centre: arc.centre.map(rounded),
                 clockwise: arc.clockwise,

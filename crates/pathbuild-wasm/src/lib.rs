@@ -6,12 +6,10 @@
 //!
 //! The functions called by the browser are in `exports`; everything else is portable and has ordinary tests.
 
-mod compiler;
 #[cfg(target_family = "wasm")]
 pub mod exports;
-mod files;
 mod message;
 mod opened;
 
-pub use compiler::Compiler;
 pub use message::{LossReason, LostPath, Options, Question};
+pub use opened::Compiler;

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::{Instant, SystemTime};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::clean;
+use pathbuild_db::system::{FileKind, Listing, MemorySystem, ReadError, WriteOutcome, clean};
 use pathbuild_db::{
     Db as _, Role, SourceFile, System, Target, bug, check_file, file_index, path_names, too_slow,
 };
@@ -21,7 +22,6 @@ use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 
-use crate::files::Files;
 use crate::message::{Answer, LossReason, LostPath, Options, Place, Question};
 
 /// The files opened with one configuration.
@@ -94,7 +94,7 @@ impl OpenedFiles {
     }
 
     /// Answers a question about the opened files.
-    pub(crate) fn reply(&mut self, question: Question) -> Answer {
+    fn reply(&mut self, question: Question) -> Answer {
         match question {
             Question::Index { file } => json!({ "rows": self.index(&file) }).into(),
             Question::Check(place) => json!({ "row": self.check(place) }).into(),
@@ -233,5 +233,118 @@ fn seen(bytes: Option<Vec<u8>>) -> Answer {
     match bytes {
         Some(bytes) => Answer { head: json!({ "seen": true }), bytes },
         None => json!({ "seen": false }).into(),
+    }
+}
+
+/// Answers the messages of a page.
+#[derive(Debug, Default)]
+pub struct Compiler {
+    files: Arc<Files>,
+    opened: Option<OpenedFiles>,
+}
+
+impl Compiler {
+    /// Answers a message: a line of JSON ([`Question`]) followed by bytes. The reply to a malformed message is `{ wrong }`.
+    pub fn answer(&mut self, message: &[u8]) -> Vec<u8> {
+        let end = message.iter().position(|byte| *byte == b'\n').unwrap_or(message.len());
+        let (line, bytes) = (&message[..end], message.get(end + 1..).unwrap_or_default());
+        let answer = match serde_json::from_slice(line) {
+            Ok(question) => self.reply(question, bytes),
+            Err(error) => Answer::from(json!({ "wrong": error.to_string() })),
+        };
+        answer.message()
+    }
+
+    fn reply(&mut self, question: Question, bytes: &[u8]) -> Answer {
+        let question = match question {
+            Question::Put { file } => {
+                self.files.put(clean(&Utf8PathBuf::from(file)), bytes);
+                return Answer::default();
+            }
+            Question::Open { options, lost } => {
+                let (opened, answer) = OpenedFiles::new(&self.files, options, lost);
+                self.opened = opened;
+                return answer.into();
+            }
+            question => question,
+        };
+        match &mut self.opened {
+            Some(opened) => opened.reply(question),
+            None => json!({ "wrong": "nothing is open" }).into(),
+        }
+    }
+}
+
+// The files of a page: those it was given, and those written but not yet handed over. The given files are never modified, so that the
+// state of a program reflects the visitor's disk.
+
+#[derive(Debug)]
+pub(crate) struct Files {
+    given: MemorySystem,
+    written: MemorySystem,
+}
+
+impl Default for Files {
+    fn default() -> Self {
+        Self { given: MemorySystem::without_clock(), written: MemorySystem::without_clock() }
+    }
+}
+
+impl Files {
+    /// Adds a file given by the page.
+    fn put(&self, path: Utf8PathBuf, bytes: &[u8]) {
+        self.given.put(path, bytes);
+    }
+
+    /// Hands over a file that was written or given.
+    pub(crate) fn take(&self, path: &Utf8Path) -> Vec<u8> {
+        let bytes = self.read(path, u64::MAX).unwrap_or_default();
+        _ = self.written.remove(path);
+        bytes
+    }
+
+    fn holding(&self, path: &Utf8Path) -> &MemorySystem {
+        if self.written.kind(path) == FileKind::File { &self.written } else { &self.given }
+    }
+}
+
+impl System for Files {
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        self.holding(path).read(path, limit)
+    }
+
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        self.holding(path).head(path, length)
+    }
+
+    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
+        self.given.modified(path)
+    }
+
+    fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
+        self.given.list(directory)
+    }
+
+    fn kind(&self, path: &Utf8Path) -> FileKind {
+        self.holding(path).kind(path)
+    }
+
+    fn canonical(&self, path: &Utf8Path) -> Utf8PathBuf {
+        path.to_owned()
+    }
+
+    fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, pathbuild_diagnostic::Value> {
+        if self.read(path, u64::MAX).is_ok_and(|present| present == bytes) {
+            return Ok(WriteOutcome::Unchanged);
+        }
+        self.written.write(path, bytes)
+    }
+
+    fn remove(&self, path: &Utf8Path) -> Result<(), pathbuild_diagnostic::Value> {
+        self.written.remove(path)
+    }
+
+    fn now(&self) -> Option<Instant> {
+        None
     }
 }

@@ -209,7 +209,7 @@ fn is_alike(one: &[Effect], other: &[Effect]) -> bool {
     let (one, other) = (counting(one), counting(other));
     let is_same = |((a, spindle), (b, other)): (&Effect, &Effect)| {
         let ends = is_near(&a.from, &b.from) && is_near(&a.to, &b.to);
-        ends && a.pace == b.pace && a.path == b.path && spindle == other
+        ends && a.pace == b.pace && a.shape == b.shape && spindle == other
     };
     one.len() == other.len() && one.iter().zip(&other).all(is_same)
 }
@@ -219,7 +219,13 @@ const ROUNDING: f64 = 0.006;
 
 fn nothing() -> Move {
     let nowhere = Position::default();
-    Move { from: nowhere, to: nowhere, path: pathbuild_motion::Path::Line, pace: Pace::Rapid, named: None }
+    Move {
+        from: nowhere,
+        to: nowhere,
+        shape: pathbuild_motion::MoveShape::Line,
+        pace: Pace::Rapid,
+        named: None,
+    }
 }
 
 /// Words that are dangerous anywhere before the last cut.

@@ -509,7 +509,7 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
     let mut effects = Vec::new();
     for Step { action, .. } in interpret(text, dialect, &Options::default()).steps {
         match action {
-            Action::Move(it) if is_still(&it.from.at, &it.to.at) && it.path == motion::Path::Line => {}
+            Action::Move(it) if is_still(&it.from.at, &it.to.at) && it.shape == motion::MoveShape::Line => {}
             Action::Move(it) if it.pace == Pace::Rapid && it.to.z().min(it.from.z()) >= LOW => {}
             Action::Move(it) if it.pace == Pace::Rapid => {
                 let numbers = it.to.at.to_vec();
@@ -517,7 +517,7 @@ fn our_effects(text: &[u8], dialect: Dialect) -> Vec<Effect> {
             }
             Action::Move(it) => {
                 let (kind, mut numbers, mut way) = (1, it.to.at.to_vec(), String::new());
-                if let motion::Path::Arc(arc) = it.path {
+                if let motion::MoveShape::Arc(arc) = it.shape {
                     numbers.extend(arc.centre);
                     way = format!("{} {} {:?}", arc.clockwise, arc.extra_turns, arc.plane);
                 }

@@ -138,10 +138,10 @@ fn ask(modules: &Path, files: &[PathBuf]) -> Vec<Vec<Vec<f64>>> {
 fn our_moves(text: &str, dialect: Dialect) -> Vec<Vec<f64>> {
     let read = interpret(text.as_bytes(), dialect, &Options::default());
     let numbers = |it: &Move| {
-        let code = match (it.pace, it.path) {
+        let code = match (it.pace, it.shape) {
             (Pace::Rapid, _) => 0.0,
-            (_, motion::Path::Line) => 1.0,
-            (_, motion::Path::Arc(arc)) => return arc_of(it, arc),
+            (_, motion::MoveShape::Line) => 1.0,
+            (_, motion::MoveShape::Arc(arc)) => return arc_of(it, arc),
         };
         [vec![code], it.to.at.to_vec()].concat()
     };

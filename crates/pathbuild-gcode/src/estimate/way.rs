@@ -1,6 +1,6 @@
 //! A move as seen by the planner.
 
-use pathbuild_motion::{Move, Pace, Path};
+use pathbuild_motion::{Move, MoveShape, Pace};
 
 use super::Kinematics;
 
@@ -48,7 +48,7 @@ impl Way {
 
 /// Speed in mm/s at which the axes of an arc's plane can still keep the tool on it.
 fn turning_speed(movement: &Move, kinematics: &Kinematics) -> f64 {
-    let Path::Arc(arc) = movement.path else { return f64::INFINITY };
+    let MoveShape::Arc(arc) = movement.shape else { return f64::INFINITY };
     let weakest =
         arc.plane.axes().map(|axis| kinematics.accelerations[axis]).into_iter().fold(f64::INFINITY, f64::min);
     libm::sqrt(weakest * arc.radius(&movement.from).max(arc.radius(&movement.to)))
@@ -60,7 +60,7 @@ fn directions(movement: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
         let is_known = known.has(pathbuild_motion::Axes::of(axis));
         if is_known { movement.to.at[axis] - movement.from.at[axis] } else { 0.0 }
     });
-    let Path::Arc(arc) = movement.path else {
+    let MoveShape::Arc(arc) = movement.shape else {
         let direction = way.map(|axis| axis / length);
         return (direction, direction);
     };

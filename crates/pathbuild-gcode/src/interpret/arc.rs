@@ -1,7 +1,7 @@
 //! Arcs given by I J K or R. (book: program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
+use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Position};
 
 use super::execute::{Interpreter, whole};
 use super::gather::Slot;
@@ -44,7 +44,7 @@ impl Interpreter<'_> {
             self.report(block, &say::RADIUS_ZERO, whole_line(block), |d| d);
             return self.leave_out(to);
         }
-        let mut movement = Move { from, to, path: Path::Arc(arc), pace: Pace::Feed(0.0), named: None };
+        let mut movement = Move { from, to, shape: MoveShape::Arc(arc), pace: Pace::Feed(0.0), named: None };
         if from.known.and(to.known).has(plane.axes_of_plane()) {
             self.check_radii(block, &arc, &from, &to);
             self.check_ends(block, &arc, &movement);

@@ -3,7 +3,7 @@
 //! Names such as "height" and Z assume the plane XY, which is almost always the active one.
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Axes, Move, Pace, Path, Position};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 
 use super::codes::{self, Cycle};
 use super::execute::{Interpreter, whole};
@@ -187,12 +187,12 @@ impl Interpreter<'_> {
         let axis = self.state.plane.third();
         to.at[axis] = z;
         to.known = to.known.with(Axes::of(axis));
-        Move { from, to, path: Path::Line, pace, named: None }
+        Move { from, to, shape: MoveShape::Line, pace, named: None }
     }
 
     fn rapid(&mut self, block: &Block<'_>, to: Position) {
         let from = self.state.position;
-        self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None });
+        self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None });
     }
 }
 

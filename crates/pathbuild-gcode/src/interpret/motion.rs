@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_motion::{Axes, Group, Move, Named, Pace, Path, Position};
+use pathbuild_motion::{Axes, Group, Move, MoveShape, Named, Pace, Position};
 
 use super::codes::{self, Command, Motion};
 use super::execute::Interpreter;
@@ -160,7 +160,7 @@ impl Interpreter<'_> {
         let to = if is_machine { self.machine_target(block, coordinates) } else { self.target(coordinates) };
         let from = self.state.position;
         let named = is_machine.then_some(Named::Machine);
-        let mut movement = Move { from, to, path: Path::Line, pace, named };
+        let mut movement = Move { from, to, shape: MoveShape::Line, pace, named };
         movement.pace = match pace {
             Pace::Rapid => {
                 self.rapid_feed(block);

@@ -1,7 +1,7 @@
 //! Commands other than motions that use the coordinates of a block (G10, G28, G30, G52, G92), and coordinate systems.
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Axes, Change, Group, Move, Named, Pace, Path, WorkSystem};
+use pathbuild_motion::{Action, Axes, Change, Group, Move, MoveShape, Named, Pace, WorkSystem};
 
 use super::codes::{Command, Origin};
 use super::execute::{Interpreter, whole};
@@ -91,7 +91,7 @@ impl Interpreter<'_> {
         if !given.is_empty() {
             let to = self.target(coordinates);
             let from = self.state.position;
-            self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None });
+            self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None });
         }
         let from = self.state.position;
         let mut to = from;
@@ -109,7 +109,7 @@ impl Interpreter<'_> {
             self.state.lost = Some((block.line, code));
         }
         let named = Some(if which == 0 { Named::Home1 } else { Named::Home2 });
-        self.emit_move(block, Move { from, to, path: Path::Line, pace: Pace::Rapid, named });
+        self.emit_move(block, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named });
     }
 
     fn local_offset(&mut self) {

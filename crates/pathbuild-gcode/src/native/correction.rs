@@ -1,6 +1,6 @@
 //! The formula that corrects a height by measured probes. (book: language/probes)
 
-use pathbuild_toolpath::{Correction, Height, Move, ProbePoint, Program, Step, Surface};
+use pathbuild_toolpath::{Correction, Height, PlannedMove, ProbePoint, Program, ProgramStep, Surface};
 
 use super::number::{push_exact, push_f3};
 
@@ -56,7 +56,7 @@ impl<'a> Formulas<'a> {
     }
 
     /// Indices of the probes that do not correct any height of the given steps.
-    pub(super) fn unused(&self, steps: &[Step]) -> Vec<usize> {
+    pub(super) fn unused(&self, steps: &[ProgramStep]) -> Vec<usize> {
         let mut is_used = vec![false; self.probes.len()];
         for height in steps.iter().filter_map(height_of) {
             for (probe, weight) in self.surface.weights(height.at) {
@@ -72,13 +72,16 @@ impl<'a> Formulas<'a> {
 }
 
 /// The target height of a step, if it has one.
-pub(super) fn height_of(step: &Step) -> Option<Height> {
+pub(super) fn height_of(step: &ProgramStep) -> Option<Height> {
     match step {
-        Step::Move { to, .. } => match *to {
-            Move::Sweep { .. } => None,
-            Move::Lift { z } | Move::Drill { z, .. } | Move::Line { z, .. } | Move::Arc { z, .. } => Some(z),
+        ProgramStep::Move { to, .. } => match *to {
+            PlannedMove::Sweep { .. } => None,
+            PlannedMove::Lift { z }
+            | PlannedMove::Drill { z, .. }
+            | PlannedMove::Line { z, .. }
+            | PlannedMove::Arc { z, .. } => Some(z),
         },
-        Step::Comment(_) => None,
+        ProgramStep::Comment(_) => None,
     }
 }
 

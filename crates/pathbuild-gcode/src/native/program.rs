@@ -4,7 +4,8 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::WrittenArc;
 use pathbuild_toolpath::{
-    Comment, Correction, ElementKind, Height, LeftOut, Move, Program, Step, Xy, is_doubtful, is_point,
+    Comment, Correction, ElementKind, Height, LeftOut, PlannedMove, Program, ProgramStep, Xy, is_doubtful,
+    is_point,
 };
 
 use super::arc_end::Printed;
@@ -151,8 +152,8 @@ pub fn program_within(
     writer.line("G00 X0.000 Y0.000");
     for step in steps.as_ref() {
         match step {
-            Step::Move { to, count } => writer.step(to, count.length),
-            Step::Comment(said) => writer.said(said),
+            ProgramStep::Move { to, count } => writer.step(to, count.length),
+            ProgramStep::Comment(said) => writer.said(said),
         }
         if writer.text.len() > most {
             return Err(too_large(most));
@@ -206,32 +207,32 @@ impl Writer<'_> {
         }
     }
 
-    fn step(&mut self, to: &Move, length: f64) {
+    fn step(&mut self, to: &PlannedMove, length: f64) {
         match *to {
-            Move::Sweep { to } => {
+            PlannedMove::Sweep { to } => {
                 self.text.push_str("G00");
                 self.xy(to);
             }
-            Move::Lift { z } => {
+            PlannedMove::Lift { z } => {
                 self.text.push_str("G00");
                 self.z(z);
             }
-            Move::Drill { feed, z } => {
+            PlannedMove::Drill { feed, z } => {
                 self.text.push_str("G01");
                 if !self.program.compatible {
                     self.word('F', feed);
                 }
                 self.z(z);
             }
-            Move::Line { feed, to, z } => {
+            PlannedMove::Line { feed, to, z } => {
                 self.text.push_str("G01");
                 self.word('F', feed);
                 self.xy(to);
                 self.z(z);
             }
-            Move::Arc { feed, clockwise, centre, to, z, is_spiral } => {
+            PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral } => {
                 if is_point(centre) {
-                    return self.step(&Move::Line { feed, to, z }, length);
+                    return self.step(&PlannedMove::Line { feed, to, z }, length);
                 }
                 let to = self.arc_end(to, centre, clockwise, length);
                 let centre = self.arc_centre(to, centre);

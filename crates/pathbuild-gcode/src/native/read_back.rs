@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, Pace};
-use pathbuild_toolpath::{LAST_DIGIT, Move, ProbePoint, Program, Step, is_doubtful};
+use pathbuild_toolpath::{LAST_DIGIT, PlannedMove, ProbePoint, Program, ProgramStep, is_doubtful};
 
 use crate::dialect::Dialect;
 use crate::interpret::{Heights, Options, interpret_each, interpret_parts};
@@ -136,8 +136,10 @@ const SHORT_LINE: usize = 20;
 
 /// Whether the writer may have moved the printed end of an arc.
 fn has_doubtful_arcs(program: &Program) -> bool {
-    let is_one = |step: &Step| match step {
-        Step::Move { to: Move::Arc { centre, .. }, count } => is_doubtful(*centre, count.length),
+    let is_one = |step: &ProgramStep| match step {
+        ProgramStep::Move { to: PlannedMove::Arc { centre, .. }, count } => {
+            is_doubtful(*centre, count.length)
+        }
         _ => false,
     };
     program.steps.iter().any(is_one)

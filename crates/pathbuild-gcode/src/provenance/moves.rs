@@ -1,7 +1,7 @@
 //! A hash of moves and formulas as they are printed, so that differences beyond the third decimal have no effect.
 
 use blake3::{Hash, Hasher};
-use pathbuild_toolpath::{Comment, Height, Move, ProbePoint, Program, Step, Xy};
+use pathbuild_toolpath::{Comment, Height, PlannedMove, ProbePoint, Program, ProgramStep, Xy};
 
 /// The hash of the programs in a file. Comments are ignored, except those of the drawing for the operator.
 pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
@@ -44,39 +44,39 @@ impl Bytes {
         self.0.extend(text.as_bytes());
     }
 
-    fn step(&mut self, program: &Program, step: &Step) {
+    fn step(&mut self, program: &Program, step: &ProgramStep) {
         match *step {
-            Step::Move { to, .. } => self.step_to(to),
-            Step::Comment(Comment::Question(text)) => {
+            ProgramStep::Move { to, .. } => self.step_to(to),
+            ProgramStep::Comment(Comment::Question(text)) => {
                 self.0.push(b'Q');
                 self.text(program.names.get(text));
             }
-            Step::Comment(_) => {}
+            ProgramStep::Comment(_) => {}
         }
     }
 
-    fn step_to(&mut self, to: Move) {
+    fn step_to(&mut self, to: PlannedMove) {
         match to {
-            Move::Sweep { to } => {
+            PlannedMove::Sweep { to } => {
                 self.0.push(b'S');
                 self.point(to);
             }
-            Move::Lift { z } => {
+            PlannedMove::Lift { z } => {
                 self.0.push(b'Z');
                 self.height(z);
             }
-            Move::Drill { feed, z } => {
+            PlannedMove::Drill { feed, z } => {
                 self.0.push(b'D');
                 self.number(feed);
                 self.height(z);
             }
-            Move::Line { feed, to, z } => {
+            PlannedMove::Line { feed, to, z } => {
                 self.0.push(b'L');
                 self.number(feed);
                 self.point(to);
                 self.height(z);
             }
-            Move::Arc { feed, clockwise, centre, to, z, is_spiral } => {
+            PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral } => {
                 self.0.extend([b'A', clockwise.into(), is_spiral.into()]);
                 self.number(feed);
                 self.point(centre);

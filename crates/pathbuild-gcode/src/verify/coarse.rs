@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::Path;
+use pathbuild_motion::MoveShape;
 
 use crate::dialect::Dialect;
 use crate::interpret::{Options, interpret_each};
@@ -48,7 +48,7 @@ fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
     let mut is_rounded = false;
     interpret_each(text, dialect, &Options::default(), &mut |step| {
         let Some((_, movement)) = step.as_move() else { return };
-        let Path::Arc(arc) = movement.path else { return };
+        let MoveShape::Arc(arc) = movement.shape else { return };
         is_rounded |= libm::fabs(arc.radius(&movement.from) - arc.radius(&movement.to)) > EXACT;
     });
     is_rounded

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
-use pathbuild_motion::{Axes, Course, Move, Pace, Path, Position};
+use pathbuild_motion::{Axes, Course, Move, MoveShape, Pace, Position};
 
 use super::walk::{Stretch, Walker, are_alike};
 
@@ -96,11 +96,11 @@ pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tole
 
 /// Whether two moves that begin at the same position are equal throughout.
 pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance) -> bool {
-    if let (Path::Line, Path::Line) = (found.path, expected.path) {
+    if let (MoveShape::Line, MoveShape::Line) = (found.shape, expected.shape) {
         return is_near(&found.to.at, &expected.to.at, tolerance.place)
             && check_pace(found, expected, tolerance).is_ok();
     }
-    if let (Path::Arc(ours), Path::Arc(theirs)) = (found.path, expected.path)
+    if let (MoveShape::Arc(ours), MoveShape::Arc(theirs)) = (found.shape, expected.shape)
         && found.from.known.and(expected.from.known) == Axes::ALL
     {
         let ours = Course::new(ours, &found.from, &found.to);

@@ -1,6 +1,6 @@
 //! Divides moves into parts that are straight in the plane and almost level.
 
-use pathbuild_motion::{Move, Path, widest_chord};
+use pathbuild_motion::{Move, MoveShape, widest_chord};
 
 /// Maximum height of a part of a slope, in mm.
 const STEP: f64 = 0.05;
@@ -27,7 +27,7 @@ impl MovePiece {
 
 /// Number of parts required because a move is not level, at least 1.
 pub(super) fn slopes(movement: &Move) -> f64 {
-    let is_plunge = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.path, Path::Line);
+    let is_plunge = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.shape, MoveShape::Line);
     let rise = libm::fabs(movement.to.z() - movement.from.z());
     if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
 }
@@ -35,9 +35,9 @@ pub(super) fn slopes(movement: &Move) -> f64 {
 /// Number of parts into which a move is divided, at least 1.
 pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
     let slope = slopes(movement);
-    let count = match movement.path {
-        Path::Line => slope,
-        Path::Arc(arc) => slope
+    let count = match movement.shape {
+        MoveShape::Line => slope,
+        MoveShape::Arc(arc) => slope
             .max(arc.sweep(&movement.from, &movement.to) / widest_chord(arc.radius(&movement.from), sagitta)),
     };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]

@@ -9,8 +9,8 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_motion::{Move, Pace, Path, Position, Step};
-use pathbuild_toolpath::Program as Drawn;
+use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
+use pathbuild_toolpath as toolpath;
 
 use super::machine::{Machine, MachineRules};
 use super::material;
@@ -29,14 +29,14 @@ const MOST_SUSPECTS: usize = 16;
 const MOST_CELLS: u64 = 1_000_000;
 
 /// What exceeds the capabilities of a machine in the program of a drawing, by step number.
-pub fn beyond_machine(drawn: &Drawn, machine: &Machine) -> Vec<Diagnostic> {
+pub fn beyond_machine(drawn: &toolpath::Program, machine: &Machine) -> Vec<Diagnostic> {
     let mut rules = MachineRules::new(machine);
     Moves(drawn).each(&mut |step| rules.step(step));
     rules.finish()
 }
 
 /// The rapid moves into material in the program of a drawing, by step number.
-pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
+pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     let stock = Stock::of(drawn);
     let suspects = suspects(drawn, &stock);
     if suspects.is_empty() {
@@ -49,7 +49,7 @@ pub fn rapids_into_material(drawn: &Drawn) -> Vec<Diagnostic> {
 }
 
 /// The rapid moves for which the preceding cuts have not made room.
-fn suspects(drawn: &Drawn, stock: &Stock) -> Vec<Move> {
+fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| Tops::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MOST_CUTS);
     let (mut before, mut found) = (None, Vec::new());
@@ -98,19 +98,19 @@ fn low_at<'s>(
 /// Whether a rapid move stays inside the circle milled by the preceding cuts, in which there is no core. This is the end of a
 /// helical circle.
 fn is_in_circle(it: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) -> bool {
-    let Some(Path::Arc(last)) = recent.back().map(|(_, cut)| cut.path) else { return false };
+    let Some(MoveShape::Arc(last)) = recent.back().map(|(_, cut)| cut.shape) else { return false };
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
     let radius = from_centre(&it.from);
     let low = it.from.z().min(it.to.z()) + material::RESIDUE;
     // The angle of a cut on that circle, if it is deep enough to make room.
-    let angle = |(_, cut): &(u32, Move)| match cut.path {
-        Path::Arc(arc) => {
+    let angle = |(_, cut): &(u32, Move)| match cut.shape {
+        MoveShape::Arc(arc) => {
             let is_on_circle = [cut.from, cut.to].iter().all(|end| is_same(from_centre(end), radius));
             let is_round_centre = (0..2).all(|axis| is_same(arc.centre[axis], last.centre[axis]));
             let is_low = cut.from.z().max(cut.to.z()) <= low;
             (is_on_circle && is_round_centre && is_low).then(|| arc.sweep(&cut.from, &cut.to))
         }
-        Path::Line => None,
+        MoveShape::Line => None,
     };
     let turned: f64 = recent.iter().rev().map_while(angle).sum();
     turned >= TAU - EXACT && radius <= cutter / 2.0 + EXACT && from_centre(&it.to) <= radius + EXACT
@@ -135,7 +135,7 @@ fn stays(it: &Move) -> bool {
 }
 
 /// The program of a drawing as steps.
-struct Moves<'d>(&'d Drawn);
+struct Moves<'d>(&'d toolpath::Program);
 
 impl Program for Moves<'_> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
@@ -148,7 +148,7 @@ type Sides = [(f64, f64); 2];
 
 /// The moves that affect the material at some positions; whether other moves hit material is irrelevant.
 struct Near<'d> {
-    drawn: &'d Drawn,
+    drawn: &'d toolpath::Program,
     /// `None` means everywhere.
     places: Option<Vec<Sides>>,
     /// Distance in mm within which a move affects a position: material is known within O of a cut, and a passing cutter has a radius.

@@ -4,7 +4,7 @@
 //! Nothing is known or reported elsewhere.
 
 use pathbuild_motion::{Action, Move, Pace};
-use pathbuild_toolpath::{Comment, Program, Step as Emitted};
+use pathbuild_toolpath::{Comment, Program, ProgramStep as Emitted};
 
 use crate::interpret::Program as Steps;
 

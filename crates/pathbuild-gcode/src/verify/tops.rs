@@ -6,7 +6,7 @@
 mod tests;
 
 use pathbuild_motion::Move;
-use pathbuild_toolpath::Program as Drawn;
+use pathbuild_toolpath::Program;
 
 use super::material::cutting_piece;
 use super::stock::Stock;
@@ -27,7 +27,7 @@ pub(super) struct Tops {
 
 impl Tops {
     /// Creates the grid for the program of a drawing.
-    pub(super) fn of(drawn: &Drawn, stock: &Stock) -> Self {
+    pub(super) fn of(drawn: &Program, stock: &Stock) -> Self {
         let cuts: Vec<Cut> = cuts(drawn, stock).collect();
         let mut sides = [(f64::INFINITY, f64::NEG_INFINITY); 2];
         for (ends, _) in &cuts {
@@ -86,7 +86,7 @@ impl Tops {
 /// The bounding box in the plane of the material implied by a cut, with its surface.
 type Cut = ([(f64, f64); 2], f64);
 
-fn cuts(drawn: &Drawn, stock: &Stock) -> impl Iterator<Item = Cut> {
+fn cuts(drawn: &Program, stock: &Stock) -> impl Iterator<Item = Cut> {
     drawn.moves().filter_map(|(line, it)| {
         let piece = cutting_piece(line, &it, stock)?;
         let [Some((left, right)), Some((low, high)), _] = it.extent() else { return None };

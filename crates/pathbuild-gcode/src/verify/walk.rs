@@ -1,6 +1,6 @@
 //! Walks along a list of moves, part by part.
 
-use pathbuild_motion::{Axes, Course, Move, Pace, Path};
+use pathbuild_motion::{Axes, Course, Move, MoveShape, Pace};
 
 use super::compare::is_near;
 
@@ -86,7 +86,7 @@ impl Stretch {
     }
 
     pub(super) fn is_arc(&self) -> bool {
-        matches!(self.movement.path, Path::Arc(_))
+        matches!(self.movement.shape, MoveShape::Arc(_))
     }
 
     /// The place at a share of the whole move.
@@ -107,14 +107,14 @@ impl Stretch {
         if whole <= 0.0 {
             return None;
         }
-        let share = match self.movement.path {
-            Path::Line => {
+        let share = match self.movement.shape {
+            MoveShape::Line => {
                 let way: [f64; 3] =
                     std::array::from_fn(|axis| self.movement.to.at[axis] - self.movement.from.at[axis]);
                 (0..3).map(|axis| (place[axis] - self.movement.from.at[axis]) * way[axis]).sum::<f64>()
                     / (whole * whole)
             }
-            Path::Arc(arc) => {
+            MoveShape::Arc(arc) => {
                 let guess = (self.begin + along / whole).min(1.0);
                 let course = Course::new(arc, &self.movement.from, &self.movement.to);
                 guess + arc.angle_ahead(&course.point(guess), place) / course.sweep()

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::read::{Block, BlockReader, Value};
-use pathbuild_motion::{Action, Move, Pace, Path, Position, Step};
+use pathbuild_motion::{Action, Move, MoveShape, Pace, Position, Step};
 
 /// The effects of a program, with one text per step.
 pub(crate) fn trace(dialect: Dialect, program: &str) -> Vec<String> {
@@ -107,9 +107,9 @@ fn move_text(it: &Move) -> String {
             format!("probe {feed} toward={toward} must={must_answer}")
         }
     };
-    let path = match it.path {
-        Path::Line => String::new(),
-        Path::Arc(arc) => {
+    let path = match it.shape {
+        MoveShape::Line => String::new(),
+        MoveShape::Arc(arc) => {
             let way = if arc.clockwise { "cw" } else { "ccw" };
             let degrees = arc.sweep(&it.from, &it.to).to_degrees();
             format!(" {way} round {} {} by {}", short(arc.centre[0]), short(arc.centre[1]), short(degrees))

@@ -120,11 +120,11 @@ fn calls_of(output: &str) -> Vec<Call> {
 pub(crate) fn our_calls(text: &str, dialect: Dialect) -> Vec<Call> {
     let result = interpret(text.as_bytes(), dialect, &Options::default());
     let calls = result.steps.iter().filter_map(|step| match &step.action {
-        Action::Move(it) => Some(match (it.pace, it.path) {
+        Action::Move(it) => Some(match (it.pace, it.shape) {
             (Pace::Rapid, _) => Call::Rapid(it.to.at),
             (Pace::Probe { feed, .. }, _) => Call::Probe(it.to.at, feed),
-            (Pace::Feed(feed), motion::Path::Line) => Call::Feed(it.to.at, feed),
-            (Pace::Feed(feed), motion::Path::Arc(arc)) => {
+            (Pace::Feed(feed), motion::MoveShape::Line) => Call::Feed(it.to.at, feed),
+            (Pace::Feed(feed), motion::MoveShape::Arc(arc)) => {
                 let turns = i64::from(arc.extra_turns) + 1;
                 Call::Arc(it.to.at, arc.centre, if arc.clockwise { -turns } else { turns }, feed)
             }

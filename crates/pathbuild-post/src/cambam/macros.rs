@@ -1,10 +1,9 @@
 //! The meaning of the macros in CamBam definitions.
 
 use pathbuild_diagnostic::{Text, nearest};
-use pathbuild_motion::{Coolant, Turning};
 
 use super::machine::{Code, Form, Register};
-use super::section::{Section, coolant_section, spindle_section};
+use super::section::Section;
 
 /// What a macro expands to.
 #[derive(Clone, Debug, PartialEq)]
@@ -422,50 +421,58 @@ fn with_arguments(name: &str) -> Option<&'static MacroWithArguments> {
     WITH.iter().find(|with| with.name == name)
 }
 
+impl MacroWithArguments {
+    const fn new(
+        name: &'static str,
+        read: fn(Option<&str>) -> Option<Macro>,
+        expected: &'static Text,
+    ) -> Self {
+        Self { name, expected, read }
+    }
+}
+
 /// All macros with arguments.
 pub(super) static WITH: &[MacroWithArguments] = &[
-    MacroWithArguments {
-        name: "cuttercomp",
-        expected: &Text { en: "off, L or R", de: "off, L oder R" },
-        read: cutter_compensation,
-    },
-    MacroWithArguments {
-        name: "toolchange",
-        expected: &Text { en: "nothing or first", de: "nichts oder first" },
-        read: tool_change,
-    },
-    MacroWithArguments {
-        name: "spindle",
-        expected: &Text { en: "nothing, up, cw, ccw or off", de: "nichts, up, cw, ccw oder off" },
-        read: spindle,
-    },
-    MacroWithArguments {
-        name: "coolant",
-        expected: &Text { en: "nothing, flood, mist or off", de: "nichts, flood, mist oder off" },
-        read: coolant,
-    },
-    MacroWithArguments {
-        name: "check",
-        expected: &Text { en: "three coordinates", de: "drei Koordinaten" },
-        read: check,
-    },
-    MacroWithArguments {
-        name: "set",
-        expected: &Text {
+    MacroWithArguments::new(
+        "cuttercomp",
+        cutter_compensation,
+        &Text { en: "off, L or R", de: "off, L oder R" },
+    ),
+    MacroWithArguments::new(
+        "toolchange",
+        tool_change,
+        &Text { en: "nothing or first", de: "nichts oder first" },
+    ),
+    MacroWithArguments::new(
+        "spindle",
+        spindle,
+        &Text { en: "nothing, up, cw, ccw or off", de: "nichts, up, cw, ccw oder off" },
+    ),
+    MacroWithArguments::new(
+        "coolant",
+        coolant,
+        &Text { en: "nothing, flood, mist or off", de: "nichts, flood, mist oder off" },
+    ),
+    MacroWithArguments::new("check", check, &Text { en: "three coordinates", de: "drei Koordinaten" }),
+    MacroWithArguments::new(
+        "set",
+        set,
+        &Text {
             en: "x, y or z and a number or NaN, or tool",
             de: "x, y oder z und eine Zahl oder NaN, oder tool",
         },
-        read: set,
-    },
+    ),
 ];
 
+/// The macro of an argument that is one of some words, in any case.
+fn of_word(argument: &str, words: &[(&str, Macro)]) -> Option<Macro> {
+    words.iter().find(|(word, _)| word.eq_ignore_ascii_case(argument)).map(|(_, what)| what.clone())
+}
+
 fn cutter_compensation(argument: Option<&str>) -> Option<Macro> {
-    Some(Macro::Section(match argument?.to_ascii_lowercase().as_str() {
-        "off" => Section::CutterCompOff,
-        "l" => Section::CutterCompLeft,
-        "r" => Section::CutterCompRight,
-        _ => return None,
-    }))
+    let words =
+        [("off", Section::CutterCompOff), ("l", Section::CutterCompLeft), ("r", Section::CutterCompRight)];
+    of_word(argument?, &words.map(|(word, section)| (word, Macro::Section(section))))
 }
 
 fn tool_change(argument: Option<&str>) -> Option<Macro> {
@@ -478,25 +485,20 @@ fn tool_change(argument: Option<&str>) -> Option<Macro> {
 
 fn spindle(argument: Option<&str>) -> Option<Macro> {
     let Some(argument) = argument else { return Some(Macro::State(State::Spindle)) };
-    if argument.eq_ignore_ascii_case("up") {
-        return Some(Macro::SpindleUp);
-    }
-    Some(Macro::Section(match argument.to_ascii_lowercase().as_str() {
-        "cw" => spindle_section(Turning::Clockwise),
-        "ccw" => spindle_section(Turning::CounterClockwise),
-        "off" => spindle_section(Turning::Off),
-        _ => return None,
-    }))
+    let words = [
+        ("up", Macro::SpindleUp),
+        ("cw", Macro::Section(Section::SpindleCw)),
+        ("ccw", Macro::Section(Section::SpindleCcw)),
+        ("off", Macro::Section(Section::SpindleOff)),
+    ];
+    of_word(argument, &words)
 }
 
 fn coolant(argument: Option<&str>) -> Option<Macro> {
     let Some(argument) = argument else { return Some(Macro::State(State::Coolant)) };
-    Some(Macro::Section(match argument.to_ascii_lowercase().as_str() {
-        "flood" => coolant_section(Coolant::FLOOD),
-        "mist" => coolant_section(Coolant::MIST),
-        "off" => coolant_section(Coolant::OFF),
-        _ => return None,
-    }))
+    let words =
+        [("flood", Section::CoolantFlood), ("mist", Section::CoolantMist), ("off", Section::CoolantOff)];
+    of_word(argument, &words.map(|(word, section)| (word, Macro::Section(section))))
 }
 
 fn check(arguments: Option<&str>) -> Option<Macro> {

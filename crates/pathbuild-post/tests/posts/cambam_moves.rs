@@ -1,6 +1,6 @@
 //! Tests of moves through a CamBam definition: registers, arcs, cycles, start and end of cutting.
 
-use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Turning};
+use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Turning};
 use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, PostOptions, Units};
 
 use crate::support::{
@@ -240,7 +240,7 @@ fn arcs_of_other_planes_have_their_own_offsets() {
     let turn = Move {
         from: [0.0, 0.0, 5.0].into(),
         to: [5.0, 0.0, 10.0].into(),
-        path: Path::Arc(circle),
+        shape: MoveShape::Arc(circle),
         pace: Pace::Feed(0.0),
         named: None,
     };

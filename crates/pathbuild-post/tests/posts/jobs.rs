@@ -5,18 +5,18 @@ use std::f64::consts::{PI, TAU};
 use pathbuild_motion::{Coolant, Pace, Turning};
 use pathbuild_post::{Entry, HoleKind, Job, JobStep, ToolEntry, ToolTable};
 use pathbuild_toolpath::{
-    Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
+    Class, Comment, Count, ElementKind, Height, Names, PlannedMove, Program, ProgramStep, Xy,
 };
 use regex::Regex;
 
 use crate::support::{bare, lines, rapid, straight_from_anywhere, texts};
 
-fn go(to: Move) -> ProgramStep {
+fn go(to: PlannedMove) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: Class::Sweep, length: 0.0, feed: None } }
 }
 
 fn sweep(x: f64, y: f64) -> ProgramStep {
-    go(Move::Sweep { to: Xy::new(x, y) })
+    go(PlannedMove::Sweep { to: Xy::new(x, y) })
 }
 
 fn height(z: f64) -> Height {
@@ -24,15 +24,15 @@ fn height(z: f64) -> Height {
 }
 
 fn lift(z: f64) -> ProgramStep {
-    go(Move::Lift { z: height(z) })
+    go(PlannedMove::Lift { z: height(z) })
 }
 
 fn drill(z: f64) -> ProgramStep {
-    go(Move::Drill { feed: 150.0, z: height(z) })
+    go(PlannedMove::Drill { feed: 150.0, z: height(z) })
 }
 
 fn line(feed: f64, x: f64, y: f64, z: f64) -> ProgramStep {
-    go(Move::Line { feed, to: Xy::new(x, y), z: height(z) })
+    go(PlannedMove::Line { feed, to: Xy::new(x, y), z: height(z) })
 }
 
 fn hole(peck: Option<f64>) -> ProgramStep {
@@ -78,7 +78,7 @@ fn a_program_begins_at_its_start_at_sweep_height_and_ends_there() {
 #[test]
 fn an_arc_that_would_be_printed_as_a_full_circle_is_a_line() {
     let arc = |length: f64| {
-        let to = Move::Arc {
+        let to = PlannedMove::Arc {
             feed: 100.0,
             clockwise: true,
             centre: Xy::new(5.0, 0.0),
@@ -101,7 +101,7 @@ fn a_full_circle_ends_where_it_begins() {
     let arc = |by: f64, length: f64| {
         let (feed, clockwise, is_spiral) = (100.0, false, false);
         let (centre, to) = (Xy::new(5.0, 0.0), Xy::new(0.0, by));
-        let to = Move::Arc { feed, clockwise, centre, to, z: height(1.0), is_spiral };
+        let to = PlannedMove::Arc { feed, clockwise, centre, to, z: height(1.0), is_spiral };
         let count = Count { class: Class::Milling, length, feed: Some(100.0) };
         match job_of(vec![ProgramStep::Move { to, count }]).operations[0].steps[0] {
             JobStep::Move(it) => (it.to.y(), it.course().unwrap().sweep()),

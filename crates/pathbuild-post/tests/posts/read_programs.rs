@@ -11,7 +11,7 @@ use pathbuild_post::{
     native_remark,
 };
 use pathbuild_toolpath::{
-    Class, Comment, Count, ElementKind, Height, Move, Names, Program, Step as ProgramStep, Xy,
+    Class, Comment, Count, ElementKind, Height, Names, PlannedMove, Program, ProgramStep, Xy,
 };
 
 use crate::support::{rapid, straight_from_anywhere, texts};
@@ -136,7 +136,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
 }
 
 /// A move of sufficient length; the length is otherwise unused.
-fn go(to: Move) -> ProgramStep {
+fn go(to: PlannedMove) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: Class::Milling, length: 99.0, feed: None } }
 }
 
@@ -148,15 +148,15 @@ fn height(z: f64) -> Height {
 fn program() -> Program {
     let mut names = Names::default();
     let (a, b, clamp) = (names.intern("1234.1A"), names.intern("1234.2B"), names.intern("Spannpratze?"));
-    let sweep = |x: f64, y: f64| go(Move::Sweep { to: Xy::new(x, y) });
-    let lift = |z| go(Move::Lift { z: height(z) });
-    let drill = |z| go(Move::Drill { feed: 150.0, z: height(z) });
-    let line = |x: f64, y: f64, z| go(Move::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
+    let sweep = |x: f64, y: f64| go(PlannedMove::Sweep { to: Xy::new(x, y) });
+    let lift = |z| go(PlannedMove::Lift { z: height(z) });
+    let drill = |z| go(PlannedMove::Drill { feed: 150.0, z: height(z) });
+    let line = |x: f64, y: f64, z| go(PlannedMove::Line { feed: 220.5, to: Xy::new(x, y), z: height(z) });
     let arc = |clockwise, centre: [f64; 2], to: [f64; 2], z, is_spiral| {
         let (centre, to) = (Xy::new(centre[0], centre[1]), Xy::new(to[0], to[1]));
         // One radian at a radius of 10 mm, and half circles with a radius of 5 mm.
         let length = if is_spiral { 5.0 * std::f64::consts::PI } else { 10.0 };
-        let to = Move::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral };
+        let to = PlannedMove::Arc { feed: 180.0, clockwise, centre, to, z: height(z), is_spiral };
         ProgramStep::Move { to, count: Count { class: Class::Milling, length, feed: None } }
     };
     let hole = |peck| {

@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_motion::{Arc, Move, Pace, Path, Plane, Position};
+use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Position};
 use pathbuild_post::{Entry, Job, JobStep, Operation, Output, Post, PostOptions, Tool};
 
 /// A file of `../shared` next to the project. `None` if that is absent; the test is then skipped.
@@ -149,13 +149,13 @@ pub(crate) fn arc(
 ) -> JobStep {
     let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
     let pace = Pace::Feed(feed.unwrap_or_default());
-    JobStep::Move(Move { from: from.into(), to: to.into(), path: Path::Arc(arc), pace, named: None })
+    JobStep::Move(Move { from: from.into(), to: to.into(), shape: MoveShape::Arc(arc), pace, named: None })
 }
 
 /// Steps of which it is forgotten where the straight ones begin.
 pub(crate) fn straight_from_anywhere(steps: &[JobStep]) -> Vec<JobStep> {
     let forget = |step: &JobStep| match step {
-        JobStep::Move(it) if it.path == Path::Line => {
+        JobStep::Move(it) if it.shape == MoveShape::Line => {
             JobStep::Move(Move { from: Position::default(), ..*it })
         }
         other => other.clone(),

@@ -1,13 +1,13 @@
 //! Tests of arcs: direction, centre and ends. ("mill arc")
 
-use pathbuild_toolpath::{Move, Program, Step};
+use pathbuild_toolpath::{PlannedMove, Program, ProgramStep};
 
 use crate::support::{path, program, short};
 
 /// Formats arcs as `G02 I J X Y`.
 fn arcs(program: &Program) -> Vec<String> {
-    let of_step = |step: &Step| match step {
-        Step::Move { to: Move::Arc { clockwise, centre, to, .. }, .. } => Some(format!(
+    let of_step = |step: &ProgramStep| match step {
+        ProgramStep::Move { to: PlannedMove::Arc { clockwise, centre, to, .. }, .. } => Some(format!(
             "{} {} {} {} {}",
             if *clockwise { "G02" } else { "G03" },
             short(centre.x),
@@ -48,8 +48,8 @@ fn the_centre_counts_from_where_the_run_begins() {
 fn an_arc_over_zero_degrees_is_not_run_the_long_way() {
     let lengths = |statement: &str, end: &str| -> Vec<String> {
         let program = program(&path("T5 O3 I5 B0", &format!("{statement}\nend {end}")));
-        let length = |step: &Step| match step {
-            Step::Move { to: Move::Arc { .. }, count } => Some(short(count.length)),
+        let length = |step: &ProgramStep| match step {
+            ProgramStep::Move { to: PlannedMove::Arc { .. }, count } => Some(short(count.length)),
             _ => None,
         };
         program.steps.iter().filter_map(length).collect()

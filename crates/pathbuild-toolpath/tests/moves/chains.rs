@@ -1,6 +1,6 @@
 //! Tests of milling chains, pass by pass. ("Chains, ordinary milling")
 
-use pathbuild_toolpath::{Move, Step, memory};
+use pathbuild_toolpath::{PlannedMove, ProgramStep, memory};
 
 use crate::support::{COMPATIBLE, estimate, moves, moves_and_comments, path, program, program_with, shown};
 
@@ -158,9 +158,10 @@ fn heights_name_the_point_where_the_move_begins() {
         .steps
         .iter()
         .filter_map(|step| match step {
-            Step::Move { to: Move::Line { z, .. } | Move::Lift { z } | Move::Drill { z, .. }, .. } => {
-                Some((z.at.x, z.at.y))
-            }
+            ProgramStep::Move {
+                to: PlannedMove::Line { z, .. } | PlannedMove::Lift { z } | PlannedMove::Drill { z, .. },
+                ..
+            } => Some((z.at.x, z.at.y)),
             _ => None,
         })
         .collect();

@@ -1,7 +1,7 @@
 //! Tests of helical circles. ("Helical circle")
 
 use pathbuild_path::PathOptions;
-use pathbuild_toolpath::{Move, Step};
+use pathbuild_toolpath::{PlannedMove, ProgramStep};
 
 use crate::support::{
     COMPATIBLE, OPTIONS, counts, estimate, moves, moves_and_comments, path, program, program_with, short,
@@ -89,7 +89,7 @@ fn centres_are_straight_above_and_below() {
         .steps
         .iter()
         .filter_map(|step| match step {
-            Step::Move { to: Move::Arc { centre, is_spiral, .. }, .. } => {
+            ProgramStep::Move { to: PlannedMove::Arc { centre, is_spiral, .. }, .. } => {
                 Some((short(centre.x), short(centre.y), *is_spiral))
             }
             _ => None,
@@ -125,9 +125,11 @@ fn heights_name_the_centre() {
     let points: Vec<(f64, f64)> = program
         .steps
         .iter()
-        .skip_while(|step| !matches!(step, Step::Move { to: Move::Arc { .. }, .. }))
+        .skip_while(|step| !matches!(step, ProgramStep::Move { to: PlannedMove::Arc { .. }, .. }))
         .filter_map(|step| match step {
-            Step::Move { to: Move::Arc { z, .. } | Move::Lift { z }, .. } => Some((z.at.x, z.at.y)),
+            ProgramStep::Move { to: PlannedMove::Arc { z, .. } | PlannedMove::Lift { z }, .. } => {
+                Some((z.at.x, z.at.y))
+            }
             _ => None,
         })
         .collect();

@@ -1,6 +1,6 @@
 //! Tests of drilled holes. ("Drilled hole")
 
-use pathbuild_toolpath::{Comment, ElementKind, Step};
+use pathbuild_toolpath::{Comment, ElementKind, ProgramStep};
 
 use crate::support::{counts, moves, moves_and_comments, path, program};
 
@@ -43,9 +43,13 @@ fn a_comment_stands_before_the_plunge() {
 fn the_peck_depth_is_handed_on() {
     let with = program(&path(P, &hole("circle 20,0 d 3 \"C2\"")));
     let peck = with.steps.iter().find_map(|step| match step {
-        Step::Comment(Comment::Element { kind: ElementKind::DrilledHole, peck, bottom, surface, .. }) => {
-            Some((*peck, *bottom, *surface))
-        }
+        ProgramStep::Comment(Comment::Element {
+            kind: ElementKind::DrilledHole,
+            peck,
+            bottom,
+            surface,
+            ..
+        }) => Some((*peck, *bottom, *surface)),
         _ => None,
     });
     assert_eq!(peck, Some((Some(2.0), 0.0, 5.0)));

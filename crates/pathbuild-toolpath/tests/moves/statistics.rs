@@ -1,6 +1,6 @@
 //! Tests of the lengths and times counted by the original tool.
 
-use pathbuild_toolpath::{Class, Count, Height, Move, Program, Statistics, Step, Total, Xy};
+use pathbuild_toolpath::{Class, Count, Height, PlannedMove, Program, ProgramStep, Statistics, Total, Xy};
 
 use crate::support::{counts, path, program};
 
@@ -37,10 +37,10 @@ fn a_sweep_counts_with_the_height_of_its_aim() {
     assert!(found.contains(&"Sweep 40.608".to_owned()), "{found:?}");
 }
 
-fn drill(z: f64, length: f64, feed: Option<f64>) -> Step {
+fn drill(z: f64, length: f64, feed: Option<f64>) -> ProgramStep {
     let class = if feed.is_some() { Class::Drilling } else { Class::Sweep };
-    Step::Move {
-        to: Move::Drill { feed: 100.0, z: Height { z, at: Xy::origin() } },
+    ProgramStep::Move {
+        to: PlannedMove::Drill { feed: 100.0, z: Height { z, at: Xy::origin() } },
         count: Count { class, length, feed },
     }
 }

@@ -6,7 +6,7 @@ use pathbuild_path::{
     WalkedPath, bind, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
-use pathbuild_toolpath::{Comment, Count, Move, Names, Parts, Program, Step, fold, own_moves};
+use pathbuild_toolpath::{Comment, Count, Names, Parts, PlannedMove, Program, ProgramStep, fold, own_moves};
 
 /// The paths of a drawing, which may embed each other.
 struct Drawn(Vec<(Path, WalkedPath)>);
@@ -102,10 +102,10 @@ pub(crate) fn moves_and_comments(drawing: &str) -> Vec<String> {
 }
 
 pub(crate) fn shown(program: &Program, with_comments: bool) -> Vec<String> {
-    let show = |step: &Step| match step {
-        Step::Move { to, .. } => Some(motion(to)),
-        Step::Comment(shown) if with_comments => comment(shown, &program.names),
-        Step::Comment(_) => None,
+    let show = |step: &ProgramStep| match step {
+        ProgramStep::Move { to, .. } => Some(motion(to)),
+        ProgramStep::Comment(shown) if with_comments => comment(shown, &program.names),
+        ProgramStep::Comment(_) => None,
     };
     program.steps.iter().filter_map(show).collect()
 }
@@ -119,13 +119,13 @@ fn comment(comment: &Comment, names: &Names) -> Option<String> {
     }
 }
 
-fn motion(motion: &Move) -> String {
+fn motion(motion: &PlannedMove) -> String {
     match motion {
-        Move::Sweep { to } => format!("S {},{}", short(to.x), short(to.y)),
-        Move::Lift { z } => format!("L {}", short(z.z)),
-        Move::Drill { z, .. } => format!("D {}", short(z.z)),
-        Move::Line { to, z, .. } => format!("M {},{} {}", short(to.x), short(to.y), short(z.z)),
-        Move::Arc { clockwise, to, z, .. } => {
+        PlannedMove::Sweep { to } => format!("S {},{}", short(to.x), short(to.y)),
+        PlannedMove::Lift { z } => format!("L {}", short(z.z)),
+        PlannedMove::Drill { z, .. } => format!("D {}", short(z.z)),
+        PlannedMove::Line { to, z, .. } => format!("M {},{} {}", short(to.x), short(to.y), short(z.z)),
+        PlannedMove::Arc { clockwise, to, z, .. } => {
             let direction = if *clockwise { "C" } else { "A" };
             format!("{direction} {},{} {}", short(to.x), short(to.y), short(z.z))
         }
@@ -146,9 +146,9 @@ pub(crate) fn counts(drawing: &str) -> Vec<String> {
         let feed = count.feed.map(|feed| format!(" {}", short(feed))).unwrap_or_default();
         format!("{:?} {}{feed}", count.class, short(count.length))
     };
-    let of_step = |step: &Step| match step {
-        Step::Move { count: counted, .. } => Some(count(counted)),
-        Step::Comment(_) => None,
+    let of_step = |step: &ProgramStep| match step {
+        ProgramStep::Move { count: counted, .. } => Some(count(counted)),
+        ProgramStep::Comment(_) => None,
     };
     program(drawing).steps.iter().filter_map(of_step).collect()
 }

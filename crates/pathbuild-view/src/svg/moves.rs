@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use pathbuild_motion::Path;
+use pathbuild_motion::MoveShape;
 
 use super::canvas::{Canvas, Depths, KERF, RAPID, n};
 use super::frame::PageTransform;
@@ -123,7 +123,7 @@ fn line_of(movement: &SceneMove) -> Vec<i64> {
     let mut ends = [movement.from(), movement.to()].map(|end| end.map(micrometres));
     ends.sort_unstable();
     let mut line: Vec<i64> = ends.concat();
-    if let Path::Arc(arc) = movement.way.path {
+    if let MoveShape::Arc(arc) = movement.way.shape {
         line.extend(arc.centre.map(micrometres));
         let goes_up = movement.from().map(micrometres) == ends[0];
         // A full circle is the same line in both directions.
@@ -186,9 +186,9 @@ pub(super) fn data(movement: &SceneMove, place: &PageTransform) -> String {
         format!("{} {}", n(x), n(y))
     };
     let mut data = format!("M{}", point(movement.from()));
-    match movement.way.path {
-        Path::Line => _ = write!(data, "L{}", point(movement.to())),
-        Path::Arc(arc) if arc.plane.axes() == [0, 1] => {
+    match movement.way.shape {
+        MoveShape::Line => _ = write!(data, "L{}", point(movement.to())),
+        MoveShape::Arc(arc) if arc.plane.axes() == [0, 1] => {
             // Drawn as two halves, since SVG cannot express a full circle as one arc and each half is at most half a turn.
             let turns = arc.extra_turns + 1;
             let radius = n(arc.radius(&movement.way.from) * place.scale());
@@ -199,7 +199,7 @@ pub(super) fn data(movement: &SceneMove, place: &PageTransform) -> String {
                 _ = write!(data, "A{radius} {radius} 0 0 {sweep} {to}");
             }
         }
-        Path::Arc(_) => {
+        MoveShape::Arc(_) => {
             for piece in 1..=PIECES {
                 _ = write!(data, "L{}", point(along(movement, f64::from(piece) / f64::from(PIECES))));
             }

@@ -11,7 +11,7 @@ use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Correction, Outside, Program, Step, memory};
+use pathbuild_toolpath::{Correction, Outside, Program, ProgramStep, memory};
 
 use super::options::{OutputSettings, total};
 use super::outcome::ProgramOutcome;
@@ -104,7 +104,7 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     if steps <= program.steps.len() as u64 {
         return None;
     }
-    let comments = program.steps.iter().filter(|step| matches!(step, Step::Comment(_))).count() as u64;
+    let comments = program.steps.iter().filter(|step| matches!(step, ProgramStep::Comment(_))).count() as u64;
     let moves = steps - comments;
     // The limit is defined for moves that each have a comment; these steps have none.
     let size = memory(steps) / 2;

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{ElementParameters, PathName, PathRole};
-use pathbuild_toolpath::{Correction, Move, Step};
+use pathbuild_toolpath::{Correction, PlannedMove, ProgramStep};
 use pathbuild_view::{self as view, DrawnSource, EmittedText, Example, ProgramSource, Scene, ScenePath};
 
 use super::work::about;
@@ -84,9 +84,9 @@ pub(crate) fn examples(
         let height = Number(program.sweep_height).to_string();
         examples.push(example("S".to_owned(), Some(&height)));
     }
-    let has_no_feed = |step: &Step| {
-        let Step::Move { to, .. } = step else { return false };
-        matches!(to, Move::Drill { feed, .. } | Move::Line { feed, .. } | Move::Arc { feed, .. } if *feed <= 0.0)
+    let has_no_feed = |step: &ProgramStep| {
+        let ProgramStep::Move { to, .. } = step else { return false };
+        matches!(to, PlannedMove::Drill { feed, .. } | PlannedMove::Line { feed, .. } | PlannedMove::Arc { feed, .. } if *feed <= 0.0)
     };
     if program.steps.iter().any(has_no_feed) {
         examples.push(example("feed".to_owned(), None));

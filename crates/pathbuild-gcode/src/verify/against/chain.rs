@@ -4,7 +4,7 @@
 //! a way may touch, since a definition may lift the tool higher: `ways` in pathbuild-post.) Only on the way to where that begins, and once
 //! all is milled, a program may go to places of the machine, or leave out places at S0; there nothing is in the way.
 
-use pathbuild_motion::{Axes, Move, Path, Position};
+use pathbuild_motion::{Axes, Move, MoveShape, Position};
 
 /// A move and its line.
 type Numbered = (u32, Move);
@@ -121,7 +121,7 @@ impl Way<'_> {
         let is_place = !movement.to.known.has(Axes::XY)
             || stays
             || self.clear_places().any(|place| self.is_at(&movement.to, &place));
-        matches!(movement.path, Path::Line) && (is_raised || stays) && is_height && is_place
+        matches!(movement.shape, MoveShape::Line) && (is_raised || stays) && is_height && is_place
     }
 
     /// Where the way begins, and the places that it comes to before it goes below S0.

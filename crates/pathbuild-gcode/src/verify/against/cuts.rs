@@ -3,7 +3,7 @@
 use std::iter::Peekable;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_motion::{Move, Pace, Path, Position};
+use pathbuild_motion::{Move, MoveShape, Pace, Position};
 
 use super::chain::{Chain, Way};
 use crate::dialect::Dialect;
@@ -259,7 +259,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
 
 /// Two arcs must have the same centre, because the points of a short one hardly determine it.
 fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
-    let (Path::Arc(ours), Path::Arc(theirs)) = (found.path, expected.path) else { return Ok(()) };
+    let (MoveShape::Arc(ours), MoveShape::Arc(theirs)) = (found.shape, expected.shape) else { return Ok(()) };
     let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE);
     let turn_alike = ours.clockwise == theirs.clockwise && ours.plane == theirs.plane;
     if are_near && turn_alike { Ok(()) } else { Err(DifferenceKind::Shape) }

@@ -1,6 +1,6 @@
 //! Tests that the grid is never lower than the obstacles.
 
-use pathbuild_motion::{Move, Pace, Path, Position};
+use pathbuild_motion::{Move, MoveShape, Pace, Position};
 
 use super::{SIDE, Tops};
 
@@ -9,7 +9,7 @@ const POST: [(f64, f64); 2] = [(130.0, 131.0), (-20.0, -19.0)];
 
 fn rapid([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> Move {
     let [from, to] = [Position::known(x, y, 1.0), Position::known(to_x, to_y, 1.0)];
-    Move { from, to, path: Path::Line, pace: Pace::Rapid, named: None }
+    Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None }
 }
 
 /// In all directions, and passing on either side.

@@ -15,7 +15,6 @@ use pathbuild_gcode::verify::{self, Agreement, Clamps, PastClamps, PostWords, To
 use pathbuild_motion::{Axes, Move, Position};
 use pathbuild_path::KeepOut;
 use pathbuild_post::{Job, program_number};
-use pathbuild_toolpath::Program as Drawn;
 use serde_json::json;
 
 use crate::commands::program::Program;
@@ -28,7 +27,7 @@ use pathbuild_workspace::session::{NamedPaths, NotOnePath, OutputKind, Session, 
 
 /// The program of a path, as its drawing defines it.
 pub(super) struct ReferenceProgram {
-    drawn: Arc<Drawn>,
+    drawn: Arc<pathbuild_toolpath::Program>,
     /// The drawing.
     file: Utf8PathBuf,
     /// The clamps around it, if its drawings have any.

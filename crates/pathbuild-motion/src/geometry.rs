@@ -1,8 +1,147 @@
-//! Arcs: swept angles, points along them, and division into chords.
+//! Positions, sets of axes, and the planes of arcs.
 
 use std::f64::consts::{PI, TAU};
 
-use crate::position::{Plane, Position};
+/// A position in the program's first coordinate system, in mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Position {
+    /// X, Y, Z.
+    pub at: [f64; 3],
+    /// The known axes. Positions are unknown at the start of the program, and after a move to a named position or a probe.
+    pub known: Axes,
+}
+
+impl Position {
+    /// A position with all axes known.
+    pub fn known(x: f64, y: f64, z: f64) -> Self {
+        Self { at: [x, y, z], known: Axes::ALL }
+    }
+
+    /// X, Y and Z; `None` for unknown axes.
+    pub fn axes(&self) -> [Option<f64>; 3] {
+        [0, 1, 2].map(|axis| self.known.has(Axes::of(axis)).then(|| self.at[axis]))
+    }
+
+    /// X in mm.
+    pub fn x(&self) -> f64 {
+        self.at[0]
+    }
+
+    /// Y in mm.
+    pub fn y(&self) -> f64 {
+        self.at[1]
+    }
+
+    /// Z in mm.
+    pub fn z(&self) -> f64 {
+        self.at[2]
+    }
+}
+
+impl From<[Option<f64>; 3]> for Position {
+    fn from(axes: [Option<f64>; 3]) -> Self {
+        let known = (0..3).filter(|axis| axes[*axis].is_some());
+        Self {
+            at: axes.map(Option::unwrap_or_default),
+            known: known.fold(Axes::NONE, |known, axis| known.with(Axes::of(axis))),
+        }
+    }
+}
+
+impl From<[f64; 3]> for Position {
+    fn from(at: [f64; 3]) -> Self {
+        Self { at, known: Axes::ALL }
+    }
+}
+
+/// A set of the axes X, Y, Z.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Axes(u8);
+
+impl Axes {
+    /// No axis.
+    pub const NONE: Self = Self(0);
+    /// X, Y and Z.
+    pub const ALL: Self = Self(7);
+    /// X and Y.
+    pub const XY: Self = Self(3);
+    /// Z.
+    pub const Z: Self = Self(4);
+
+    /// The axis with index 0 (X), 1 (Y) or 2 (Z).
+    pub fn of(index: usize) -> Self {
+        Self(1 << index)
+    }
+
+    /// Whether it contains all of `other`.
+    pub fn has(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// The union of two sets.
+    pub fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// The axes that are not in `other`.
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// The intersection of two sets.
+    pub fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Whether the set is empty.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+}
+
+/// The plane of arcs and cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Plane {
+    /// G17.
+    #[default]
+    Xy,
+    /// G18.
+    Zx,
+    /// G19.
+    Yz,
+}
+
+impl Plane {
+    /// Indices of the plane's first and second axis. Turning from the first to the second is counterclockwise.
+    pub fn axes(self) -> [usize; 2] {
+        match self {
+            Self::Xy => [0, 1],
+            Self::Zx => [2, 0],
+            Self::Yz => [1, 2],
+        }
+    }
+
+    /// Index of the axis across the plane.
+    pub fn third(self) -> usize {
+        match self {
+            Self::Xy => 2,
+            Self::Zx => 1,
+            Self::Yz => 0,
+        }
+    }
+
+    /// The plane's axes as a set.
+    pub fn axes_of_plane(self) -> Axes {
+        Axes::ALL.without(Axes::of(self.third()))
+    }
+
+    /// The coordinates of a position in the plane.
+    pub fn project(self, at: &[f64; 3]) -> [f64; 2] {
+        self.axes().map(|axis| at[axis])
+    }
+}
+
+// Arcs: swept angles, points along them, and division into chords.
 
 /// An arc in a plane. Along the third axis it moves linearly from one end to the other (a helix).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,13 +333,13 @@ fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::moves::{Move, Pace, Path};
+    use crate::step::{Move, MoveShape, Pace};
 
     const QUARTER: Arc = Arc { plane: Plane::Xy, centre: [0.0; 2], clockwise: false, extra_turns: 0 };
 
     fn along(arc: Arc, to: [f64; 3]) -> Move {
         let (from, to) = (Position::known(10.0, 0.0, 0.0), Position::known(to[0], to[1], to[2]));
-        Move { from, to, path: Path::Arc(arc), pace: Pace::Feed(100.0), named: None }
+        Move { from, to, shape: MoveShape::Arc(arc), pace: Pace::Feed(100.0), named: None }
     }
 
     fn sweep(arc: Arc, to: [f64; 3]) -> f64 {
@@ -252,4 +391,80 @@ mod tests {
         assert!((x - side).abs() < 1e-12 && (y - side).abs() < 1e-12);
         assert_eq!(z, -0.5);
     }
+}
+
+// Arcs as a controller reads them, from rounded numbers. (book: program/gcode)
+//
+// A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are
+// rounded separately,
+// each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre one digit
+// beside the nearest one fits both ends.
+
+/// An arc in its plane, and the notation of its numbers.
+pub struct WrittenArc<'r> {
+    /// Start in mm.
+    pub from: [f64; 2],
+    /// End in mm.
+    pub to: [f64; 2],
+    /// Centre in mm, absolute or relative to the start depending on `is_absolute`.
+    pub centre: [f64; 2],
+    /// Converts a length in mm to the number that is written, in the output unit.
+    pub length: &'r dyn Fn(f64) -> f64,
+    /// Whether the centre is absolute instead of relative to the start.
+    pub is_absolute: bool,
+    /// Length of the output unit in mm: 1 or 25.4.
+    pub unit: f64,
+}
+
+impl WrittenArc<'_> {
+    /// By how many mm to move the centre so that the written radii at both ends agree: by nothing, or by at most one unit of the third
+    /// decimal of a
+    /// millimetre (the fourth of an inch) along each axis.
+    ///
+    /// # Errors
+    /// The written radii at both ends, if no centre nearby makes them agree. An arc that is wrong before rounding is never adjusted.
+    pub fn fit(&self) -> Result<[f64; 2], [f64; 2]> {
+        let nearest = self.radii([0.0; 2]);
+        if difference(nearest) <= self.tolerance() {
+            return Ok([0.0; 2]);
+        }
+        if difference(self.exact_radii()) > self.tolerance() * self.unit {
+            return Err(nearest);
+        }
+        let digit = self.tolerance() / 2.0 * self.unit;
+        let along = || [-digit, 0.0, digit].into_iter();
+        let moved = |by: &[f64; 2]| difference(self.radii(*by));
+        let beside = along().flat_map(|x| along().map(move |y| [x, y]));
+        let best = beside.min_by(|a, b| moved(a).total_cmp(&moved(b)));
+        best.filter(|by| moved(by) <= self.tolerance()).ok_or(nearest)
+    }
+
+    /// Permitted difference of the radii in the output unit, as in NIST's RS274/NGC.
+    fn tolerance(&self) -> f64 {
+        if self.unit == 1.0 { 0.002 } else { 0.000_2 }
+    }
+
+    fn exact_radii(&self) -> [f64; 2] {
+        let origin = if self.is_absolute { [0.0; 2] } else { self.from };
+        [self.from, self.to].map(|point| {
+            let [x, y] = [0, 1].map(|axis| point[axis] - origin[axis] - self.centre[axis]);
+            libm::hypot(x, y)
+        })
+    }
+
+    /// The radii at both ends in the output unit, after moving the centre and rounding.
+    fn radii(&self, by: [f64; 2]) -> [f64; 2] {
+        let centre = [0, 1].map(|axis| {
+            let origin = if self.is_absolute { 0.0 } else { (self.length)(self.from[axis]) };
+            origin + (self.length)(self.centre[axis] + by[axis])
+        });
+        [self.from, self.to].map(|point| {
+            let [x, y] = [0, 1].map(|axis| (self.length)(point[axis]) - centre[axis]);
+            libm::hypot(x, y)
+        })
+    }
+}
+
+fn difference(radii: [f64; 2]) -> f64 {
+    (radii[0] - radii[1]).abs()
 }

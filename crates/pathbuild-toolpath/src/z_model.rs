@@ -1,0 +1,452 @@
+//! Models the height of the material between probes. (book: language/probes)
+//!
+//! The models describe the correction, that is, by how much the material is higher than drawn. At each point it is a linear combination of
+//! the
+//! corrections at the probes. Therefore a [`Surface`] depends only on their positions, and a program made with it is valid until they move.
+
+use std::collections::BTreeMap;
+
+use delaunator::{Point, triangulate};
+use nalgebra::{Matrix2, Vector2};
+use pathbuild_path::Xy;
+use rstar::primitives::{GeomWithData, Line, Rectangle};
+use rstar::{AABB, RTree};
+
+/// How heights between probes are interpolated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ZModel {
+    /// The four nearest probes, weighted by the inverse of their distance. It distorts planes, and it is discontinuous where the selection
+    /// changes.
+    #[default]
+    Idw4,
+    /// The best-fitting plane (least squares). One probe gives a constant height; two probes, or probes on a line, give no slope across the
+    /// line.
+    Plane,
+    /// Triangles between the probes (Delaunay); outside of them the value at the nearest edge. For probes on a line, the value at its
+    /// nearest
+    /// point.
+    Tin,
+}
+
+/// A model for probes at given positions.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    model: Model,
+}
+
+#[derive(Clone, Debug)]
+enum Model {
+    Nearest(Nearest),
+    Plane(Plane),
+    Tin(Tin),
+}
+
+impl Surface {
+    /// Creates a model for probes at these positions.
+    pub fn new(model: ZModel, places: &[Xy]) -> Self {
+        let model = match model {
+            ZModel::Idw4 => Model::Nearest(Nearest::new(places)),
+            ZModel::Plane => Model::Plane(Plane::new(places)),
+            ZModel::Tin => Model::Tin(Tin::new(places)),
+        };
+        Self { model }
+    }
+
+    /// The weight of each probe at a point: indices of probes with weights whose sum is 1. Probes with weight 0 may be omitted. Empty if
+    /// there
+    /// are no probes.
+    pub fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
+        match &self.model {
+            Model::Nearest(nearest) => nearest.weights(at),
+            Model::Plane(plane) => plane.weights(at),
+            Model::Tin(tin) => tin.weights(at),
+        }
+    }
+}
+
+/// If the extent of points across their main direction is less than this fraction of their extent along it, they are treated as collinear,
+/// because they say nothing reliable about the slope across.
+const FLAT: f64 = 0.01;
+
+/// Points whose average distance from their mean is less than this, in mm, are treated as a single point.
+const NOTHING: f64 = 0.001;
+
+/// The distribution of points around their mean, as a matrix of second moments in mm².
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scatter {
+    pub(super) count: f64,
+    middle: Xy,
+    moments: Matrix2<f64>,
+}
+
+impl Scatter {
+    /// Computes it for one or more points.
+    pub(super) fn new(points: &[Xy]) -> Self {
+        let count = points.len() as f64;
+        let sum = points.iter().fold(Vector2::zeros(), |sum, point| sum + point.coords);
+        let middle = Xy::from(sum / count);
+        let moments = points.iter().map(|point| point - middle).map(|d| d * d.transpose()).sum();
+        Self { count, middle, moments }
+    }
+
+    /// The distribution without one of the points.
+    pub(super) fn without(&self, point: Xy) -> Self {
+        let (d, count) = (point - self.middle, self.count - 1.0);
+        let moments = self.moments - d * d.transpose() * (self.count / count);
+        Self { count, middle: self.middle - d / count, moments }
+    }
+
+    /// Whether the points span a plane.
+    fn is_wide(&self) -> bool {
+        let (long, short) = self.principal();
+        short > FLAT * FLAT * long && !self.is_point()
+    }
+
+    /// The matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
+    /// it
+    /// only has a component along the line, and for a single point it is zero.
+    fn inverse(&self) -> Matrix2<f64> {
+        if self.is_point() {
+            return Matrix2::zeros();
+        }
+        if self.is_wide() {
+            return self.moments.try_inverse().unwrap_or_else(Matrix2::zeros);
+        }
+        let along = self.direction();
+        along * along.transpose() / self.principal().0
+    }
+
+    fn is_point(&self) -> bool {
+        self.moments.trace() <= self.count * NOTHING * NOTHING
+    }
+
+    /// The moments along the main direction and across it.
+    fn principal(&self) -> (f64, f64) {
+        let half = self.moments.trace() / 2.0;
+        let long = half + self.eccentricity();
+        (long, self.moments.determinant() / long)
+    }
+
+    fn eccentricity(&self) -> f64 {
+        let (difference, mixed) = (self.difference(), self.moments.m12);
+        libm::sqrt(difference * difference + mixed * mixed)
+    }
+
+    fn difference(&self) -> f64 {
+        (self.moments.m11 - self.moments.m22) / 2.0
+    }
+
+    /// The main direction.
+    fn direction(&self) -> Vector2<f64> {
+        let (difference, eccentricity) = (self.difference(), self.eccentricity());
+        // Of the two forms of the eigenvector, use the one without cancellation.
+        let along = if difference >= 0.0 {
+            Vector2::new(eccentricity + difference, self.moments.m12)
+        } else {
+            Vector2::new(self.moments.m12, eccentricity - difference)
+        };
+        along / along.norm()
+    }
+}
+
+/// The least-squares plane.
+#[derive(Clone, Debug)]
+pub(super) struct Plane {
+    middle: Xy,
+    inverse: Matrix2<f64>,
+    /// Positions of the probes relative to their mean.
+    offsets: Vec<Vector2<f64>>,
+}
+
+impl Plane {
+    pub(super) fn new(places: &[Xy]) -> Self {
+        let scatter = Scatter::new(places);
+        let offsets = places.iter().map(|place| place - scatter.middle).collect();
+        Self { middle: scatter.middle, inverse: scatter.inverse(), offsets }
+    }
+
+    fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
+        let even = 1.0 / self.offsets.len() as f64;
+        let slope = self.inverse * (at - self.middle);
+        self.offsets.iter().map(|offset| even + slope.dot(offset)).enumerate().collect()
+    }
+}
+
+/// Number of probes used for a point.
+const HEAVIEST: usize = 4;
+
+/// Weights with a smaller relative difference are considered equal by the tree and ordered by index.
+const SAME_WEIGHT: f64 = 1e-12;
+
+/// The model of the original tool. (book: language/probes)
+#[derive(Clone, Debug)]
+pub(super) struct Nearest {
+    /// Positions with the indices of their probes. Only the first few at the same position can be used.
+    places: RTree<GeomWithData<[f64; 2], Vec<usize>>>,
+}
+
+impl Nearest {
+    pub(super) fn new(probes: &[Xy]) -> Self {
+        let mut places: BTreeMap<[u64; 2], GeomWithData<[f64; 2], Vec<usize>>> = BTreeMap::new();
+        for (number, at) in probes.iter().enumerate() {
+            let place = places
+                .entry([at.x.to_bits(), at.y.to_bits()])
+                .or_insert_with(|| GeomWithData::new([at.x, at.y], Vec::new()));
+            if place.data.len() < HEAVIEST {
+                place.data.push(number);
+            }
+        }
+        Self { places: RTree::bulk_load(places.into_values().collect()) }
+    }
+
+    /// The probes with the greatest weights in descending order; equal weights are ordered by index.
+    fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
+        let mut weights: Vec<(usize, f64)> = Vec::new();
+        for place in self.places.nearest_neighbor_iter([at.x, at.y]) {
+            let weight = 1.0 / ((Xy::from(*place.geom()) - at).norm() + 0.001);
+            // All further probes have lower weights.
+            if weights.get(HEAVIEST - 1).is_some_and(|(_, least)| weight < least * (1.0 - SAME_WEIGHT)) {
+                break;
+            }
+            weights.extend(place.data.iter().map(|probe| (*probe, weight)));
+        }
+        weights.sort_unstable_by(|(a, of_a), (b, of_b)| of_b.total_cmp(of_a).then(a.cmp(b)));
+        weights.truncate(HEAVIEST);
+        let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        weights.into_iter().map(|(probe, weight)| (probe, weight / sum)).collect()
+    }
+}
+
+// Finds probes that do not fit their neighbours. (PB607)
+//
+// Each probe is compared with the plane through all the others. It is odd if its distance from that plane exceeds [`LEAST`] and also
+// [`FACTOR`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on which all probes
+// scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
+// so that with four it is impossible to tell which one is wrong.
+
+/// Distance in mm below which a probe is never odd, however well the others fit.
+const LEAST: f64 = 0.1;
+
+/// Minimum ratio of the distance to the scatter of the others.
+const FACTOR: f64 = 4.0;
+
+/// Degrees of freedom of a plane.
+const FREEDOM: f64 = 3.0;
+
+/// A probe that does not fit its neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OddProbe {
+    /// Index of the probe, in the given order.
+    pub probe: usize,
+    /// Height above the plane through the others, in mm.
+    pub off: f64,
+}
+
+/// Returns the odd probes in order. Each probe is given by its position and by how much higher than drawn it was measured, in mm.
+pub fn odd_probes(probes: &[(Xy, f64)]) -> Vec<OddProbe> {
+    if probes.len() < 5 {
+        return Vec::new();
+    }
+    let fit = Fit::new(probes);
+    let odd = probes.iter().enumerate().filter_map(|(probe, measured)| {
+        let off = fit.odd(*measured)?;
+        Some(OddProbe { probe, off })
+    });
+    odd.collect()
+}
+
+/// The plane through all probes, and their scatter around it.
+struct Fit {
+    scatter: Scatter,
+    inverse: Matrix2<f64>,
+    mean: f64,
+    slope: Vector2<f64>,
+    /// Sum of squared distances, in mm².
+    residue: f64,
+}
+
+impl Fit {
+    fn new(probes: &[(Xy, f64)]) -> Self {
+        let places: Vec<Xy> = probes.iter().map(|(place, _)| *place).collect();
+        let scatter = Scatter::new(&places);
+        let inverse = scatter.inverse();
+        let mean = probes.iter().map(|(_, off)| off).sum::<f64>() / scatter.count;
+        let slope = inverse
+            * probes.iter().map(|(place, off)| (place - scatter.middle) * (off - mean)).sum::<Vector2<f64>>();
+        let mut fit = Self { scatter, inverse, mean, slope, residue: 0.0 };
+        fit.residue = probes.iter().map(|probe| fit.residual(*probe)).map(|off| off * off).sum();
+        fit
+    }
+
+    fn residual(&self, (place, off): (Xy, f64)) -> f64 {
+        off - self.mean - self.slope.dot(&(place - self.scatter.middle))
+    }
+
+    /// The distance of a probe from the plane through the others, if it is odd. That plane need not be fitted: the influence of a probe on
+    /// the
+    /// plane through all of them tells how far it has pulled that plane.
+    fn odd(&self, probe: (Xy, f64)) -> Option<f64> {
+        let place = probe.0 - self.scatter.middle;
+        if !self.scatter.without(probe.0).is_wide() {
+            return None;
+        }
+        let free = 1.0 - 1.0 / self.scatter.count - place.dot(&(self.inverse * place));
+        let residual = self.residual(probe);
+        let off = residual / free;
+        let others = (self.residue - residual * off).max(0.0) / (self.scatter.count - 1.0 - FREEDOM);
+        let expected = libm::sqrt(others / free);
+        (off.abs() > LEAST && off.abs() > FACTOR * expected).then_some(off)
+    }
+}
+
+/// A triangulation of the probes.
+#[derive(Clone, Debug)]
+pub(crate) struct Tin {
+    places: Vec<ProbedPoint>,
+    triangles: Vec<[usize; 3]>,
+    /// The edges of the hull, or the segments of the line if all probes are collinear.
+    border: Vec<[usize; 2]>,
+    /// Bounding boxes of the triangles, with their indices.
+    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    /// The edges with their indices.
+    edges: RTree<GeomWithData<Line<[f64; 2]>, usize>>,
+}
+
+/// One or more probes at the same position.
+#[derive(Clone, Debug)]
+struct ProbedPoint {
+    at: Xy,
+    probes: Vec<usize>,
+}
+
+/// How far outside a triangle, as a fraction of it, a point is still considered to be inside.
+const ROUNDING: f64 = 1e-9;
+
+/// Edges whose squared distances in mm² differ by less are considered equal by the tree and compared exactly.
+const AS_NEAR: f64 = 1e-12;
+
+impl Tin {
+    pub(crate) fn new(probes: &[Xy]) -> Self {
+        let places = places(probes);
+        let points: Vec<Point> = places.iter().map(|place| Point { x: place.at.x, y: place.at.y }).collect();
+        let net = triangulate(&points);
+        let triangles: Vec<[usize; 3]> = net.triangles.as_chunks().0.to_vec();
+        let mut border: Vec<[usize; 2]> = net.hull.windows(2).map(|edge| [edge[0], edge[1]]).collect();
+        if let ([first, .., last], false) = (&*net.hull, triangles.is_empty()) {
+            border.push([*last, *first]);
+        }
+        let corner = |place: &usize| [places[*place].at.x, places[*place].at.y];
+        let boxes = triangles.iter().map(|corners| wide(AABB::from_points(&corners.each_ref().map(corner))));
+        let edges =
+            border.iter().map(|edge| edge.each_ref().map(corner)).map(|[from, to]| Line::new(from, to));
+        Self { boxes: numbered(boxes), edges: numbered(edges), places, triangles, border }
+    }
+
+    fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
+        match self.around(at) {
+            Some((number, parts)) => self.shared(self.triangles[number].into_iter().zip(parts)),
+            None => self.on_border(at),
+        }
+    }
+
+    /// Distance in mm from the triangles (or from the line or the single probe); 0 inside.
+    pub(crate) fn distance(&self, at: Xy) -> f64 {
+        if self.around(at).is_some() {
+            return 0.0;
+        }
+        match self.nearest(at) {
+            Some((_, _, distance)) => distance,
+            None => self.places.first().map_or(0.0, |place| (place.at - at).norm()),
+        }
+    }
+
+    /// The first triangle that contains a point, with the barycentric coordinates of the point.
+    fn around(&self, at: Xy) -> Option<(usize, [f64; 3])> {
+        let near = self.boxes.locate_in_envelope_intersecting(AABB::from_point([at.x, at.y]));
+        let around = near
+            .filter_map(|candidate| Some((candidate.data, self.inside(self.triangles[candidate.data], at)?)));
+        around.min_by_key(|(number, _)| *number)
+    }
+
+    /// Barycentric coordinates of a point with respect to a triangle, if the point is inside.
+    fn inside(&self, corners: [usize; 3], at: Xy) -> Option<[f64; 3]> {
+        let [a, b, c] = corners.map(|corner| self.places[corner].at);
+        let (ab, ac, ap) = (b - a, c - a, at - a);
+        let area = ab.perp(&ac);
+        let (of_b, of_c) = (ap.perp(&ac) / area, ab.perp(&ap) / area);
+        let parts = [1.0 - of_b - of_c, of_b, of_c];
+        // The coordinates are NaN for a triangle without area, so that nothing is inside.
+        parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
+    }
+
+    fn on_border(&self, at: Xy) -> Vec<(usize, f64)> {
+        match self.nearest(at) {
+            Some(([start, end], along, _)) => self.shared([(start, 1.0 - along), (end, along)]),
+            None => self.shared(self.places.first().map(|_| (0, 1.0))),
+        }
+    }
+
+    /// The nearest edge (the first if there are several), the fraction along it of its nearest point, and the distance.
+    fn nearest(&self, at: Xy) -> Option<([usize; 2], f64, f64)> {
+        let mut near = self.edges.nearest_neighbor_iter_with_distance_2([at.x, at.y]).peekable();
+        let (_, least) = *near.peek()?;
+        let near = near.take_while(|(_, distance)| *distance <= least * (1.0 + ROUNDING) + AS_NEAR);
+        let nearest = near.map(|(edge, _)| (self.along(edge.data, at), edge.data));
+        let first =
+            nearest.min_by(|((_, a), first), ((_, b), second)| a.total_cmp(b).then(first.cmp(second)));
+        first.map(|((along, distance), edge)| (self.border[edge], along, distance))
+    }
+
+    /// The fraction along an edge of its point nearest to `at`, and the distance.
+    fn along(&self, edge: usize, at: Xy) -> (f64, f64) {
+        let [start, end] = self.border[edge].map(|place| self.places[place].at);
+        let way = end - start;
+        let along = ((at - start).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+        (along, (start + way * along - at).norm())
+    }
+
+    /// Divides the weight of a position among its probes.
+    fn shared(&self, parts: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
+        let mut weights = Vec::new();
+        for (place, part) in parts {
+            let probes = &self.places[place].probes;
+            weights.extend(probes.iter().map(|probe| (*probe, part / probes.len() as f64)));
+        }
+        weights.sort_unstable_by_key(|(probe, _)| *probe);
+        weights
+    }
+}
+
+/// Enlarges a rectangle so that no point considered to be inside is missed.
+fn wide(tight: AABB<[f64; 2]>) -> Rectangle<[f64; 2]> {
+    let (lower, upper) = (tight.lower(), tight.upper());
+    let margin = 4.0 * ROUNDING * (upper[0] - lower[0]).max(upper[1] - lower[1]);
+    Rectangle::from_corners(
+        lower.map(|coordinate| coordinate - margin),
+        upper.map(|coordinate| coordinate + margin),
+    )
+}
+
+/// Builds a tree of shapes with their indices.
+fn numbered<T: rstar::RTreeObject>(shapes: impl Iterator<Item = T>) -> RTree<GeomWithData<T, usize>> {
+    RTree::bulk_load(shapes.enumerate().map(|(number, shape)| GeomWithData::new(shape, number)).collect())
+}
+
+/// The positions of probes. Probes whose positions would be written identically in a program are at the same position.
+fn places(probes: &[Xy]) -> Vec<ProbedPoint> {
+    let mut places: Vec<ProbedPoint> = Vec::new();
+    let mut known = BTreeMap::new();
+    for (number, at) in probes.iter().enumerate() {
+        let place = *known.entry([at.x, at.y].map(micrometres)).or_insert_with(|| {
+            places.push(ProbedPoint { at: *at, probes: Vec::new() });
+            places.len() - 1
+        });
+        places[place].probes.push(number);
+    }
+    places
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "saturates: nobody mills so far out")]
+fn micrometres(millimetres: f64) -> i64 {
+    (millimetres * 1000.0).round_ties_even() as i64
+}
