@@ -185,8 +185,7 @@ impl Post {
     }
 
     /// Checks that the text makes the machine do what the job describes, and nothing forbidden. If no dialect defines the meaning of its
-    /// words, or if
-    /// the definition has its own axes, its shadow is checked instead. Doubtful constructs are returned.
+    /// words, or if the definition has its own axes, its shadow is checked instead. Doubtful constructs are returned.
     fn read_back(
         &self,
         text: &[u8],
@@ -256,8 +255,7 @@ impl Post {
     }
 
     /// Restricts the options to what the target supports: for a control without cycles, holes are written as moves, unless the definition
-    /// replaces
-    /// the word of the cycle by a text of its own.
+    /// replaces the word of the cycle by a text of its own.
     fn within<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {

@@ -13,16 +13,14 @@ use regex::Regex;
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
 
 /// Arcs shorter than this, in mm, are written as lines. A post might print the same coordinates for both ends, which would be a full circle
-/// that
-/// cuts off the adjacent support bars. As a line the difference is less than any machine can resolve.
+/// that cuts off the adjacent support bars. As a line the difference is less than any machine can resolve.
 const SHORTEST_ARC: f64 = 0.002;
 
 impl Job {
     /// Joins programs in the given order into one job. The tool is changed between them if O differs or the tool table requires it.
     ///
     /// With `pecks`, holes with C are drilled in pecks of that depth, otherwise in one go as in the native program. Warnings about the
-    /// tools
-    /// are returned with the job.
+    /// tools are returned with the job.
     pub fn from_programs(
         name: &str,
         programs: &[impl Borrow<Program>],

@@ -47,8 +47,7 @@ impl Job {
     ///
     /// # Errors
     /// Things that a job cannot express: other coordinate systems, positions known only to the machine, cuts from or to an unknown
-    /// position,
-    /// arcs of several turns.
+    /// position, arcs of several turns.
     pub fn from_steps(
         name: &str,
         steps: &[Step],

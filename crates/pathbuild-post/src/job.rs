@@ -171,7 +171,7 @@ pub struct Stock {
 }
 
 /// The moves of one embedded path, as long as no setting changes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Operation {
     /// Name of the path.
     pub name: Box<str>,
@@ -216,31 +216,9 @@ pub struct Operation {
 impl Operation {
     /// Creates an operation without moves, with everything else unknown or zero.
     pub fn new(name: &str, tool: Tool) -> Self {
-        Self {
-            name: name.into(),
-            part: name.into(),
-            tool,
-            spindle: None,
-            speed: None,
-            coolant: None,
-            cut_feed: None,
-            plunge_feed: None,
-            clearance: 0.0,
-            retract: 0.0,
-            surface: 0.0,
-            target_depth: None,
-            depth_increment: None,
-            tag: "".into(),
-            texts: Texts::default(),
-            plane: Plane::default(),
-            velocity: VelocityMode::default(),
-            entry: Entry::default(),
-            steps: Vec::new(),
-        }
+        Self { name: name.into(), part: name.into(), tool, ..Self::default() }
     }
-}
 
-impl Operation {
     /// The first position reached by the moves. Each coordinate is that of the first move that specifies it, otherwise that of the entry.
     pub fn first_point(&self) -> Position {
         let target = |step: &JobStep| match step {
@@ -290,7 +268,7 @@ impl Operation {
 }
 
 /// A cutter. Tools with the same index are the same tool.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tool {
     /// Number in T words.
     pub index: u32,
@@ -320,11 +298,8 @@ impl Tool {
             is_named: true,
             diameter,
             name: name.into(),
-            radius: 0.0,
-            length: None,
             profile: "EndMill".into(),
-            comment: "".into(),
-            vee_angle: None,
+            ..Self::default()
         }
     }
 

@@ -61,8 +61,7 @@ impl Shadow {
     }
 
     /// Adds a line with these words. `motion` is the G number of a macro in it. If one axis of the plane is reversed, the direction of arcs
-    /// is
-    /// reversed too.
+    /// is reversed too.
     pub(crate) fn line(&mut self, line: &Words, motion: Option<u32>, is_mirrored: bool) {
         if self.is_blank(line) {
             return self.end_line();
@@ -99,8 +98,7 @@ impl Shadow {
     }
 
     /// Whether a line defines the blank: on a Heidenhain control that is G30 with the plane and all axes, followed by G31. Other controls
-    /// have no
-    /// plane in the same line as G30.
+    /// have no plane in the same line as G30.
     fn is_blank(&mut self, line: &Words) -> bool {
         let has = |letter: char, number: i64| {
             line.words.iter().any(|word| word.letter == letter && tenths(word) == number)

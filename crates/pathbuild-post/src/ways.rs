@@ -1,9 +1,8 @@
 //! Checks that a parsed text makes exactly the cuts of a job, and between them only moves that cannot touch material.
 //!
 //! The rapids of a post need not equal those of the job, as they must when a program is compared with its drawing (`verify --against`): it
-//! may retract the
-//! tool higher, or omit moves in the air. A position is free of material if it is above all positions where the job itself moves by
-//! rapid, or above the clearance plane.
+//! may retract the tool higher, or omit moves in the air. A position is free of material if it is above all positions where the job itself
+//! moves by rapid, or above the clearance plane.
 
 use std::collections::HashSet;
 
@@ -257,8 +256,7 @@ impl<'m> Way<'m> {
     }
 
     /// Checks the moves after the last cut: there must be no further cuts, and the tool must end as high as in the job. As between two
-    /// cuts,
-    /// a rapid of the job may be written as a feed.
+    /// cuts, a rapid of the job may be written as a feed.
     fn is_last(&self, found: Moves<'_>, has_cut: bool) -> Checked<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {

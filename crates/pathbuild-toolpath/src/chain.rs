@@ -197,9 +197,8 @@ fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
 // Finds the edge nearest to the tool tip. (book: program/gcode)
 //
 // Distances are compared approximately, which is not transitive, so the result is defined by a single scan in segment order. Only edges
-// near
-// the tip can affect that scan, and only the first of the edges that begin at the same point and depth. An R-tree of points finds them,
-// which avoids quadratic time for chains or stars of many thousand segments.
+// near the tip can affect that scan, and only the first of the edges that begin at the same point and depth. An R-tree of points finds
+// them, which avoids quadratic time for chains or stars of many thousand segments.
 
 /// The edges of a chain that have not been milled yet.
 pub(crate) struct OpenEdges<'a> {

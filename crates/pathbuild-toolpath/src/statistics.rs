@@ -29,8 +29,7 @@ const SLOWER: f64 = 1.4;
 
 impl Statistics {
     /// The statistics that `PathDxf2GCode` writes for a program, with a rapid feed in mm/min. They use planned lengths, which can differ
-    /// from
-    /// those of the moves. Only compatible programs have them.
+    /// from those of the moves. Only compatible programs have them.
     pub fn of_reference(program: &Program, rapid: f64) -> Self {
         let mut statistics = Self::default();
         let mut z = program.start_height();

@@ -1,8 +1,8 @@
 //! Models the height of the material between probes. (book: language/probes)
 //!
 //! The models describe the correction, that is, by how much the material is higher than drawn. At each point it is a linear combination of
-//! the
-//! corrections at the probes. Therefore a [`Surface`] depends only on their positions, and a program made with it is valid until they move.
+//! the corrections at the probes. Therefore a [`Surface`] depends only on their positions, and a program made with it is valid until they
+//! move.
 
 use std::collections::BTreeMap;
 
@@ -23,8 +23,7 @@ pub enum ZModel {
     /// line.
     Plane,
     /// Triangles between the probes (Delaunay); outside of them the value at the nearest edge. For probes on a line, the value at its
-    /// nearest
-    /// point.
+    /// nearest point.
     Tin,
 }
 
@@ -53,8 +52,7 @@ impl Surface {
     }
 
     /// The weight of each probe at a point: indices of probes with weights whose sum is 1. Probes with weight 0 may be omitted. Empty if
-    /// there
-    /// are no probes.
+    /// there are no probes.
     pub fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         match &self.model {
             Model::Nearest(nearest) => nearest.weights(at),
@@ -103,8 +101,7 @@ impl Scatter {
     }
 
     /// The matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
-    /// it
-    /// only has a component along the line, and for a single point it is zero.
+    /// it only has a component along the line, and for a single point it is zero.
     fn inverse(&self) -> Matrix2<f64> {
         if self.is_point() {
             return Matrix2::zeros();
@@ -283,8 +280,7 @@ impl Fit {
     }
 
     /// The distance of a probe from the plane through the others, if it is odd. That plane need not be fitted: the influence of a probe on
-    /// the
-    /// plane through all of them tells how far it has pulled that plane.
+    /// the plane through all of them tells how far it has pulled that plane.
     fn odd(&self, probe: (Xy, f64)) -> Option<f64> {
         let place = probe.0 - self.scatter.middle;
         if !self.scatter.without(probe.0).is_wide() {

@@ -295,8 +295,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Completes the pending rapids. Within the material they become elements of the contour, otherwise they lead to a new contour, which
-    /// may
-    /// begin with a plunge.
+    /// may begin with a plunge.
     fn land(&mut self, plunge: Option<(Point, Option<f64>)>) -> Built {
         if self.abilities.rapid {
             return Ok(());
@@ -340,8 +339,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Height at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight line,
-    /// otherwise
-    /// the clearance above everything.
+    /// otherwise the clearance above everything.
     fn height(&self) -> f64 {
         let (from, to) = (self.at, self.end());
         let is_straight = |way: &Point| {

@@ -242,95 +242,6 @@ fn from_bits(bits: i64) -> f64 {
     bits as f64
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn value(text: &str) -> f64 {
-        evaluate(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}")).value
-    }
-
-    #[test]
-    fn the_manual_s_examples() {
-        let examples = [
-            ("2^^8*2", 512.0),
-            ("8/2*4", 16.0),
-            ("8+2*4", 16.0),
-            ("10-2/4", 9.5),
-            ("100^^0.5", 10.0),
-            ("24&15", 8.0),
-            ("16|8", 24.0),
-            ("24^31", 7.0),
-            ("!12", 0.0),
-        ];
-        for (text, expected) in examples {
-            assert_eq!(value(text), expected, "{text}");
-        }
-    }
-
-    #[test]
-    fn everything_is_left_associative() {
-        assert_eq!(value("2^^3^^2"), 64.0);
-        assert_eq!(value("10-4-3"), 3.0);
-        assert_eq!(value("3>2>1"), 0.0);
-    }
-
-    #[test]
-    fn operators_bind_in_their_order() {
-        assert_eq!(value("1==1||0"), 1.0);
-        assert_eq!(value("0&&0||1"), 1.0);
-        assert_eq!(value("1||0&&0"), 1.0);
-        assert_eq!(value("1+1==2"), 1.0);
-        assert_eq!(value("-2^^2"), 4.0);
-        assert_eq!(value("!0+1"), 2.0);
-        assert_eq!(value("2*(3+4)"), 14.0);
-        assert_eq!(value("5<=5&&5>=5&&5!=4&&4<5"), 1.0);
-    }
-
-    #[test]
-    fn a_negative_value_may_stand_behind_an_operator() {
-        assert_eq!(value("5--3"), 8.0);
-        assert_eq!(value("5*-3"), -15.0);
-        assert!(evaluate("5--3").unwrap().doubts.is_empty());
-        assert_eq!(evaluate("--5").unwrap().doubts, [Doubt::TwoSigns]);
-    }
-
-    #[test]
-    fn bits_and_comparisons_together_are_doubtful() {
-        assert_eq!(evaluate("3&1==1").unwrap().doubts, [Doubt::MixedBits]);
-        assert!(evaluate("(3&1)==1").unwrap().doubts.is_empty());
-    }
-
-    #[test]
-    fn functions_are_an_extension() {
-        assert_eq!(value("max(1, 2, 3)+sqrt(16)"), 7.0);
-        assert_eq!(evaluate("pi").unwrap().doubts, [Doubt::Extension]);
-    }
-
-    #[test]
-    fn what_is_no_term_is_refused_where_it_goes_wrong() {
-        let place = |text: &str| evaluate(text).unwrap_err().span;
-        assert_eq!(place("1+"), 2..2);
-        assert_eq!(place("1+*2"), 2..3);
-        assert_eq!(place("1,5"), 1..2);
-        assert_eq!(place("(1"), 2..2);
-        assert_eq!(place("1.2.3"), 0..5);
-        assert_eq!(place("1/0"), 0..3);
-        assert_eq!(place("1.5&1"), 3..5);
-        assert_eq!(place("sinus(1)"), 0..5);
-        assert_eq!(place("sin(1,2)"), 0..3);
-        assert_eq!(place(""), 0..0);
-    }
-
-    #[test]
-    fn nesting_has_an_end() {
-        let nested = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
-        assert!(evaluate(&nested(64)).is_ok());
-        assert!(evaluate(&nested(65)).is_err());
-        assert!(evaluate(&"-".repeat(100_000)).is_err());
-    }
-}
-
 // Functions in terms. They are an extension of pathbuild, because it is unknown which functions CAD6 has. Angles are in degrees.
 
 /// Why a function cannot be evaluated.
@@ -469,5 +380,94 @@ impl Fault {
     pub(super) fn shifted(mut self: Box<Self>, by: usize) -> Box<Self> {
         self.span = self.span.start + by..self.span.end + by;
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        evaluate(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}")).value
+    }
+
+    #[test]
+    fn the_manual_s_examples() {
+        let examples = [
+            ("2^^8*2", 512.0),
+            ("8/2*4", 16.0),
+            ("8+2*4", 16.0),
+            ("10-2/4", 9.5),
+            ("100^^0.5", 10.0),
+            ("24&15", 8.0),
+            ("16|8", 24.0),
+            ("24^31", 7.0),
+            ("!12", 0.0),
+        ];
+        for (text, expected) in examples {
+            assert_eq!(value(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn everything_is_left_associative() {
+        assert_eq!(value("2^^3^^2"), 64.0);
+        assert_eq!(value("10-4-3"), 3.0);
+        assert_eq!(value("3>2>1"), 0.0);
+    }
+
+    #[test]
+    fn operators_bind_in_their_order() {
+        assert_eq!(value("1==1||0"), 1.0);
+        assert_eq!(value("0&&0||1"), 1.0);
+        assert_eq!(value("1||0&&0"), 1.0);
+        assert_eq!(value("1+1==2"), 1.0);
+        assert_eq!(value("-2^^2"), 4.0);
+        assert_eq!(value("!0+1"), 2.0);
+        assert_eq!(value("2*(3+4)"), 14.0);
+        assert_eq!(value("5<=5&&5>=5&&5!=4&&4<5"), 1.0);
+    }
+
+    #[test]
+    fn a_negative_value_may_stand_behind_an_operator() {
+        assert_eq!(value("5--3"), 8.0);
+        assert_eq!(value("5*-3"), -15.0);
+        assert!(evaluate("5--3").unwrap().doubts.is_empty());
+        assert_eq!(evaluate("--5").unwrap().doubts, [Doubt::TwoSigns]);
+    }
+
+    #[test]
+    fn bits_and_comparisons_together_are_doubtful() {
+        assert_eq!(evaluate("3&1==1").unwrap().doubts, [Doubt::MixedBits]);
+        assert!(evaluate("(3&1)==1").unwrap().doubts.is_empty());
+    }
+
+    #[test]
+    fn functions_are_an_extension() {
+        assert_eq!(value("max(1, 2, 3)+sqrt(16)"), 7.0);
+        assert_eq!(evaluate("pi").unwrap().doubts, [Doubt::Extension]);
+    }
+
+    #[test]
+    fn what_is_no_term_is_refused_where_it_goes_wrong() {
+        let place = |text: &str| evaluate(text).unwrap_err().span;
+        assert_eq!(place("1+"), 2..2);
+        assert_eq!(place("1+*2"), 2..3);
+        assert_eq!(place("1,5"), 1..2);
+        assert_eq!(place("(1"), 2..2);
+        assert_eq!(place("1.2.3"), 0..5);
+        assert_eq!(place("1/0"), 0..3);
+        assert_eq!(place("1.5&1"), 3..5);
+        assert_eq!(place("sinus(1)"), 0..5);
+        assert_eq!(place("sin(1,2)"), 0..3);
+        assert_eq!(place(""), 0..0);
+    }
+
+    #[test]
+    fn nesting_has_an_end() {
+        let nested = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
+        assert!(evaluate(&nested(64)).is_ok());
+        assert!(evaluate(&nested(65)).is_err());
+        assert!(evaluate(&"-".repeat(100_000)).is_err());
     }
 }

@@ -20,27 +20,26 @@ pub(super) struct Variable {
     pub(super) about: Text,
 }
 
-/// Declares where a variable is available, in words for the book.
-macro_rules! presences {
-    ($($variant:ident $en:literal, $de:literal;)*) => {
-        /// Where a variable is available. (book: reference/post-definitions)
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(super) enum Presence {
-            $($variant,)*
-        }
-
-        impl Presence {
-            /// Description for the book.
-            pub(super) fn word(self) -> Text {
-                match self {
-                    $(Self::$variant => Text { en: $en, de: $de },)*
-                }
-            }
-        }
-    };
+/// Where a variable is available. (book: reference/post-definitions)
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Presence {
+    Always,
+    FirstMove,
+    Feed,
+    ToolNumber,
+    Speed,
+    Contours,
+    Elements,
+    Arcs,
+    Holes,
+    Waits,
+    Comments,
+    Dated,
+    Never,
 }
 
-presences! {
+words! {
+    Presence:
     Always "everywhere", "überall";
     FirstMove "from the first move on", "ab der ersten Bewegung";
     Feed "where a feed is given", "wo ein Vorschub vorliegt";

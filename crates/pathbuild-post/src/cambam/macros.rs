@@ -109,9 +109,7 @@ impl Value {
                 | Self::ToolComment
         )
     }
-}
 
-impl Value {
     /// Whether drawings and programs do not provide the value, or not always, so that the definition or the configuration may.
     pub(super) fn is_open(self) -> bool {
         matches!(
@@ -127,173 +125,91 @@ impl Value {
     }
 }
 
-impl Value {
-    /// Description for the book.
-    pub(super) fn word(self) -> Text {
-        let word = |en, de| Text { en, de };
-        match self {
-            Self::FileName => word("the program's name", "der Name des Programms"),
-            Self::ProgramNumber => word(
-                "`program-number`, else the first number in the name",
-                "`program-number`, sonst die erste Zahl im Namen",
-            ),
-            Self::Date => {
-                word("`--date`, else left out with its line", "`--date`, sonst entfällt es mit seiner Zeile")
-            }
-            Self::OutFile => word("the file that is written", "die geschriebene Datei"),
-            Self::PartName => word("the requested path", "der angeforderte Pfad"),
-            Self::MopName => {
-                word("the operation: the path that is embedded", "die Operation: der eingebettete Pfad")
-            }
-            Self::MopTag => {
-                word("where the operation's path is drawn", "wo der Pfad der Operation gezeichnet ist")
-            }
-            Self::MopClearancePlane => {
-                word("the height of rapid moves in the plane", "die Höhe der Eilgänge in der Ebene")
-            }
-            Self::MopRetractHeight => word(
-                "the height at which a rapid move down ends",
-                "die Höhe, in der der Eilgang abwärts endet",
-            ),
-            Self::MopPlungeFeedrate => {
-                word("the plunge feed, if one is given", "der Vorschub beim Eintauchen, wenn einer vorliegt")
-            }
-            Self::MopCutFeedrate => word("the feed, if one is given", "der Vorschub, wenn einer vorliegt"),
-            Self::MopDepthIncrement => word("I, else 0", "I, sonst 0"),
-            Self::MopDwell => word(
-                "seconds of the first hole that waits, else 0",
-                "Sekunden, die die erste Bohrung mit Wartezeit wartet, sonst 0",
-            ),
-            Self::MopHoleDiameter => word("diameter of a hole: O", "Durchmesser einer Bohrung: O"),
-            Self::MopPeckDistance => word(
-                "depth of a peck of the first hole drilled in pecks, else 0",
-                "Tiefe je Stufe der ersten Bohrung in Stufen, sonst 0",
-            ),
-            Self::MopStockSurface => word("T", "T"),
-            Self::MopTargetDepth => {
-                word("the lowest Z that is cut, else T", "das tiefste gefräste Z, sonst T")
-            }
-            Self::MopFirst(_) => word(
-                "where the operation begins, if that is known",
-                "wo die Operation beginnt, wenn das bekannt ist",
-            ),
-            Self::ToolIndex => word("the tool's number", "die Nummer des Werkzeugs"),
-            Self::ToolDiameter => word("O", "O"),
-            Self::ToolName => word("the tool's name", "der Name des Werkzeugs"),
-            Self::ToolRadius => word("half of O", "die Hälfte von O"),
-            Self::ToolLength => word("length in the tool table", "Länge in der Werkzeugtabelle"),
-            Self::ToolProfile => word("profile in the tool table", "Form in der Werkzeugtabelle"),
-            Self::ToolComment => word("comment in the tool table", "Kommentar in der Werkzeugtabelle"),
-            Self::ToolVeeAngle => word("angle in the tool table", "Winkel in der Werkzeugtabelle"),
-            Self::MoveAxis(_) => word("the number of the present move", "die Zahl der laufenden Bewegung"),
-            Self::ArcOffset(_) => word(
-                "from the start of the present arc to its centre",
-                "vom Anfang des laufenden Bogens zum Mittelpunkt",
-            ),
-            Self::ArcRadius => word("radius of the present arc", "Radius des laufenden Bogens"),
-            Self::ArcStart => {
-                word("where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad")
-            }
-            Self::ArcEnd => word("where the present arc ends, degrees", "Ende des laufenden Bogens in Grad"),
-            Self::ArcSweep => word(
-                "degrees, clockwise positive, of the present arc",
-                "Grad, im Uhrzeigersinn positiv, des laufenden Bogens",
-            ),
-            Self::StockSize(_) => word(
-                "size of the stock, if the program says it",
-                "Maß des Rohteils, wenn das Programm es nennt",
-            ),
-            Self::StockCorner(_) => word(
-                "corner of the stock, if the program says it",
-                "Ecke des Rohteils, wenn das Programm sie nennt",
-            ),
-            Self::StockCornerReversed(_) => {
-                word("the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen")
-            }
-        }
-    }
+words! {
+    Value:
+    FileName "the program's name", "der Name des Programms";
+    ProgramNumber "`program-number`, else the first number in the name",
+        "`program-number`, sonst die erste Zahl im Namen";
+    Date "`--date`, else left out with its line", "`--date`, sonst entfällt es mit seiner Zeile";
+    OutFile "the file that is written", "die geschriebene Datei";
+    PartName "the requested path", "der angeforderte Pfad";
+    MopName "the operation: the path that is embedded", "die Operation: der eingebettete Pfad";
+    MopTag "where the operation's path is drawn", "wo der Pfad der Operation gezeichnet ist";
+    MopClearancePlane "the height of rapid moves in the plane", "die Höhe der Eilgänge in der Ebene";
+    MopRetractHeight "the height at which a rapid move down ends",
+        "die Höhe, in der der Eilgang abwärts endet";
+    MopPlungeFeedrate "the plunge feed, if one is given", "der Vorschub beim Eintauchen, wenn einer vorliegt";
+    MopCutFeedrate "the feed, if one is given", "der Vorschub, wenn einer vorliegt";
+    MopDepthIncrement "I, else 0", "I, sonst 0";
+    MopDwell "seconds of the first hole that waits, else 0",
+        "Sekunden, die die erste Bohrung mit Wartezeit wartet, sonst 0";
+    MopHoleDiameter "diameter of a hole: O", "Durchmesser einer Bohrung: O";
+    MopPeckDistance "depth of a peck of the first hole drilled in pecks, else 0",
+        "Tiefe je Stufe der ersten Bohrung in Stufen, sonst 0";
+    MopStockSurface "T", "T";
+    MopTargetDepth "the lowest Z that is cut, else T", "das tiefste gefräste Z, sonst T";
+    MopFirst(_) "where the operation begins, if that is known",
+        "wo die Operation beginnt, wenn das bekannt ist";
+    ToolIndex "the tool's number", "die Nummer des Werkzeugs";
+    ToolDiameter "O", "O";
+    ToolName "the tool's name", "der Name des Werkzeugs";
+    ToolRadius "half of O", "die Hälfte von O";
+    ToolLength "length in the tool table", "Länge in der Werkzeugtabelle";
+    ToolProfile "profile in the tool table", "Form in der Werkzeugtabelle";
+    ToolComment "comment in the tool table", "Kommentar in der Werkzeugtabelle";
+    ToolVeeAngle "angle in the tool table", "Winkel in der Werkzeugtabelle";
+    MoveAxis(_) "the number of the present move", "die Zahl der laufenden Bewegung";
+    ArcOffset(_) "from the start of the present arc to its centre",
+        "vom Anfang des laufenden Bogens zum Mittelpunkt";
+    ArcRadius "radius of the present arc", "Radius des laufenden Bogens";
+    ArcStart "where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad";
+    ArcEnd "where the present arc ends, degrees", "Ende des laufenden Bogens in Grad";
+    ArcSweep "degrees, clockwise positive, of the present arc",
+        "Grad, im Uhrzeigersinn positiv, des laufenden Bogens";
+    StockSize(_) "size of the stock, if the program says it", "Maß des Rohteils, wenn das Programm es nennt";
+    StockCorner(_) "corner of the stock, if the program says it",
+        "Ecke des Rohteils, wenn das Programm sie nennt";
+    StockCornerReversed(_) "the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen";
 }
 
-impl Block {
-    /// Description for the book.
-    pub(super) fn word(self) -> Text {
-        let word = |en, de| Text { en, de };
-        match self {
-            Self::Mops => {
-                word("each operation through the section `MOP`", "jede Operation durch den Abschnitt `MOP`")
-            }
-            Self::Blocks => word("the moves of the operation", "die Bewegungen der Operation"),
-            Self::ToolTable => word("`ToolTableItem` for each tool", "`ToolTableItem` für jedes Werkzeug"),
-            Self::ToolChange => word(
-                "the section `ToolChange`, unless the tool is in",
-                "den Abschnitt `ToolChange`, wenn das Werkzeug nicht steckt",
-            ),
-            Self::FirstToolChange => word(
-                "the same for the first operation's tool",
-                "dasselbe für das Werkzeug der ersten Operation",
-            ),
-            Self::Clearance => word(
-                "a rapid move up to the clearance plane, unless the tool is there",
-                "einen Eilgang zur Sicherheitsebene, wenn das Werkzeug nicht dort ist",
-            ),
-            Self::FileHeader => word(
-                "custom text before the program; drawings have none",
-                "eigener Text vor dem Programm; Zeichnungen haben keinen",
-            ),
-            Self::FileFooter => word(
-                "custom text after the program; drawings have none",
-                "eigener Text nach dem Programm; Zeichnungen haben keinen",
-            ),
-            Self::MopHeader => word(
-                "custom text before the operation; drawings have none",
-                "eigener Text vor der Operation; Zeichnungen haben keinen",
-            ),
-            Self::MopFooter => word(
-                "custom text after the operation; drawings have none",
-                "eigener Text nach der Operation; Zeichnungen haben keinen",
-            ),
-        }
-    }
+words! {
+    Block:
+    Mops "each operation through the section `MOP`", "jede Operation durch den Abschnitt `MOP`";
+    Blocks "the moves of the operation", "die Bewegungen der Operation";
+    ToolTable "`ToolTableItem` for each tool", "`ToolTableItem` für jedes Werkzeug";
+    ToolChange "the section `ToolChange`, unless the tool is in",
+        "den Abschnitt `ToolChange`, wenn das Werkzeug nicht steckt";
+    FirstToolChange "the same for the first operation's tool",
+        "dasselbe für das Werkzeug der ersten Operation";
+    Clearance "a rapid move up to the clearance plane, unless the tool is there",
+        "einen Eilgang zur Sicherheitsebene, wenn das Werkzeug nicht dort ist";
+    FileHeader "custom text before the program; drawings have none",
+        "eigener Text vor dem Programm; Zeichnungen haben keinen";
+    FileFooter "custom text after the program; drawings have none",
+        "eigener Text nach dem Programm; Zeichnungen haben keinen";
+    MopHeader "custom text before the operation; drawings have none",
+        "eigener Text vor der Operation; Zeichnungen haben keinen";
+    MopFooter "custom text after the operation; drawings have none",
+        "eigener Text nach der Operation; Zeichnungen haben keinen";
 }
 
-impl State {
-    /// Description for the book.
-    pub(super) fn word(self) -> Text {
-        let word = |en, de| Text { en, de };
-        match self {
-            Self::Velocity => word(
-                "the `VelocityMode...` that the operation needs, if it changes",
-                "das `VelocityMode...`, das die Operation braucht, wenn es wechselt",
-            ),
-            Self::WorkPlane => word("`WorkPlane...`, where it changes", "`WorkPlane...`, wo sie wechselt"),
-            Self::Spindle => word(
-                "`SpindleCW`, `SpindleCCW` or `SpindleOff`, where it changes",
-                "`SpindleCW`, `SpindleCCW` oder `SpindleOff`, wo sich etwas ändert",
-            ),
-            Self::Coolant => word(
-                "`CoolantFlood`, `CoolantMist` or `CoolantOff`, where it changes",
-                "`CoolantFlood`, `CoolantMist` oder `CoolantOff`, wo sich etwas ändert",
-            ),
-        }
-    }
+words! {
+    State:
+    Velocity "the `VelocityMode...` that the operation needs, if it changes",
+        "das `VelocityMode...`, das die Operation braucht, wenn es wechselt";
+    WorkPlane "`WorkPlane...`, where it changes", "`WorkPlane...`, wo sie wechselt";
+    Spindle "`SpindleCW`, `SpindleCCW` or `SpindleOff`, where it changes",
+        "`SpindleCW`, `SpindleCCW` oder `SpindleOff`, wo sich etwas ändert";
+    Coolant "`CoolantFlood`, `CoolantMist` or `CoolantOff`, where it changes",
+        "`CoolantFlood`, `CoolantMist` oder `CoolantOff`, wo sich etwas ändert";
 }
 
-impl Choice {
-    /// Description for the book.
-    pub(super) fn word(self) -> Text {
-        let word = |en, de| Text { en, de };
-        match self {
-            Self::Units => word(
-                "`UnitsMM` or `UnitsInches`, by the program",
-                "`UnitsMM` oder `UnitsInches`, nach dem Programm",
-            ),
-            Self::ArcCentre => word(
-                "`ArcCenterAbsolute` or `ArcCenterIncremental`, by the element `ArcCenterMode`",
-                "`ArcCenterAbsolute` oder `ArcCenterIncremental`, nach dem Element `ArcCenterMode`",
-            ),
-            Self::LatheX => word("`XModeRadius`", "`XModeRadius`"),
-        }
-    }
+words! {
+    Choice:
+    Units "`UnitsMM` or `UnitsInches`, by the program", "`UnitsMM` oder `UnitsInches`, nach dem Programm";
+    ArcCentre "`ArcCenterAbsolute` or `ArcCenterIncremental`, by the element `ArcCenterMode`",
+        "`ArcCenterAbsolute` oder `ArcCenterIncremental`, nach dem Element `ArcCenterMode`";
+    LatheX "`XModeRadius`", "`XModeRadius`";
 }
 
 /// Values written without a letter.

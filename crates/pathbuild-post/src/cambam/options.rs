@@ -115,13 +115,13 @@ element_options! {
         "first number", "erste Nummer";
     "LineNumberIncrement" = "1", |o, v| put(&mut o.numbering.increment, count(v)),
         "from one number to the next", "von einer Nummer zur nächsten";
-    "LineNumberPrefix" = "N", |o, v| put(&mut o.numbering.prefix, text(v)),
+    "LineNumberPrefix" = "N", |o, v| put(&mut o.numbering.prefix, Ok(text(v))),
         "text in front of the number", "Text vor der Nummer";
     "LineNumberFormat" = "0", |o, v| put(&mut o.numbering.format, pattern(v)),
         "pattern of the number", "Muster der Nummer";
     "LineNumberSpaceAfter" = "true", |o, v| put(&mut o.numbering.space_after, boolean(v)),
         "whether a blank follows the number", "ob der Nummer ein Leerzeichen folgt";
-    "LineNumberSkip" = "%O(:;", |o, v| put(&mut o.numbering.skip, text(v)),
+    "LineNumberSkip" = "%O(:;", |o, v| put(&mut o.numbering.skip, Ok(text(v))),
         "lines that begin with one of these have no number",
         "Zeilen mit einem dieser Anfänge haben keine Nummer";
     "ArcOutput" = "Normal", |o, v| put(&mut o.arcs_as_lines, arc_output(v)),
@@ -157,14 +157,14 @@ element_options! {
         "the same, as the manual calls it", "dasselbe, wie das Handbuch es nennt";
     "RotaryAxis" = "A", |o, v| put(&mut o.rotary.letter, rotary_axis(v)),
         "the letter of the angle", "der Buchstabe des Winkels";
-    "PostBuildCommand" = "", |o, v| put(&mut o.post_build_command, text(v)),
+    "PostBuildCommand" = "", |o, v| put(&mut o.post_build_command, Ok(text(v))),
         "program that is run on the file, only with `--run-post-build`",
         "Programm, das die Datei bearbeitet, nur mit `--run-post-build`";
-    "PostBuildCommandArgs" = "", |o, v| put(&mut o.post_build_arguments, text(v)),
+    "PostBuildCommandArgs" = "", |o, v| put(&mut o.post_build_arguments, Ok(text(v))),
         "its arguments; no shell reads them", "seine Argumente; keine Shell liest sie";
     "Notes" = "", |_, _| Ok(()),
         "a comment on the definition", "ein Kommentar zur Definition";
-    "Dialect" = "", |o, v| put(&mut o.dialect, optional_text(v)),
+    "Dialect" = "", |o, v| put(&mut o.dialect, Ok(optional_text(v))),
         "the dialect in which the output is read back", "der Dialekt, in dem die Ausgabe zurückgelesen wird";
     "FileExtension" = "nc", |o, v| put(&mut o.extension, extension(v)),
         "extension of the files that are written", "Endung der geschriebenen Dateien";
@@ -218,12 +218,12 @@ fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) 
     found.map(|(_, choice)| *choice).ok_or(Refusal::Expected(expected))
 }
 
-fn text(value: &str) -> OptionResult<Box<str>> {
-    Ok(value.trim().into())
+fn text(value: &str) -> Box<str> {
+    value.trim().into()
 }
 
-fn optional_text(value: &str) -> OptionResult<Option<Box<str>>> {
-    text(value).map(|text| (!text.is_empty()).then_some(text))
+fn optional_text(value: &str) -> Option<Box<str>> {
+    Some(text(value)).filter(|text| !text.is_empty())
 }
 
 fn rotary_axis(value: &str) -> OptionResult<usize> {

@@ -377,8 +377,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Restores the sign and axis that a word had in the program before the template reversed it. An axis must be reversed in every line or
-    /// in
-    /// none, otherwise the machine would move to both sides.
+    /// in none, otherwise the machine would move to both sides.
     fn meant(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;

@@ -19,7 +19,7 @@ pub struct Entity {
     pub layer: Option<String>,
     /// The name of the line type; `None` for BYLAYER, which is not written.
     pub line_type: Option<String>,
-    /// A text that [`Draft::finish`](crate::draw::Draft::finish) positions so that it belongs to this entity.
+    /// A text that `Draft::finish` positions so that it belongs to this entity.
     pub note: Option<Note>,
     /// The plane that the shape lies in.
     pub orientation: Orientation,

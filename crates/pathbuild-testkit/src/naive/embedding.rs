@@ -13,7 +13,7 @@ use super::{Drawing, Finding, Instance, Model, directory, stem};
 const DEEPEST: usize = 10;
 
 /// A traversal of everything that a path embeds.
-pub(super) struct Visit<'m> {
+struct Visit<'m> {
     model: &'m Model,
     /// The paths being visited, outermost first.
     open: Vec<Instance>,
@@ -154,6 +154,18 @@ impl<'m> Visit<'m> {
 }
 
 impl Model {
+    /// The findings of a path and all that it embeds.
+    pub(super) fn check_path(&self, drawing: usize, path: usize) -> Vec<Finding> {
+        let (raw, _) = &self.drawings[drawing].content.paths[path];
+        let values = Bindings::check_values(&raw.definitions);
+        let mut visit = Visit::new(self);
+        let instance = (drawing, path, values);
+        if !visit.path(&instance) {
+            visit.found.extend(self.entered_clamps(&instance));
+        }
+        visit.found
+    }
+
     /// The path that a subpath embeds, if exactly one drawing defines it.
     pub(super) fn child(&self, outer: &Instance, name: &PathName, subpath: &Subpath) -> Option<Instance> {
         let holder = *self.holders(outer.0, name).first()?;

@@ -111,17 +111,6 @@ impl Model {
         below.flat_map(names).collect()
     }
 
-    fn check_path(&self, drawing: usize, path: usize) -> Vec<Finding> {
-        let (raw, _) = &self.drawings[drawing].content.paths[path];
-        let values = Bindings::check_values(&raw.definitions);
-        let mut visit = embedding::Visit::new(self);
-        let instance = (drawing, path, values);
-        if !visit.path(&instance) {
-            visit.found.extend(self.entered_clamps(&instance));
-        }
-        visit.found
-    }
-
     fn raw(&self, (drawing, path, _): &Instance) -> &RawPath {
         &self.drawings[*drawing].content.paths[*path].0
     }

@@ -9,9 +9,9 @@ use pathbuild_path::{
     RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy,
 };
 
-use crate::ArcShape;
 use crate::scene::{
-    Element, ElementKind, EmbeddedPath, KeepOut, Label, OtherShape, Parameter, Point, ScenePath, Shape,
+    ArcShape, Element, ElementKind, EmbeddedPath, KeepOut, Label, OtherShape, Parameter, Point, ScenePath,
+    Shape,
 };
 
 /// A path as it is drawn.

@@ -5,8 +5,8 @@ use pathbuild_diagnostic::Lang;
 use super::canvas::{Anchor, BAR, Canvas, INK, OTHER, RAPID, n};
 use super::frame::{Frame, PageTransform, widen};
 use super::moves::data;
-use crate::changes::{Change, ChangeKind, Group, moves, phrase};
-use crate::groups;
+use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
+
 use crate::scene::{MoveKind, Point, SceneMove};
 
 /// Added moves are blue, removed ones vermilion and dashed. The dashes also distinguish them for the colour-blind.
