@@ -1,4 +1,4 @@
-//! Positions, sets of axes, and the planes of arcs.
+//! Positions, sets of axes, planes, and arcs.
 
 use std::f64::consts::{PI, TAU};
 

@@ -6,9 +6,7 @@
 mod geometry;
 mod step;
 
-pub use geometry::{
-    Arc, Axes, Course, Plane, Position, WrittenArc, is_same_direction, turn, widest_chord,
-};
+pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_same_direction, turn, widest_chord};
 pub use step::{
     Action, Change, Coolant, Corners, Group, Move, MoveShape, Named, Pace, Spindle, StatedWord, Step,
     ToolLength, Turning, WordEffect, WorkSystem,

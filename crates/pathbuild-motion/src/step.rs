@@ -1,4 +1,4 @@
-//! The canonical steps of a program.
+//! The canonical steps of a program, and the moves of the tool tip.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Converts finished programs to a job: embedded paths become operations, drilled holes become holes.
+//! Converts finished programs to a job: embedded paths become operations, drilled holes become holes. Cutters get the tools of the table.
 
 use std::borrow::Borrow;
 

@@ -1,3 +1,5 @@
+//! Random numbers that depend only on a seed.
+
 /// Deterministic pseudo-random numbers (`SplitMix64`).
 #[derive(Clone, Debug)]
 pub(crate) struct Random {

@@ -1,4 +1,4 @@
-//! Milling chains, milled pass by pass. (book: program/gcode)
+//! Milling chains, milled pass by pass from the nearest edge. (book: program/gcode)
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};

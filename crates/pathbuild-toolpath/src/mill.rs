@@ -1,4 +1,4 @@
-//! Milling along a curve. (book: program/gcode)
+//! Milling along a curve, with support bars, and along the helix of a circle. (book: program/gcode)
 
 use std::f64::consts::PI;
 

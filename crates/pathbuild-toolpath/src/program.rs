@@ -1,4 +1,4 @@
-//! The finished program. (book: program/gcode)
+//! The finished program, the origins of its steps, and an estimate of its size. (book: program/gcode)
 
 use std::collections::BTreeMap;
 use std::ptr;

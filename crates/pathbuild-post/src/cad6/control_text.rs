@@ -1,4 +1,4 @@
-//! The control texts a definition can have, and when each is called. (section 1.6)
+//! The control texts a definition can have, when each is called, and errors at their positions. (section 1.6)
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! The state of the machine after the lines written so far.
+//! The registers and codes of the machine, and its state after the lines written so far.
 
 use pathbuild_motion::{Coolant, Plane, Turning};
 

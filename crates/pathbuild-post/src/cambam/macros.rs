@@ -1,4 +1,4 @@
-//! The meaning of the macros in CamBam definitions.
+//! The macros in CamBam definitions: their names, arguments and meaning.
 
 use pathbuild_diagnostic::{Text, nearest};
 

@@ -1,4 +1,4 @@
-//! The moves of an operation: entry, rapids, feeds, dwells, probes.
+//! The moves of an operation: entry, rapids, feeds, arcs, drilling cycles, dwells, probes.
 
 use std::f64::consts::PI;
 use std::mem::discriminant;

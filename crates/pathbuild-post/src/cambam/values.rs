@@ -1,4 +1,4 @@
-//! Macros that expand to a number or a name of the program, without a letter.
+//! Macros that expand to a number or a name of the program, or to words that depend on the state of the machine.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Plane, Turning};

@@ -1,3 +1,5 @@
+//! Pairs as ASCII and binary DXF, in the encoding of the version.
+
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use pathbuild_draw::pairs::{self, Pair};
 

@@ -1,3 +1,5 @@
+//! Converts a sheet to a drawing of the crate `dxf`.
+
 use dxf::entities::{
     Arc as CrateArc, Circle as CrateCircle, DimensionBase, Ellipse as CrateEllipse, Entity as CrateEntity,
     EntityType, Insert as CrateInsert, Line as CrateLine, LwPolyline, MText as CrateMText, ModelPoint,

@@ -1,3 +1,5 @@
+//! Drawings under construction, and finished ones.
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -1,3 +1,5 @@
+//! The sections of tables and objects.
+
 use std::collections::BTreeSet;
 
 use pathbuild_draw::pairs::{Pair, Record, drop_codes, identify, kind, value};

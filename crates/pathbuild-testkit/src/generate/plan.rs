@@ -1,3 +1,5 @@
+//! What a library consists of, and the features of a component.
+
 use crate::draw::model::{Entity, Point, Shape, bulged};
 use crate::random::Random;
 

@@ -1,3 +1,5 @@
+//! The words of a line, and positions between them.
+
 use crate::draw::DrawError;
 use crate::draw::model::{Entity, Point};
 

@@ -1,3 +1,5 @@
+//! Parameter texts, modifiers of elements, and texts of their own.
+
 use pathbuild_diagnostic::Handle;
 
 use super::cursor::{Cursor, Parsed, ParsedEntities, choice};

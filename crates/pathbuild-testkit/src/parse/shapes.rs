@@ -1,3 +1,5 @@
+//! The shapes of elements, and their line types.
+
 use super::cursor::{Cursor, Parsed, ParsedEntities};
 use crate::draw::model::{
     Arc, Circle, Ellipse, Entity, Insert, Line, Point, Polyline, PolylineKind, Shape, Spline, Vertex, bulged,

@@ -1,4 +1,4 @@
-//! Scenes of paths with their programs.
+//! Scenes of paths with their programs, and of G-code.
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret_each};

@@ -1,4 +1,4 @@
-//! Writes SVG. All text from drawings passes through [`escaped`].
+//! Writes SVG in few colours. All text from drawings passes through [`escaped`].
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! The position of the drawing on the page. Its y axis points up, that of the page points down.
+//! The position of the drawing on the page, and room for texts. The y axis of the drawing points up, that of the page points down.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Draws the elements, below and above the moves.
+//! Draws the elements, below and above the moves, and the markers.
 
 use super::canvas::{Anchor, BAR, Canvas, ERROR, INK, OTHER, PROBE, RAPID, TEXT, WARNING, n};
 use super::frame::VisibleParts;
