@@ -1,8 +1,10 @@
 //! The BLOCKS section. It is indexed at the first INSERT that may bring something wanted; each block is read at its first such INSERT. Most
 //! drawings need neither.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
+
+use smol_str::SmolStr;
 
 use crate::Point3;
 use crate::collect::too_many_entities;
@@ -12,13 +14,14 @@ use crate::faults::{EntityError, Fatal, not_ended, stopped};
 use crate::fields::{Fields, Want};
 use crate::groups::{Groups, Records};
 use crate::layers::LayerId;
-use crate::names::{ByName, Name};
+use crate::names::folded;
 use crate::pairs::{Pair, Pairs, Stop};
 
 /// The blocks of a file.
 #[derive(Default)]
 pub(crate) struct Blocks<'a> {
-    by_name: ByName<'a, BlockId>,
+    /// By folded name; of several with the same name the first counts.
+    by_name: HashMap<SmolStr, BlockId>,
     all: Vec<Block<'a>>,
     /// For each block and layer it is inserted on: the wanted layers that such an insertion draws on.
     wanted: BTreeMap<BlockOnLayer, Rc<[LayerId]>>,
@@ -83,7 +86,7 @@ impl<'a> Blocks<'a> {
 
     /// Finds a block by name, ignoring case.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
-        self.by_name.find(&Name::new(name.into())).copied()
+        self.by_name.get(&folded(name)).copied()
     }
 
     /// The base point of a block.
@@ -200,8 +203,8 @@ impl<'a> Blocks<'a> {
 
     fn add(&mut self, fields: &Fields<'a>, pairs: Pairs<'a>, head: Pair<'a>, decoder: &mut Decoder<'_>) {
         if let Some(name) = fields.get(2) {
-            let name = Name::decoded(name.bytes, name.line, decoder);
-            self.by_name.push(name, BlockId(self.all.len()));
+            let name = folded(&decoder.decode(name.bytes, name.line));
+            self.by_name.entry(name).or_insert(BlockId(self.all.len()));
         }
         let base = if fields.get(10).is_some() { fields.point(10) } else { Ok(Point3::default()) };
         self.all.push(Block {

@@ -104,22 +104,8 @@ impl<'a> Decoder<'a> {
 }
 
 /// Whether a string needs no decoding: ASCII without a backslash.
-#[inline]
-pub(crate) fn is_plain(bytes: &[u8]) -> bool {
-    match (bytes.first_chunk(), bytes.last_chunk()) {
-        (Some(first), Some(last)) if bytes.len() <= 16 => !(has_other(*first) || has_other(*last)),
-        _ => bytes.iter().all(|byte| byte.is_ascii() && *byte != b'\\'),
-    }
-}
-
-/// Whether any of these characters is a backslash or not ASCII.
-#[inline]
-fn has_other(characters: [u8; 8]) -> bool {
-    const ONES: u64 = u64::from_le_bytes([1; 8]);
-    let word = u64::from_le_bytes(characters);
-    let zero_where_backslash = word ^ (ONES * u64::from(b'\\'));
-    // Among ASCII bytes, only a zero gets its top bit set by subtracting one.
-    (word | zero_where_backslash.wrapping_sub(ONES)) & (ONES * 0x80) != 0
+fn is_plain(bytes: &[u8]) -> bool {
+    bytes.iter().all(|byte| byte.is_ascii() && *byte != b'\\')
 }
 
 fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {

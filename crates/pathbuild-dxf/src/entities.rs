@@ -311,49 +311,33 @@ pub(crate) enum RecordKind {
     Insert,
 }
 
-/// Length of the longest type name.
-const LONGEST: usize = "LWPOLYLINE".len();
-
 impl RecordKind {
-    /// The kind with this name, or `None`. (`3DLINE` is the three-dimensional LINE of R10.)
+    /// The kind with this name in any case, or `None`. (`3DLINE` is the three-dimensional LINE of R10.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
-        Self::exact(name).or_else(|| Self::unusual(name))
-    }
-
-    /// The same for names in another case.
-    #[inline(never)]
-    fn unusual(name: &[u8]) -> Option<Self> {
-        if name.iter().all(u8::is_ascii_uppercase) {
-            return None;
-        }
-        let name = name.trim_ascii();
-        let mut room = [0; LONGEST];
-        let upper_case = room.get_mut(..name.len())?;
-        upper_case.copy_from_slice(name);
-        upper_case.make_ascii_uppercase();
-        Self::exact(upper_case)
+        Self::upper_case(name).or_else(|| {
+            let is_unusual = !name.iter().all(u8::is_ascii_uppercase);
+            is_unusual.then(|| Self::upper_case(&name.trim_ascii().to_ascii_uppercase()))?
+        })
     }
 
     #[inline]
-    fn exact(name: &[u8]) -> Option<Self> {
-        // Comparing arrays needs no function calls.
-        match name.len() {
-            3 if name == b"ARC" => Some(Self::Arc),
-            4 if name == b"LINE" => Some(Self::Line),
-            4 if name == b"TEXT" => Some(Self::Text),
-            5 if name == b"MTEXT" => Some(Self::MText),
-            6 if name == b"CIRCLE" => Some(Self::Circle),
-            6 if name == b"INSERT" => Some(Self::Insert),
-            6 if name == b"VERTEX" => Some(Self::Vertex),
-            6 if name == b"SEQEND" => Some(Self::SequenceEnd),
-            6 if name == b"SPLINE" => Some(Self::Spline),
-            6 if name == b"3DLINE" => Some(Self::Line),
-            7 if name == b"ELLIPSE" => Some(Self::Ellipse),
-            8 if name == b"POLYLINE" => Some(Self::Polyline),
-            10 if name == b"LWPOLYLINE" => Some(Self::LwPolyline),
-            _ => None,
-        }
+    fn upper_case(name: &[u8]) -> Option<Self> {
+        Some(match name {
+            b"ARC" => Self::Arc,
+            b"LINE" | b"3DLINE" => Self::Line,
+            b"TEXT" => Self::Text,
+            b"MTEXT" => Self::MText,
+            b"CIRCLE" => Self::Circle,
+            b"INSERT" => Self::Insert,
+            b"VERTEX" => Self::Vertex,
+            b"SEQEND" => Self::SequenceEnd,
+            b"SPLINE" => Self::Spline,
+            b"ELLIPSE" => Self::Ellipse,
+            b"POLYLINE" => Self::Polyline,
+            b"LWPOLYLINE" => Self::LwPolyline,
+            _ => return None,
+        })
     }
 
     /// Whether it belongs to a POLYLINE.

@@ -233,29 +233,10 @@ impl<'a> Fields<'a> {
         if digits.is_empty() || digits.len() > 16 {
             return None;
         }
-        // Branches on whether a digit is a letter cannot be predicted.
-        let (mut number, mut any) = (0, 0);
-        for digit in digits {
-            let value = DIGITS[usize::from(*digit)];
-            (number, any) = (number << 4 | u64::from(value), any | value);
-        }
-        (any < 16).then_some(Handle(number))
+        let digit = |digit: &u8| char::from(*digit).to_digit(16).map(u64::from);
+        let number = digits.iter().try_fold(0, |number, byte| Some(number << 4 | digit(byte)?));
+        number.map(Handle)
     }
-}
-
-/// Values of the hexadecimal digits; [`u8::MAX`] for all other bytes.
-static DIGITS: [u8; 256] = digits();
-
-const fn digits() -> [u8; 256] {
-    let mut digits = [u8::MAX; 256];
-    let mut value = 0;
-    while value < 16 {
-        let digit = b"0123456789ABCDEF"[value as usize];
-        digits[digit as usize] = value;
-        digits[digit.to_ascii_lowercase() as usize] = value;
-        value += 1;
-    }
-    digits
 }
 
 /// Skips from `102/{NAME` to `102/}`, inside which codes belong to an application. Returns a `0` if that comes first.

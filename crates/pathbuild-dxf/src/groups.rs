@@ -5,7 +5,7 @@
 
 use wide::u8x16;
 
-use crate::pairs::{Pair, Pairs, Stop, is_same, without_cr};
+use crate::pairs::{Pair, Pairs, Stop, without_cr};
 
 /// A pair with the role of its code.
 #[derive(Clone, Copy, Debug)]
@@ -149,10 +149,10 @@ impl<'a> Records<'a> {
 
     /// Skips the following records of this kind on this layer. Entities of one layer mostly follow each other.
     pub(crate) fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
-        while is_same(self.head.value, kind) {
+        while self.head.value == kind {
             let begin = self.groups;
             let group = self.groups.pass_until(|role| !role.is_plain(), |_| {})?;
-            if group.role != Role::LAYER || !is_same(group.value(), layer) {
+            if group.role != Role::LAYER || group.value() != layer {
                 self.groups = begin;
                 break;
             }

@@ -3,7 +3,7 @@
 //! Each spelling of a name is evaluated once per file; entities hold its index.
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
+use std::collections::HashMap;
 
 use memchr::memchr;
 use memchr::memmem::Finder;
@@ -12,9 +12,9 @@ use smol_str::SmolStr;
 use crate::encoding::Decoder;
 use crate::fields::{Fields, Value, Want};
 use crate::groups::Records;
-use crate::names::{ByName, Name, Spellings, folded, without_xref};
+use crate::names::{Spellings, folded, without_xref};
 use crate::number::{real, whole};
-use crate::pairs::{LAYER, Pair, Pairs, Stop, is_same};
+use crate::pairs::{LAYER, Pair, Pairs, Stop};
 
 /// Index of a spelling of a layer's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -72,7 +72,7 @@ impl<'a, 'o> Layers<'a, 'o> {
         decoder: &mut Decoder<'_>,
     ) -> LayerId {
         if let Some((last, id)) = self.last
-            && is_same(last, spelling)
+            && last == spelling
         {
             return id;
         }
@@ -164,12 +164,14 @@ pub(crate) struct LayerTable<'a> {
     all: Option<KnownLayers<'a>>,
 }
 
-/// Layers by name. Few are ever looked up, so their values are decoded on demand.
+/// Layers by folded name; of several with the same name the first counts. Few are ever looked up, so their values are decoded on demand.
 #[derive(Debug, Default)]
-pub(crate) struct KnownLayers<'a> {
-    records: ByName<'a, LayerRecord<'a>>,
+struct KnownLayers<'a> {
+    records: HashMap<SmolStr, LayerRecord<'a>>,
     /// Layers with an external-reference prefix, by the rest of their names.
-    referenced: OnceCell<ByName<'a, LayerRecord<'a>>>,
+    referenced: HashMap<SmolStr, LayerRecord<'a>>,
+    /// The name added last.
+    last_name: SmolStr,
 }
 
 /// A layer of the table.
@@ -203,7 +205,7 @@ impl<'a> LayerTable<'a> {
         let certain = part_certain(without_xref(full_name).as_bytes());
         let has_escapes = || memchr(b'\\', &tables.bytes()[tables.consumed()..]).is_some();
         if self.all.is_none() && self.lookups <= FEW && certain.len() >= SHORTEST && !has_escapes() {
-            let some = reading.some(tables, certain, &Name::new(full_name.into()))?;
+            let some = reading.some(tables, certain, &folded(full_name))?;
             return Ok(some.get(full_name).cloned());
         }
         let all = match &mut self.all {
@@ -222,38 +224,27 @@ fn part_certain(name: &[u8]) -> &[u8] {
 
 impl<'a> KnownLayers<'a> {
     /// Adds a record from its groups, unless it has no name.
-    pub(crate) fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
+    fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
-        let name = Name::decoded(name.bytes, name.line, decoder);
+        let name = folded(&decoder.decode(name.bytes, name.line));
         let bytes = |code: i32| groups.get(code).map(|value| value.bytes);
         let line_type = groups.get(6).map(|name| decoder.decode_bytes(name.bytes, name.line));
-        self.records.push(name, LayerRecord { line_type, colour: bytes(62), flags: bytes(70) });
-    }
-
-    /// The name added last.
-    fn last_name(&self) -> Option<&Name<'a>> {
-        self.records.iter().next_back().map(|(name, _)| name)
+        let record = LayerRecord { line_type, colour: bytes(62), flags: bytes(70) };
+        let behind_prefix = without_xref(&name);
+        if behind_prefix.len() < name.len() {
+            self.referenced.entry(behind_prefix.into()).or_insert_with(|| record.clone());
+        }
+        self.records.entry(name.clone()).or_insert(record);
+        self.last_name = name;
     }
 
     /// Finds a record by its full name, else by the name without external-reference prefix.
-    pub(crate) fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
+    fn get(&self, full_name: &str) -> Option<&LayerRecord<'a>> {
         let find = |name: &str| {
-            let name = Name::new(name.into());
-            self.records.find(&name).or_else(|| self.referenced().find(&name))
+            let name = folded(name);
+            self.records.get(&name).or_else(|| self.referenced.get(&name))
         };
         find(full_name).or_else(|| find(without_xref(full_name)))
-    }
-
-    fn referenced(&self) -> &ByName<'a, LayerRecord<'a>> {
-        self.referenced.get_or_init(|| {
-            let mut referenced = ByName::default();
-            for (name, record) in self.records.iter() {
-                if let Some(name) = name.behind_xref() {
-                    referenced.push(name, record.clone());
-                }
-            }
-            referenced
-        })
     }
 }
 
@@ -279,7 +270,7 @@ pub(crate) struct Reading<'r, 'a, 'd> {
 
 impl<'a> Reading<'_, 'a, '_> {
     /// Reads all layers of these tables.
-    pub(crate) fn all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
+    fn all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
         let mut layers = KnownLayers::default();
         while let Some(head) = tables.place("0", &LAYER) {
             tables.jump_to(head);
@@ -294,11 +285,11 @@ impl<'a> Reading<'_, 'a, '_> {
 
     /// Reads the records that contain a text, and possibly others, up to the record with this name. From a match on, the table is read pair
     /// by pair from the start of the record, so that no broken record is overlooked.
-    pub(crate) fn some(
+    fn some(
         &mut self,
         mut tables: Pairs<'a>,
         written: &[u8],
-        wanted: &Name<'_>,
+        wanted: &str,
     ) -> Result<KnownLayers<'a>, Stop<'a>> {
         let mut layers = KnownLayers::default();
         let mut records = None;
@@ -315,7 +306,7 @@ impl<'a> Reading<'_, 'a, '_> {
             while row.groups.pairs().consumed() <= at && !is_end_of_table(&row.head) {
                 self.record(row, &mut layers)?;
             }
-            if layers.last_name() == Some(wanted) {
+            if layers.last_name == wanted {
                 break;
             }
             tables = row.groups.pairs();

@@ -1,101 +1,19 @@
-//! Names of layers, line types and blocks: how they are compared and looked up. (book: reference/dxf)
+//! Names of layers, line types and blocks: how they are compared, and the table in which each spelling is evaluated once per file.
+//! (book: reference/dxf)
 
-use std::borrow::Cow;
-use std::cell::OnceCell;
-use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use smol_str::{SmolStr, StrExt};
 
-use crate::encoding::{Decoder, is_plain};
-
-/// A trimmed name that is compared ignoring case.
-#[derive(Clone, Debug)]
-pub(crate) enum Name<'a> {
-    /// An ASCII name as spelt.
-    Spelt(&'a [u8]),
-    /// Any other name, in upper case.
-    Folded(SmolStr),
+/// A name in upper case and without blanks around it, for comparison.
+pub(crate) fn folded(name: &str) -> SmolStr {
+    let name = name.trim();
+    if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
 }
-
-impl<'a> Name<'a> {
-    /// The name in a decoded text.
-    pub(crate) fn new(text: Cow<'a, str>) -> Self {
-        match text {
-            Cow::Borrowed(text) if text.is_ascii() => Self::Spelt(trimmed(text).as_bytes()),
-            text => Self::Folded(folded(text.trim())),
-        }
-    }
-
-    /// The name in a string that starts on this line.
-    pub(crate) fn decoded(bytes: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> Self {
-        if is_plain(bytes) && has_graphic_ends(bytes) {
-            return Self::Spelt(bytes);
-        }
-        Self::new(decoder.decode(bytes, line))
-    }
-
-    /// The part after an external-reference prefix, if there is one.
-    pub(crate) fn behind_xref(&self) -> Option<Self> {
-        if !has_xref_sign(self.bytes()) {
-            return None;
-        }
-        let text = String::from_utf8_lossy(self.bytes());
-        let behind = without_xref(&text);
-        (behind.len() < text.len()).then(|| Self::Folded(folded(behind)))
-    }
-
-    /// A hash; equal names have equal hashes.
-    pub(crate) fn hash(&self) -> u64 {
-        const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
-        let (words, rest) = self.bytes().as_chunks();
-        let rest = rest.iter().fold(0, |word, byte| word << 8 | u64::from(*byte));
-        let words = words.iter().map(|word| u64::from_le_bytes(*word)).chain([rest]);
-        // Drops the bit in which upper and lower case differ.
-        let add =
-            |hash: u64, word: u64| (hash.rotate_left(29) ^ (word & !(ONES * 0x20))).wrapping_mul(MULTIPLIER);
-        words.fold(0, add)
-    }
-
-    /// The name as UTF-8.
-    fn bytes(&self) -> &[u8] {
-        match self {
-            Self::Spelt(bytes) => bytes,
-            Self::Folded(text) => text.as_bytes(),
-        }
-    }
-
-    fn upper_case(&self) -> impl Iterator<Item = u8> {
-        self.bytes().iter().map(u8::to_ascii_uppercase)
-    }
-}
-
-/// 0x01 in each byte.
-const ONES: u64 = u64::from_le_bytes([1; 8]);
-
-impl Ord for Name<'_> {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.upper_case().cmp(other.upper_case())
-    }
-}
-
-impl PartialOrd for Name<'_> {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Name<'_> {
-    fn eq(&self, other: &Self) -> bool {
-        self.bytes().eq_ignore_ascii_case(other.bytes())
-    }
-}
-
-impl Eq for Name<'_> {}
 
 /// Trims a name and removes an external-reference prefix (`FILE$0$NAME`, `FILE|NAME`).
 pub(crate) fn without_xref(name: &str) -> &str {
-    let name = trimmed(name);
+    let name = name.trim();
     if !has_xref_sign(name.as_bytes()) {
         return name;
     }
@@ -109,21 +27,6 @@ fn has_xref_sign(name: &[u8]) -> bool {
     name.iter().any(|byte| matches!(byte, b'|' | b'$'))
 }
 
-/// Trims blanks; few texts have any.
-fn trimmed(text: &str) -> &str {
-    if has_graphic_ends(text.as_bytes()) { text } else { text.trim() }
-}
-
-fn has_graphic_ends(text: &[u8]) -> bool {
-    let is_graphic = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_graphic);
-    is_graphic(text.first()) && is_graphic(text.last())
-}
-
-/// Folds a name for comparison.
-pub(crate) fn folded(name: &str) -> SmolStr {
-    if name.is_ascii() { name.to_ascii_uppercase_smolstr() } else { name.to_uppercase_smolstr() }
-}
-
 /// Length of the prefix up to and including the last `$digits$`.
 fn bound_prefix(name: &str) -> usize {
     let Some(last) = name.rfind('$') else { return 0 };
@@ -132,67 +35,6 @@ fn bound_prefix(name: &str) -> usize {
     match before.strip_suffix('$') {
         Some(prefix) if has_digits && !prefix.is_empty() => last + 1,
         _ => 0,
-    }
-}
-
-/// Named values. Of several with the same name the first is found.
-#[derive(Debug)]
-pub(crate) struct ByName<'a, T> {
-    named: Vec<(Name<'a>, T)>,
-    /// Hashes with indices, sorted. Built only for large tables.
-    order: OnceCell<Vec<(u64, usize)>>,
-}
-
-/// Up to this size, names are compared one by one: drawings have few layers and blocks and look few of them up.
-const FEW: usize = 32;
-
-impl<T> Default for ByName<'_, T> {
-    fn default() -> Self {
-        Self { named: Vec::new(), order: OnceCell::new() }
-    }
-}
-
-impl<'a, T> ByName<'a, T> {
-    /// Appends a value.
-    pub(crate) fn push(&mut self, name: Name<'a>, thing: T) {
-        self.named.push((name, thing));
-        self.order.take();
-    }
-
-    /// All names and values in file order.
-    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &(Name<'a>, T)> {
-        self.named.iter()
-    }
-
-    /// Finds the value with this name.
-    pub(crate) fn find(&self, name: &Name<'_>) -> Option<&T> {
-        let place = if self.named.len() <= FEW {
-            self.named.iter().position(|(other, _)| other == name)
-        } else {
-            self.find_among_many(name)
-        };
-        Some(&self.named[place?].1)
-    }
-
-    fn find_among_many(&self, name: &Name<'_>) -> Option<usize> {
-        let hash = name.hash();
-        let order = self.order.get_or_init(|| self.in_order());
-        let before = |(other, place): &(u64, usize)| {
-            other.cmp(&hash).then_with(|| self.named[*place].0.cmp(name)).is_lt()
-        };
-        let (_, place) = order.get(order.partition_point(before))?;
-        (self.named[*place].0 == *name).then_some(*place)
-    }
-
-    /// Names are compared only if their hashes are equal, so even a table full of collisions takes linear time.
-    fn in_order(&self) -> Vec<(u64, usize)> {
-        let name = |place: &usize| &self.named[*place].0;
-        let mut order: Vec<(u64, usize)> =
-            self.named.iter().enumerate().map(|(place, (name, _))| (name.hash(), place)).collect();
-        order.sort_unstable_by(|(a_hash, a), (b_hash, b)| {
-            a_hash.cmp(b_hash).then_with(|| name(a).cmp(name(b))).then(a.cmp(b))
-        });
-        order
     }
 }
 
@@ -279,5 +121,28 @@ impl Short {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
         let [a, b] = self.characters;
         ((a.rotate_left(50) ^ b).wrapping_mul(MULTIPLIER) >> (u64::BITS - PLACE_BITS)) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The table finds what a plain hash table does, whatever the lengths and however many spellings there are.
+        #[test]
+        fn the_table_agrees_with_a_hash_table(spellings in prop::collection::vec("[AB]{0,3}|[0-9A-C. ]{0,20}", 0..60)) {
+            let (mut table, mut plain) = (Spellings::default(), HashMap::new());
+            for (number, spelling) in spellings.iter().enumerate() {
+                prop_assert_eq!(table.get(spelling.as_bytes()), plain.get(spelling).copied(), "{}", spelling);
+                if plain.insert(spelling, number).is_none() {
+                    table.insert(spelling.as_bytes(), number);
+                } else {
+                    plain.insert(spelling, table.get(spelling.as_bytes()).unwrap_or_default());
+                }
+            }
+        }
     }
 }

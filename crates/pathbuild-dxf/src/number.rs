@@ -26,12 +26,6 @@ pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
 
 /// Parses an integer. One written as a real number (`5.0`) is accepted.
 pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
-    // Nearly all integers are padded and have one digit.
-    if let [blanks @ .., digit @ b'0'..=b'9'] = value
-        && blanks.iter().all(|byte| *byte == b' ')
-    {
-        return Ok(i64::from(digit - b'0'));
-    }
     let number = real(value)?;
     // Up to 2^53 every integer has an exact f64.
     let is_whole = libm::trunc(number) == number && number.abs() <= LARGEST_EXACT as f64;

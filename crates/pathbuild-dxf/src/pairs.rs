@@ -7,9 +7,8 @@
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use memchr::memchr;
 use memchr::memmem::{Finder, FinderRev, rfind_iter};
-use wide::u8x16;
+use memchr::{memchr, memchr_iter, memchr2};
 
 /// A group code and its value.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +116,7 @@ impl<'a> Pairs<'a> {
 
     /// Jumps ahead to `at`, which must be the start of a line.
     pub(crate) fn jump_to(&mut self, at: usize) {
-        let lines = count(self.line_end, &self.bytes[self.at..at]);
+        let lines = memchr_iter(self.line_end, &self.bytes[self.at..at]).count();
         self.line = self.line.saturating_add(u32::try_from(lines).unwrap_or(u32::MAX));
         self.at = at;
     }
@@ -133,7 +132,8 @@ impl<'a> Pairs<'a> {
     fn code(&mut self) -> Result<i32, Stop<'a>> {
         let at = self.at;
         let line = self.next_line();
-        number(line.trim_ascii()).ok_or_else(|| self.no_code(at, line))
+        let code = std::str::from_utf8(line.trim_ascii()).ok().and_then(|text| text.parse().ok());
+        code.ok_or_else(|| self.no_code(at, line))
     }
 
     /// Consumes a line and returns it without its end.
@@ -162,57 +162,17 @@ const LONGEST_PADDING: usize = 1 << 16;
 /// Largest number of bytes of a faulty line shown in a message.
 const MOST_SHOWN: usize = 60;
 
-/// Counts the occurrences of a byte.
-fn count(byte: u8, bytes: &[u8]) -> usize {
-    /// Largest block whose count fits into one byte.
-    const BLOCK: usize = 240;
-    let (blocks, rest) = bytes.as_chunks::<BLOCK>();
-    let among = |bytes: &[u8]| bytes.iter().map(|other| u8::from(*other == byte)).sum::<u8>();
-    blocks.iter().map(|block| usize::from(among(block))).sum::<usize>() + usize::from(among(rest))
-}
-
 /// Length of the first line without its end.
 #[inline]
 pub(crate) fn line_length(line_end: u8, lines: &[u8]) -> usize {
-    place_nearby(line_end, lines).or_else(|| memchr(line_end, lines)).unwrap_or(lines.len())
-}
-
-/// Position of a byte if it is among the next few, as most line ends are.
-#[inline]
-fn place_nearby(byte: u8, bytes: &[u8]) -> Option<usize> {
-    let places = u8x16::from(*bytes.first_chunk()?).simd_eq(u8x16::splat(byte)).to_bitmask();
-    (places != 0).then_some(places.trailing_zeros() as usize)
-}
-
-/// Parses the digits of a code.
-fn number(text: &[u8]) -> Option<i32> {
-    match text {
-        [a @ b'0'..=b'9'] => Some(i32::from(a - b'0')),
-        [a @ b'0'..=b'9', b @ b'0'..=b'9'] => Some(i32::from(a - b'0') * 10 + i32::from(b - b'0')),
-        _ => std::str::from_utf8(text).ok()?.parse().ok(),
-    }
+    memchr(line_end, lines).unwrap_or(lines.len())
 }
 
 /// Detects the line end: LF, unless the first line ends with a CR that no LF follows.
 fn line_end(bytes: &[u8]) -> u8 {
-    let Some(first) = memchr::memchr2(b'\n', b'\r', bytes) else { return b'\n' };
+    let Some(first) = memchr2(b'\n', b'\r', bytes) else { return b'\n' };
     let after = bytes[first..].iter().find(|byte| **byte != b'\r');
     if after == Some(&b'\n') { b'\n' } else { b'\r' }
-}
-
-/// Whether two spellings, usually short ones, are equal. Inlined without function calls.
-#[inline]
-pub(crate) fn is_same(a: &[u8], b: &[u8]) -> bool {
-    match (a.len() == b.len(), a.len()) {
-        (true, 8..=16) => has_same_ends::<8>(a, b),
-        (true, 4..=7) => has_same_ends::<4>(a, b),
-        _ => a == b,
-    }
-}
-
-#[inline]
-fn has_same_ends<const N: usize>(a: &[u8], b: &[u8]) -> bool {
-    a.first_chunk::<N>() == b.first_chunk() && a.last_chunk::<N>() == b.last_chunk()
 }
 
 /// Removes a trailing CR.

@@ -70,6 +70,13 @@ pub(crate) struct Texts<'v, 't> {
     pub(crate) path: &'v Values<'t>,
 }
 
+impl PathNumbers {
+    /// S of a path in a role that does not give it: that of the option, or the default; `None` if the option is missing.
+    pub(crate) fn sweep_height(self, options: &PathOptions, role: PathRole) -> Option<f64> {
+        fallback(Letter::S, ElementClass::PathStart, self, options, role).map(|(height, _)| height)
+    }
+}
+
 impl Provider {
     /// The name in JSON.
     pub fn name(&self) -> &'static str {

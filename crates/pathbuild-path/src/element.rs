@@ -220,22 +220,17 @@ fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
 
 /// The meaning of a line or arc with this line type; `None` if it has none.
 pub(crate) fn curve_role(line_type: LineType) -> Option<Role> {
-    CURVE_ROLES[line_type as usize]
+    Some(match line_type {
+        LineType::Continuous => Role::Cut(Cut::Mill),
+        LineType::Divide => Role::Cut(Cut::Mark),
+        LineType::Border | LineType::Center => Role::Cut(Cut::Support),
+        LineType::Dashed => Role::Sweep,
+        LineType::Hidden => Role::SilentSweep,
+        LineType::Dot => Role::SkippedSubpath,
+        LineType::Dashdot => Role::Subpath,
+        LineType::Phantom => return None,
+    })
 }
-
-/// The meanings by line type. A table avoids an unpredictable branch.
-const CURVE_ROLES: [Option<Role>; LineType::NAMES.len()] = {
-    let mut roles = [None; LineType::NAMES.len()];
-    roles[LineType::Continuous as usize] = Some(Role::Cut(Cut::Mill));
-    roles[LineType::Divide as usize] = Some(Role::Cut(Cut::Mark));
-    roles[LineType::Border as usize] = Some(Role::Cut(Cut::Support));
-    roles[LineType::Center as usize] = Some(Role::Cut(Cut::Support));
-    roles[LineType::Dashed as usize] = Some(Role::Sweep);
-    roles[LineType::Hidden as usize] = Some(Role::SilentSweep);
-    roles[LineType::Dot as usize] = Some(Role::SkippedSubpath);
-    roles[LineType::Dashdot as usize] = Some(Role::Subpath);
-    roles
-};
 
 /// The meaning of a circle.
 pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {

@@ -42,20 +42,20 @@ impl LineType {
 
     /// Its names in other programs and languages.
     pub fn other_names(self) -> impl Iterator<Item = &'static str> {
-        ALIASES.iter().filter(move |(_, known)| *known == self).map(|(name, _)| *name)
+        names_in(ALIASES).filter(move |(_, known)| *known == self).map(|(name, _)| name)
     }
 
     /// The line type that an unknown name in upper case most likely means: the one with the longest known word in the name, or else one
     /// with the same beginning or a single typing error.
     pub fn like(name: &str) -> Option<Self> {
-        let names = || Self::NAMES.iter().chain(ALIASES).chain(WORDS);
+        let names = || Self::NAMES.into_iter().chain(names_in(ALIASES)).chain(names_in(WORDS));
         let in_name = names().filter(|(word, _)| word.len() >= SHORTEST && name.contains(word));
         let longest = in_name.max_by_key(|(word, _)| word.len());
         let abbreviated = || names().find(|(word, _)| name.len() >= SHORTEST && word.starts_with(name));
         let misspelt = || names().find(|(word, _)| word.len() > SHORTEST + 1 && differs_little(name, word));
         // A different digit in a numbered name is not a typing error.
         let misspelt = || misspelt().filter(|_| !name.bytes().any(|byte| byte.is_ascii_digit()));
-        longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| *line_type)
+        longest.or_else(abbreviated).or_else(misspelt).map(|(_, line_type)| line_type)
     }
 
     /// The line type for a name in upper case: by an exact match, without a suffix, or through an alias. It is never guessed from the dash
@@ -108,7 +108,13 @@ const MOST_KNOWN: usize = 32;
 const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];
 
 fn find_by_name(name: &str) -> Option<LineType> {
-    LineType::NAMES.iter().chain(ALIASES).find(|(known, _)| *known == name).map(|(_, line_type)| *line_type)
+    let mut names = LineType::NAMES.into_iter().chain(names_in(ALIASES));
+    names.find(|(known, _)| *known == name).map(|(_, line_type)| line_type)
+}
+
+/// The names in a table, each with its line type.
+fn names_in(table: &[(LineType, &[&'static str])]) -> impl Iterator<Item = (&'static str, LineType)> {
+    table.iter().flat_map(|(line_type, names)| names.iter().map(|name| (*name, *line_type)))
 }
 
 /// Minimum length in bytes of a word by which a name is recognised.
@@ -128,74 +134,41 @@ fn differs_little(name: &str, other: &str) -> bool {
 }
 
 /// Parts of names in several languages. They are used for suggestions only.
-const WORDS: &[(&str, LineType)] = &[
-    ("CONTINU", LineType::Continuous),
-    ("KONTINU", LineType::Continuous),
-    ("VOLL", LineType::Continuous),
-    ("DIVI", LineType::Divide),
-    ("TEIL", LineType::Divide),
-    ("BORD", LineType::Border),
-    ("GRENZ", LineType::Border),
-    ("RAHMEN", LineType::Border),
-    ("KANTE", LineType::Border),
-    ("CENT", LineType::Center),
-    ("MITTE", LineType::Center),
-    ("ACHS", LineType::Center),
-    ("AXE", LineType::Center),
-    ("STRICHPUNKT", LineType::Dashdot),
-    ("STRICH", LineType::Dashed),
-    ("TRATT", LineType::Dashed),
-    ("INTERROMP", LineType::Dashed),
-    ("TIRET", LineType::Dashed),
-    ("CACHE", LineType::Hidden),
-    ("OCULT", LineType::Hidden),
-    ("VERSTECK", LineType::Hidden),
-    ("UNSICHTBAR", LineType::Hidden),
-    ("PUNKT", LineType::Dot),
-    ("POINT", LineType::Dot),
-    ("PUNT", LineType::Dot),
-    ("FANT", LineType::Phantom),
-    ("PHANT", LineType::Phantom),
+const WORDS: &[(LineType, &[&str])] = &[
+    (LineType::Continuous, &["CONTINU", "KONTINU", "VOLL"]),
+    (LineType::Divide, &["DIVI", "TEIL"]),
+    (LineType::Border, &["BORD", "GRENZ", "RAHMEN", "KANTE"]),
+    (LineType::Center, &["CENT", "MITTE", "ACHS", "AXE"]),
+    (LineType::Dashdot, &["STRICHPUNKT"]),
+    (LineType::Dashed, &["STRICH", "TRATT", "INTERROMP", "TIRET"]),
+    (LineType::Hidden, &["CACHE", "OCULT", "VERSTECK", "UNSICHTBAR"]),
+    (LineType::Dot, &["PUNKT", "POINT", "PUNT"]),
+    (LineType::Phantom, &["FANT", "PHANT"]),
 ];
 
 /// Names of the line types in other programs and languages (book: reference/dxf). ISO types are mapped as LibreCAD's import does; those of
 /// AutoCAD Mechanical are ISO types by number.
-const ALIASES: &[(&str, LineType)] = &[
-    ("SOLID", LineType::Continuous),
-    ("AUSGEZOGEN", LineType::Continuous),
-    ("DURCHGEHEND", LineType::Continuous),
-    ("FORTLAUFEND", LineType::Continuous),
-    ("GETRENNT", LineType::Divide),
-    ("TEILEN", LineType::Divide),
-    ("GETEILT", LineType::Divide),
-    ("RAND", LineType::Border),
-    ("MITTE", LineType::Center),
-    ("CENTRO", LineType::Center),
-    ("ОСЕВАЯ", LineType::Center),
-    ("GESTRICHELT", LineType::Dashed),
-    ("STRICHLINIE", LineType::Dashed),
-    ("TRATTEGGIATA", LineType::Dashed),
-    ("ШТРИХОВАЯ", LineType::Dashed),
-    ("VERDECKT", LineType::Hidden),
-    ("NASCOSTA", LineType::Hidden),
-    ("STRICHPUNKT", LineType::Dashdot),
-    ("PUNKT", LineType::Dot),
-    ("DOTTED", LineType::Dot),
-    ("ПУНКТИРНАЯ", LineType::Dot),
-    ("FANTASMA", LineType::Phantom),
-    ("ONS_PHANTOM", LineType::Phantom),
-    ("ONS_DASHDOT", LineType::Dashdot),
-    ("ONS_DOTTED", LineType::Dot),
-    ("ACAD_ISO02W100", LineType::Dashed),
-    ("ACAD_ISO03W100", LineType::Dashed),
-    ("ACAD_ISO04W100", LineType::Dashdot),
-    ("ACAD_ISO05W100", LineType::Divide),
-    ("ACAD_ISO07W100", LineType::Dot),
-    ("ACAD_ISO08W100", LineType::Center),
-    ("ACAD_ISO09W100", LineType::Phantom),
-    ("ACAD_ISO10W100", LineType::Dashdot),
-    ("ACAD_ISO12W100", LineType::Divide),
-    ("AM_ISO02W050", LineType::Dashed),
-    ("AM_ISO08W050", LineType::Center),
-    ("AM_ISO09W050", LineType::Phantom),
+const ALIASES: &[(LineType, &[&str])] = &[
+    (LineType::Continuous, &["SOLID", "AUSGEZOGEN", "DURCHGEHEND", "FORTLAUFEND"]),
+    (LineType::Divide, &["GETRENNT", "TEILEN", "GETEILT"]),
+    (LineType::Border, &["RAND"]),
+    (LineType::Center, &["MITTE", "CENTRO", "ОСЕВАЯ"]),
+    (LineType::Dashed, &["GESTRICHELT", "STRICHLINIE", "TRATTEGGIATA", "ШТРИХОВАЯ"]),
+    (LineType::Hidden, &["VERDECKT", "NASCOSTA"]),
+    (LineType::Dashdot, &["STRICHPUNKT"]),
+    (LineType::Dot, &["PUNKT", "DOTTED", "ПУНКТИРНАЯ"]),
+    (LineType::Phantom, &["FANTASMA", "ONS_PHANTOM"]),
+    (LineType::Dashdot, &["ONS_DASHDOT"]),
+    (LineType::Dot, &["ONS_DOTTED"]),
+    (LineType::Dashed, &["ACAD_ISO02W100", "ACAD_ISO03W100"]),
+    (LineType::Dashdot, &["ACAD_ISO04W100"]),
+    (LineType::Divide, &["ACAD_ISO05W100"]),
+    (LineType::Dot, &["ACAD_ISO07W100"]),
+    (LineType::Center, &["ACAD_ISO08W100"]),
+    (LineType::Phantom, &["ACAD_ISO09W100"]),
+    (LineType::Dashdot, &["ACAD_ISO10W100"]),
+    (LineType::Divide, &["ACAD_ISO12W100"]),
+    (LineType::Dashed, &["AM_ISO02W050"]),
+    (LineType::Center, &["AM_ISO08W050"]),
+    (LineType::Phantom, &["AM_ISO09W050"]),
 ];

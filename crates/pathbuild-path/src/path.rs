@@ -5,12 +5,11 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{EntityKind, Point, Text, TextFault, words};
 use smol_str::SmolStr;
 
-use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
+use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{Letter, Letters};
-use crate::matrix::ElementClass;
-use crate::names::{PathName, SpeltName};
+use crate::names::SpeltName;
 use crate::raw::{DrawnElements, Faults};
 use crate::text::TextId;
 
@@ -278,10 +277,7 @@ impl Path {
 
     /// S of the path in a role: its own, that of the option, or the default; `None` if the option is missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
-        self.sweep_height.or_else(|| {
-            let height = fallback(Letter::S, ElementClass::PathStart, self.numbers(), options, role);
-            height.map(|(height, _)| height)
-        })
+        self.sweep_height.or_else(|| self.numbers().sweep_height(options, role))
     }
 
     /// The numbers that defaults are derived from.
@@ -340,17 +336,6 @@ impl Subpath {
 }
 
 impl Segment {
-    /// The name of the embedded path, if it is a subpath segment that has one.
-    pub fn embedded_name(&self) -> Option<&PathName> {
-        match &self.kind {
-            SegmentKind::Subpath(subpath) => match &subpath.name {
-                SubpathName::Found { name, .. } => Some(name),
-                SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
-            },
-            _ => None,
-        }
-    }
-
     /// Priority among several segments with the same order at a point.
     pub(crate) fn preference(&self) -> u8 {
         match self.kind {

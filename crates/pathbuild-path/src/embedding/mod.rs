@@ -11,10 +11,9 @@ use regex::Regex;
 use smol_str::SmolStr;
 
 use crate::approx::above;
-use crate::effective::{PathNumbers, PathOptions, PathRole, fallback};
+use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::Origin;
 use crate::letter::{Letter, Letters};
-use crate::matrix::ElementClass;
 use crate::names::{PathName, SpeltName};
 use crate::path::{Path, Segment, SegmentKind, Subpath};
 use crate::raw::RawPath;
@@ -112,16 +111,11 @@ impl PathSignature {
             subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
         }
     }
-}
 
-impl PathSignature {
     /// S of the path in a role: its own, that of the option, or the default; `None` if the option is missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
-        self.sweep_height.or_else(|| {
-            let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };
-            let height = fallback(Letter::S, ElementClass::PathStart, numbers, options, role);
-            height.map(|(height, _)| height)
-        })
+        let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };
+        self.sweep_height.or_else(|| numbers.sweep_height(options, role))
     }
 }
 
