@@ -87,6 +87,7 @@ fn settings(db: &mut Database) {
     let language = Language {
         path_pattern: PathPattern::default(),
         keep_out: None,
+        part: None,
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,

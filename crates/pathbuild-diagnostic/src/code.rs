@@ -118,6 +118,14 @@ codes! {
     210 ParameterWithoutEffect "parameter-without-effect" Warning "parameter without effect";
     211 DoubtfulValue "doubtful-value" Warning "a permitted but unlikely value of B, D, I, F or W";
     212 LostBars "lost-bars" Warning "P or U in a path without support bars";
+    213 GougedPart "gouged-part" Error "a cut goes into the finished part; up to 0.1 mm deep, a warning";
+    214 GougedNeighbour "gouged-neighbour" Error "a cut of one component goes into the part of another";
+    215 LeftoverAtPart "leftover-at-part" Warning "material that remains at the outline of the finished part";
+    216 UnreachableCorner "unreachable-corner" Warning "inner corners of the finished part that the cutter does not reach";
+    217 LoosePart "loose-part" Warning "a finished part that is cut out all round without a support bar";
+    218 BarCutAway "bar-cut-away" Error "a support bar that another cut removes";
+    219 DoubtfulOutline "doubtful-outline" Warning "an outline of a finished part that is not closed or cannot be read";
+    220 OutlineNotCut "outline-not-cut" Warning "an outline of a finished part that no path comes near";
     301 InvalidVariableDefinition "invalid-variable-definition" Error "invalid variable definition";
     302 MissingVariableValue "missing-variable-value" Error "missing variable value";
     303 UnknownVariable "unknown-variable" Error "a value or reference of an undefined variable";

@@ -120,6 +120,7 @@ fn settle(db: &Database) {
     let language = Language {
         path_pattern: PathPattern::default(),
         keep_out: KeepOutPattern::new("clamps").ok(),
+        part: None,
         line_types: LineTypeAliases::default(),
         text_limit: 4096,
         doubts: pathbuild_path::DoubtThresholds::default(),

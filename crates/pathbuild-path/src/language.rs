@@ -7,6 +7,7 @@ use crate::approx::above;
 use crate::keep_out::KeepOutPattern;
 use crate::line_type::LineTypeAliases;
 use crate::names::PathPattern;
+use crate::part::PartSettings;
 
 /// Settings of the drawing language.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Language {
     pub path_pattern: PathPattern,
     /// The names of layers with clamps, if configured.
     pub keep_out: Option<KeepOutPattern>,
+    /// Settings of the part check, if configured.
+    pub part: Option<PartSettings>,
     /// Additional names of line types.
     pub line_types: LineTypeAliases,
     /// Largest gap in mm that the walk closes with a warning (PB115); 0 requires ends to coincide.
@@ -71,5 +74,12 @@ impl Language {
     /// Whether a layer holds clamps.
     pub fn is_keep_out(&self, layer: &str) -> bool {
         self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
+    }
+
+    /// Whether a layer holds finished parts. Layers of paths and clamps never do.
+    pub fn is_part(&self, layer: &str) -> bool {
+        self.part.as_ref().is_some_and(|part| part.pattern.is_layer(layer))
+            && !self.path_pattern.is_layer(layer)
+            && !self.is_keep_out(layer)
     }
 }

@@ -18,6 +18,7 @@ mod letter;
 mod line_type;
 mod matrix;
 mod names;
+mod part;
 mod path;
 mod q_project;
 mod raw;
@@ -45,6 +46,10 @@ pub use names::files::{
     tested_by_q_project,
 };
 pub use names::{PathLayer, PathName, PathPattern, PatternError, SpeltName};
+pub use part::{
+    DrawnParts, Part, PartCut, PartFindings, PartPattern, PartRing, PartSettings, PathCuts, StandingBar,
+    check_parts, check_path, cuts_into,
+};
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,
     SubpathName, SubpathValue, Turn,
@@ -52,8 +57,8 @@ pub use path::{
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, judge_q_project, plan_q_project};
 pub use raw::{DrawnElements, Position, RawFile, RawPath, SourceMap};
 pub use read::{
-    AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, keep_outs,
-    may_be_stray_text, proxy_lines, raw_file, stray_findings,
+    AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, has_text_on_part,
+    keep_outs, may_be_stray_text, parts, proxy_lines, raw_file, stray_findings,
 };
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, parse_integer, parse_number};
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};

@@ -47,8 +47,7 @@ impl<P: Parts> Fold<'_, P> {
 /// The parts of a curve along which bars are left standing with a cutter of diameter `tool`; the whole curve if there is no room for gaps.
 pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<Curve> {
     let Some(plan) = BarPlan::new(bars, bottom, tool, curve.length()) else { return vec![*curve] };
-    let tops = plan.pieces.iter().filter(|piece| !piece.starts_low && !piece.ends_low);
-    tops.map(|piece| curve.section(piece.from, piece.to)).collect()
+    plan.bars().map(|(from, to)| curve.section(from, to)).collect()
 }
 
 /// How deep the parts of a segment with bars are milled, by position along the segment in mm.
@@ -95,6 +94,12 @@ impl BarPlan {
         let end = plan.gap(length - edge - 2.0 * slope - between, slope, between);
         plan.piece(end, length, false, false);
         Some(plan)
+    }
+
+    /// The positions of the bars along the segment in mm, including half of O at each end.
+    pub(crate) fn bars(&self) -> impl Iterator<Item = (f64, f64)> {
+        let tops = self.pieces.iter().filter(|piece| !piece.starts_low && !piece.ends_low);
+        tops.map(|piece| (piece.from, piece.to))
     }
 
     /// Adds a gap: down, along the bottom, and up. Returns its end position.

@@ -214,6 +214,7 @@ impl<'db> Walk<'db> {
             has_errors |= self.report_all(instance, &sweep_problems);
         }
         has_errors |= self.report_all(instance, &summary.walk_problems);
+        has_errors |= self.report_all(instance, &summary.part_problems);
         let Some(signature) = summary.known_signature() else { return true };
         for embedding in embeds(self.db, instance) {
             has_errors |= self.visit_embedding(instance, &signature.name, embedding, depth);

@@ -6,10 +6,12 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Note, Point};
+use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
-    Bindings, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Path, PathHeader, PathName,
-    PathSignature, RawFile, RawPath, WalkedPath, Xy, judge_file_name, stray_findings,
+    Bindings, DrawnParts, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
+    PathHeader, PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
+    stray_findings,
 };
 use pathbuild_toolpath::own_moves;
 use smol_str::SmolStr;
@@ -18,6 +20,7 @@ use crate::bugs::{TimeoutPanic, catch_bugs};
 use crate::db::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::nearby_ends::LayerEnds;
+use crate::queries::part;
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
 /// The index of a drawing. It contains no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
@@ -30,6 +33,8 @@ pub struct FileIndex {
     diagnostics: Vec<Diagnostic>,
     /// The clamps, if any layer has some.
     keep_outs: Option<Arc<KeepOuts>>,
+    /// The finished parts.
+    parts: Arc<[Part]>,
     content: Content,
 }
 
@@ -67,31 +72,37 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     let (reading, language) = (settings.reading(db), settings.language(db));
     let index = read(db, file, |bytes, stamp, drawing| {
         let has_keep_outs = Cell::new(false);
+        let has_parts = Cell::new(false);
         let others = RefCell::new(Vec::new());
         let is_wanted = |layer: &str| {
             if language.is_keep_out(layer) {
                 has_keep_outs.set(true);
             }
             let is_path = language.path_pattern.is_layer(layer);
-            if !is_path && language.path_pattern.may_begin(layer) {
+            let is_part = !is_path && language.is_part(layer);
+            if is_part {
+                has_parts.set(true);
+            } else if !is_path && language.path_pattern.may_begin(layer) {
                 others.borrow_mut().push(SmolStr::new(layer));
             }
-            is_path
+            is_path || is_part
         };
         let read = catch_bugs(|| {
             read_entities(bytes, drawing, reading, &is_wanted);
             let mut raw = pathbuild_path::raw_file(drawing, language);
-            if drawing.has_noted_text || has_near_layer(&raw, &others.borrow()) {
+            let is_noted = drawing.has_noted_text || has_text_on_part(drawing, language);
+            if is_noted || has_near_layer(&raw, &others.borrow()) {
                 let all = entities(bytes, reading, &|_| true);
                 raw.diagnostics.extend(stray_findings(&all, language));
             }
-            (raw, has_keep_outs.get().then(|| read_keep_outs(bytes, reading, language)))
+            let drawn_parts = has_parts.get().then(|| drawn_parts(bytes, drawing, reading, language));
+            (raw, drawn_parts, has_keep_outs.get().then(|| read_keep_outs(bytes, reading, language)))
         });
         let content = Content::of(bytes, stamp, reading);
         match read {
-            Ok((raw, keep_outs)) => {
+            Ok((raw, drawn_parts, keep_outs)) => {
                 let read_all = || entities(bytes, reading, &|_| true);
-                let index = FileIndex::new(db, raw, &LayerEnds::new(&read_all), content);
+                let index = FileIndex::new(db, raw, drawn_parts, &LayerEnds::new(&read_all), content);
                 index.with_name_judged(db, file).with_keep_outs(keep_outs)
             }
             Err(bug) => FileIndex::failed(*bug, content),
@@ -117,6 +128,15 @@ fn has_near_layer(raw: &RawFile, others: &[SmolStr]) -> bool {
 fn read_keep_outs(bytes: &[u8], reading: &Reading, language: &Language) -> KeepOuts {
     let reading = Reading { compatible: false, ..reading.clone() };
     pathbuild_path::keep_outs(&entities(bytes, &reading, &|layer| language.is_keep_out(layer)), language)
+}
+
+/// Reads parts. In compatible mode, what paths skip may still be part of an outline.
+fn drawn_parts(bytes: &[u8], drawing: &Drawing, reading: &Reading, language: &Language) -> DrawnParts {
+    if !reading.compatible {
+        return pathbuild_path::parts(drawing, language);
+    }
+    let reading = Reading { compatible: false, ..reading.clone() };
+    pathbuild_path::parts(&entities(bytes, &reading, &|layer| language.is_part(layer)), language)
 }
 
 /// The index of one path of a drawing, unaffected by edits of other paths.
@@ -162,15 +182,46 @@ fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
     file_index(db, file).keep_outs.clone()
 }
 
+/// The parts of a drawing; empty without the setting.
+pub(super) fn parts(db: &dyn Db, file: SourceFile) -> &[Part] {
+    // Most libraries have no parts; no query is needed then.
+    if Settings::get(db).language(db).part.is_none() { &[] } else { indexed_parts(db, file) }
+}
+
+/// The parts in a drawing's index, unaffected by edits of its paths.
+#[salsa::tracked(returns(deref))]
+fn indexed_parts(db: &dyn Db, file: SourceFile) -> Arc<[Part]> {
+    Arc::clone(&file_index(db, file).parts)
+}
+
 impl FileIndex {
-    fn new(db: &dyn Db, raw: RawFile, ends: &LayerEnds<'_>, content: Content) -> Self {
-        let names = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
-        let path = |(raw, _): (RawPath, _)| Arc::new(PathIndex::new(db, &raw, ends));
+    fn new(
+        db: &dyn Db,
+        raw: RawFile,
+        parts: Option<DrawnParts>,
+        ends: &LayerEnds<'_>,
+        content: Content,
+    ) -> Self {
+        let names: Vec<PathName> = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
+        let mut cuts = parts.is_some().then(Vec::new);
+        let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, ends, cuts.as_mut());
         // Pushed one by one: `collect` would keep the raw paths' allocation.
-        let mut paths: Vec<Arc<PathIndex>> = Vec::with_capacity(raw.paths.len());
+        let mut paths: Vec<PathIndex> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
-        Self { names, paths, diagnostics: raw.diagnostics, keep_outs: None, content }
+        let mut diagnostics = raw.diagnostics;
+        if let (Some(parts), Some(cuts)) = (&parts, &cuts) {
+            let findings = part::judge(db, parts, cuts, cuts.len() == paths.len());
+            diagnostics.extend(findings.of_file);
+            for (cuts, problems) in cuts.iter().zip(findings.of_paths) {
+                if let Ok(place) = paths.binary_search_by(|path| path.header.name.cmp(&cuts.name)) {
+                    paths[place].summary.part_problems = problems;
+                }
+            }
+        }
+        let parts = parts.map(|drawn| drawn.parts.into()).unwrap_or_default();
+        let paths = paths.into_iter().map(Arc::new).collect();
+        Self { names, paths, diagnostics, keep_outs: None, parts, content }
     }
 
     /// Adds findings about the file's name, if the drawing's paths are known.
@@ -225,11 +276,12 @@ impl FileIndex {
 
 impl PartialEq for FileIndex {
     fn eq(&self, other: &Self) -> bool {
-        let Self { names, paths, diagnostics, keep_outs, content: _ } = self;
+        let Self { names, paths, diagnostics, keep_outs, parts, content: _ } = self;
         *names == other.names
             && *paths == other.paths
             && *diagnostics == other.diagnostics
             && *keep_outs == other.keep_outs
+            && *parts == other.parts
     }
 }
 
@@ -241,10 +293,18 @@ impl Content {
 }
 
 impl PathIndex {
-    fn new(db: &dyn Db, raw: &RawPath, ends: &LayerEnds<'_>) -> Self {
+    /// `cuts`: where to add the path's cuts, if the drawing has parts.
+    fn new(db: &dyn Db, raw: &RawPath, ends: &LayerEnds<'_>, cuts: Option<&mut Vec<PathCuts>>) -> Self {
         let header = PathHeader::of(raw);
         let examples = Bindings::check_values(&header.definitions);
-        let summary = PathSummary::new(db, raw, &examples, ends);
+        let mut of_path = None;
+        let is_asked = cuts.is_some();
+        let summary = PathSummary::new(db, raw, &examples, ends, &mut |path, walked| {
+            of_path = is_asked.then(|| part::cuts_of(db, path, walked)).flatten();
+        });
+        if let Some(cuts) = cuts {
+            cuts.extend(of_path);
+        }
         Self { header, examples, summary }
     }
 }
@@ -274,13 +334,21 @@ pub struct PathSummary {
     pub sweep_problems: Vec<Diagnostic>,
     /// Findings about the walk.
     pub walk_problems: Vec<Diagnostic>,
+    /// Findings about its cuts beside and into finished parts.
+    pub part_problems: Vec<Diagnostic>,
     /// Estimated number of moves, without embedded paths.
     pub moves: u64,
 }
 
 impl PathSummary {
-    /// Binds and walks a path.
-    pub(super) fn new(db: &dyn Db, raw: &RawPath, bindings: &Bindings, ends: &LayerEnds<'_>) -> Self {
+    /// Binds and walks a path. Calls `use_path` if it has no errors.
+    pub(super) fn new(
+        db: &dyn Db,
+        raw: &RawPath,
+        bindings: &Bindings,
+        ends: &LayerEnds<'_>,
+        use_path: &mut dyn FnMut(&Path, &WalkedPath),
+    ) -> Self {
         let language = Settings::get(db).language(db);
         let with_hint = |found: Diagnostic| ends.with_hint(&raw.name, language, found);
         let BoundPath { path, diagnostics } = examine(raw, bindings, language);
@@ -292,6 +360,10 @@ impl PathSummary {
         }
         let signature = PathSignature::of(&path);
         let moves = if path.has_faults() { 0 } else { own_moves(&path, &walked) };
+        if problems.iter().chain(&walked.diagnostics).all(|problem| !problem.is_error()) && !path.has_faults()
+        {
+            use_path(&path, &walked);
+        }
         let walk_problems = walked.diagnostics.into_iter().map(with_hint).collect();
         if path.has_faults() {
             let faulty_signature = Some(Box::new(signature));
@@ -301,6 +373,7 @@ impl PathSummary {
             problems,
             sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height()),
             walk_problems,
+            part_problems: Vec::new(),
             moves,
             signature: Some(signature),
             faulty_signature: None,
@@ -314,11 +387,12 @@ impl PathSummary {
 
     /// Whether the path itself has no findings.
     pub(super) fn is_clean(&self) -> bool {
-        let Self { problems, sweep_problems, walk_problems, .. } = self;
+        let Self { problems, sweep_problems, walk_problems, part_problems, .. } = self;
         self.signature.is_some()
             && problems.is_empty()
             && sweep_problems.is_empty()
             && walk_problems.is_empty()
+            && part_problems.is_empty()
     }
 
     /// Whether the path embeds others.

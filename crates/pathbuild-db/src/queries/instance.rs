@@ -1,11 +1,12 @@
 //! Paths with bound variables.
 
-use pathbuild_path::{Bindings, WalkedPath};
+use pathbuild_path::{Bindings, Path, WalkedPath};
 
 use crate::db::Db;
 use crate::inputs::{Settings, SourceFile};
-use crate::queries::index::{BoundPath, NameKey, PathSummary, bind, path_index, walk_within_limit};
+use crate::queries::index::{BoundPath, NameKey, PathSummary, bind, parts, path_index, walk_within_limit};
 use crate::queries::nearby_ends::LayerEnds;
+use crate::queries::part::judge_path;
 use crate::queries::raw::{raw_path, read_layers};
 
 /// A path of a file with values for its variables. Created inside queries only.
@@ -35,7 +36,12 @@ fn summary_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PathSum
     let file = instance.file(db);
     let Some(raw) = raw_path(db, file, instance.name(db)) else { return PathSummary::default() };
     let read_all = || read_layers(db, file, &|_| true);
-    PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all))
+    let mut part_problems = Vec::new();
+    let mut judge = |path: &Path, walked: &WalkedPath| {
+        part_problems = judge_path(db, parts(db, file), path, walked);
+    };
+    let summary = PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all), &mut judge);
+    PathSummary { part_problems, ..summary }
 }
 
 /// The bound and checked path. Only programs need it, so few are kept.

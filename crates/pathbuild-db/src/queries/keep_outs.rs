@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::paths as messages;
-use pathbuild_diagnostic::{Diagnostic, Number, Point, Text, TraceStep};
+use pathbuild_diagnostic::{Diagnostic, Number, Point, Text};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap};
-use pathbuild_toolpath::{StepOrigin, kind_of_move, way};
+use pathbuild_toolpath::{kind_of_move, way};
 use rustc_hash::FxHashSet;
 
 use crate::db::Db;
 use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::keep_outs;
+use crate::queries::occurrences::Occurrences;
 use crate::queries::programs::{TracedProgram, traced_program};
 
 /// A clamp as placed in a program.
@@ -109,7 +110,7 @@ impl<'t> Search<'t> {
             let (Some(step), Some(way)) = (trace.steps.get(number as usize - 1), way(&it)) else { continue };
             let what = kind_of_move(&it);
             for clamp in map.entered(&way, radius, 0.0) {
-                let (occurrence, element) = self.common(*step, self.clamps[clamp].occurrence);
+                let (occurrence, element) = self.occurrences().common(*step, self.clamps[clamp].occurrence);
                 let entry = Entry { clamp, occurrence, element, what: what.en };
                 let extent = entries.entry(entry).or_insert(Extent { what, moves: 0, lowest: f64::INFINITY });
                 extent.moves += 1;
@@ -119,30 +120,10 @@ impl<'t> Search<'t> {
         entries.iter().map(|(entry, extent)| self.finding(entry, extent)).collect()
     }
 
-    /// The innermost path that contains both an element and a clamp, and its element that leads to the former.
-    fn common(&self, mut at: StepOrigin, clamp: u32) -> (u32, Option<u32>) {
-        let around_clamp: Vec<u32> = self.outwards(clamp).collect();
-        while !around_clamp.contains(&at.occurrence) {
-            let Some(parent) = self.parent(at.occurrence) else { break };
-            at = parent;
-        }
-        (at.occurrence, at.element)
-    }
-
-    /// A path and the paths around it, from the inside out.
-    fn outwards(&self, occurrence: u32) -> impl Iterator<Item = u32> {
-        let parent = |inner: &u32| self.parent(*inner).map(|outer| outer.occurrence);
-        std::iter::successors(Some(occurrence), parent)
-    }
-
-    fn parent(&self, occurrence: u32) -> Option<StepOrigin> {
-        self.traced.trace.occurrences[occurrence as usize].parent
-    }
-
     fn finding(&self, entry: &Entry, extent: &Extent) -> Diagnostic {
-        let TracedProgram { program, trace, parts } = self.traced;
+        let TracedProgram { program, trace, .. } = self.traced;
         let around = &trace.occurrences[entry.occurrence as usize];
-        let (part, clamp) = (&parts[around.id], &self.clamps[entry.clamp]);
+        let clamp = &self.clamps[entry.clamp];
         let found = Diagnostic::new(&messages::MOVES_INTO_CLAMP)
             .with("tool", program.largest_cutter())
             .quoting("layer", clamp.drawn.layer.as_str())
@@ -150,29 +131,11 @@ impl<'t> Search<'t> {
             .with("height", clamp.placed.height - around.raised)
             .with("what", extent.what)
             .with("z", extent.lowest - around.raised)
-            .with("count", extent.moves)
-            .in_file(part.file.path(self.db))
-            .in_path(part.path.name.as_str());
-        let element = entry.element.and_then(|element| part.path.drawn.elements.get(element as usize));
-        let origin =
-            element.map_or(part.path.start_origin.clone(), |element| part.path.drawn.origin(element));
-        Diagnostic { trace: self.embeddings_leading_to(entry.occurrence), ..origin.at(found) }
+            .with("count", extent.moves);
+        self.occurrences().at_element(entry.occurrence, entry.element, found)
     }
 
-    /// The embeddings that lead to a path, outermost first.
-    fn embeddings_leading_to(&self, occurrence: u32) -> Vec<TraceStep> {
-        let step = |inner: u32| {
-            let StepOrigin { occurrence, element } = self.parent(inner)?;
-            let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
-            let element = part.path.drawn.elements.get(element? as usize)?;
-            Some(TraceStep {
-                file: part.file.path(self.db).clone(),
-                path: part.path.name.as_str().into(),
-                point: part.path.drawn.origin(element).point,
-            })
-        };
-        let mut steps: Vec<TraceStep> = self.outwards(occurrence).filter_map(step).collect();
-        steps.reverse();
-        steps
+    fn occurrences(&self) -> Occurrences<'t> {
+        Occurrences { db: self.db, traced: self.traced }
     }
 }

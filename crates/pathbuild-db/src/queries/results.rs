@@ -13,16 +13,18 @@ use crate::inputs::{Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};
 use crate::queries::keep_outs::entered_keep_outs;
+use crate::queries::neighbours::gouged_neighbours;
 use crate::queries::programs::ClosurePaths;
 use crate::queries::raw::{locate_in, raw_file, read_layers};
 
-/// Folds a path and everything it embeds into a program. `None` if one of them has errors, an option is missing or the tool hits a clamp.
-/// Programs are large and used once, so only the last few are kept.
+/// Folds a path and everything it embeds into a program. `None` if one of them has errors, an option is missing, or the tool hits a
+/// clamp or cuts into a part. Programs are large and used once, so only the last few are kept.
 #[salsa::tracked(lru = 16)]
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     let closure = closure(db, target);
     let is_right = !closure.has_errors() && closure.missing_options.is_empty();
-    if !is_right || !entered_keep_outs(db, target).is_empty() {
+    let is_gouging = || gouged_neighbours(db, target).iter().any(Diagnostic::is_error);
+    if !is_right || !entered_keep_outs(db, target).is_empty() || is_gouging() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
@@ -36,9 +38,10 @@ pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
     file_index(db, file).diagnostics()
 }
 
-/// Findings about a path, everything it embeds, and clamps in its way. They are not located yet.
+/// Findings about a path, everything it embeds, clamps in its way, and parts that it cuts into. They are not located yet.
 pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
-    closure(db, target).diagnostics.iter().chain(entered_keep_outs(db, target))
+    let found = closure(db, target).diagnostics.iter();
+    found.chain(entered_keep_outs(db, target)).chain(gouged_neighbours(db, target))
 }
 
 /// Fills in line and handle of the element that a diagnostic is about. Called last, so that no query depends on lines.

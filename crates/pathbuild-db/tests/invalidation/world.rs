@@ -60,6 +60,7 @@ pub(crate) fn set_up(db: &Database, search: &[&str]) {
     let language = Language {
         path_pattern: PathPattern::default(),
         keep_out: None,
+        part: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),

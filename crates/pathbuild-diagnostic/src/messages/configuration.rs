@@ -221,6 +221,8 @@ words! {
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
     /// 0 or a number of at least 0.1.
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
+    /// A tolerance of the part check.
+    PART_TOLERANCE: "a number of at least 0.005", "eine Zahl von mindestens 0.005";
     /// A whole number from 1 up.
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
     /// Regular expressions.

@@ -24,6 +24,7 @@ pub mod files;
 pub mod gcode;
 pub mod outputs;
 pub mod parameters;
+pub mod part;
 pub mod paths;
 pub mod posts;
 pub mod probes;
@@ -36,6 +37,7 @@ pub fn all() -> impl Iterator<Item = &'static crate::Message> {
         configuration::ALL,
         drawing::ALL,
         parameters::ALL,
+        part::ALL,
         paths::ALL,
         outputs::ALL,
         probes::ALL,

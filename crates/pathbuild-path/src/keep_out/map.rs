@@ -70,7 +70,7 @@ impl Way {
     }
 
     /// The part of the way below a height.
-    fn below(&self, height: f64) -> Option<Curve> {
+    pub(crate) fn below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
         let length = self.curve.length();
         if from == to || length == 0.0 {

@@ -12,6 +12,7 @@ use crate::geometry::{Curve, Placement, Xy};
 use crate::names::{LazyRegex, PatternError};
 
 pub use map::{KeepOutMap, Way};
+pub(crate) use outline::{Outline, around};
 
 /// The pattern for names of layers with clamps. It must match the whole name, ignoring case.
 #[derive(Clone)]

@@ -41,7 +41,7 @@ impl Outline {
     }
 
     /// Its bounding box.
-    pub(super) fn extent(&self) -> AABB<[f64; 2]> {
+    pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
         self.pieces.root().envelope()
     }
 
@@ -54,7 +54,7 @@ impl Outline {
 
     /// Whether a point that is not on the outline is inside: whether the upward and downward crossings of a ray to the right do not cancel
     /// out.
-    fn contains(&self, point: Xy) -> bool {
+    pub(crate) fn contains(&self, point: Xy) -> bool {
         let [right, _] = self.extent().upper();
         let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);
         let crossings = self.pieces.locate_in_envelope_intersecting(ray);
@@ -104,7 +104,7 @@ fn monotone(curve: &Curve) -> Vec<Curve> {
 }
 
 /// The bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
-pub(super) fn around(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
+pub(crate) fn around(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
     let (a, b) = match curve {
         Curve::Line(line) => (line.start, line.end),
         Curve::Arc(arc) => {

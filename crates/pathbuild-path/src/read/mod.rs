@@ -8,6 +8,7 @@ mod entities;
 mod keep_outs;
 mod listing;
 mod parameters;
+mod parts;
 mod rings;
 mod stray;
 mod texts;
@@ -24,6 +25,7 @@ use crate::read::parameters::{Start, Starts};
 pub use entities::TextCircle;
 pub use keep_outs::keep_outs;
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
+pub use parts::{has_text_on_part, parts};
 pub(crate) use rings::{Part, Ring, rings};
 pub use stray::{NearNames, may_be_stray_text, stray_findings};
 

@@ -41,6 +41,7 @@ pub(crate) fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
         keep_out: None,
+        part: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: NO_DOUBTS,

@@ -56,6 +56,7 @@ pub fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
         keep_out: KeepOutPattern::new("clamps").ok(),
+        part: None,
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,

@@ -26,6 +26,7 @@ pub(crate) fn language() -> Language {
     Language {
         path_pattern: pathbuild_path::PathPattern::default(),
         keep_out: None,
+        part: None,
         line_types: pathbuild_path::LineTypeAliases::default(),
         join_tolerance: 0.0,
         text_limit: 65_536,

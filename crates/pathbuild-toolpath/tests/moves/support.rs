@@ -59,6 +59,7 @@ fn drawn(drawing: &str) -> Drawn {
     let language = Language {
         path_pattern: PathPattern::default(),
         keep_out: None,
+        part: None,
         line_types: LineTypeAliases::default(),
         text_limit: 65_536,
         doubts: pathbuild_path::DoubtThresholds::default(),

@@ -60,6 +60,19 @@ pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
 /// Lower bound on that length in mm.
 const SHORTEST_PIECE: f64 = 0.1;
 
+/// Tolerance of the part check in mm. Below its bound the rounding of coordinates would be reported.
+pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
+    read: |value, reader| match number(value).filter(|number| *number >= FINEST_TOLERANCE) {
+        Some(number) => Some(number),
+        None => reader.expected(Value::Prose(&messages::PART_TOLERANCE), value),
+    },
+    show: |number| Some(number.to_string()),
+    schema: || json!({ "type": "number", "minimum": FINEST_TOLERANCE }),
+};
+
+/// Lower bound on that tolerance in mm.
+const FINEST_TOLERANCE: f64 = 0.005;
+
 /// A positive whole number.
 pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
     read: |value, reader| match whole_number(value).filter(|count| *count > 0) {

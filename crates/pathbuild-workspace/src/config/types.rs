@@ -68,6 +68,16 @@ choice! {
 }
 
 choice! {
+    /// What holds a part that is cut out of the plate. (book: language/part)
+    PartHolding {
+        /// Support bars.
+        Bars = "bars",
+        /// Something that no drawing shows: tape, vacuum.
+        Otherwise = "otherwise",
+    }
+}
+
+choice! {
     /// File format of the setup sheet. (book: program/sheet)
     SheetFormat {
         /// No setup sheet.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_dxf::Units;
 use pathbuild_path::{
-    DoubtThresholds, FilePattern, KeepOutPattern, Language, LineTypeAliases, PathOptions, PathPattern,
-    Restriction,
+    DoubtThresholds, FilePattern, KeepOutPattern, Language, LineTypeAliases, PartPattern, PartSettings,
+    PathOptions, PathPattern, Restriction,
 };
 
 use super::normal;
@@ -20,6 +20,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
         keep_out: general.keep_out.value.as_deref().and_then(|pattern| KeepOutPattern::new(pattern).ok()),
+        part: part(general),
         line_types: aliases(context),
         join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,
@@ -38,6 +39,14 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     };
     let limits = limits(&context.settings);
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
+}
+
+fn part(general: &config::sections::general::Settings) -> Option<PartSettings> {
+    Some(PartSettings {
+        pattern: PartPattern::new(general.part.value.as_deref()?).ok()?,
+        tolerance: general.part_tolerance.value,
+        is_held_otherwise: general.part_held.value == types::PartHolding::Otherwise,
+    })
 }
 
 /// The database's settings for reading drawings. `is_hashed`: whether to hash them.

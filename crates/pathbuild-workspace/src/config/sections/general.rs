@@ -11,11 +11,13 @@ use crate::config::arguments::OptionValues::{
 };
 use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
 use crate::config::kinds::{
-    DIRECTORIES, DIRECTORY, NOT_NEGATIVE, OPTIONAL_REGEX, PIECE, POSITIVE, REGEX, RESTRICTIONS, SWITCH,
-    choice,
+    DIRECTORIES, DIRECTORY, NOT_NEGATIVE, OPTIONAL_REGEX, PART_TOLERANCE, PIECE, POSITIVE, REGEX,
+    RESTRICTIONS, SWITCH, choice,
 };
 use crate::config::table_kinds::POST;
-use crate::config::types::{Charset, Directories, PostChoice, Restriction, SpindleControl, Units, ZModel};
+use crate::config::types::{
+    Charset, Directories, PartHolding, PostChoice, Restriction, SpindleControl, Units, ZModel,
+};
 
 /// Like [`section!`], for keys that command-line options can override. Such a key adds its option: position among the common options
 /// in the help, parser, values, and help in both languages.
@@ -78,6 +80,13 @@ overridable! {
     /// layers with clamps, by their whole names: no move may enter their outlines below the height
     /// that a text such as Z25 gives (PB407)
     keep_out: Option<Box<str>> = "keep-out", OPTIONAL_REGEX, None, "'Clamps.*'", Check;
+    /// layers with finished parts, by their whole names: cuts that go through the plate are compared with their outlines
+    /// (PB213 to PB220); a group in the expression names the path that cuts the part: 'Part_(.*)'
+    part: Option<Box<str>> = "part", OPTIONAL_REGEX, None, "'Part.*'", Check;
+    /// mm: how far a cut may miss the outline of a part on either side; at least 0.005
+    part_tolerance: f64 = "part-tolerance", PART_TOLERANCE, 0.02, "0.02", Check;
+    /// bars | otherwise (tape, vacuum): what holds a part that is cut all round (PB217)
+    part_held: PartHolding = "part-held", choice::<PartHolding>(), PartHolding::Bars, r#""bars""#, Check;
     /// PARENT:CHILD, split at the first colon: which paths may embed which, such as "^8:P$"
     restrict: Vec<Restriction> = "restrict", RESTRICTIONS, Vec::new(), "[]", Check,
         option 8: GivenOption::restrictions, Texts("PARENT:CHILD"),

@@ -1,0 +1,327 @@
+//! Drawings just inside and just outside of each rule.
+
+use pathbuild_diagnostic::{Lang, Severity};
+
+use pathbuild_path::direction;
+
+use crate::{PartTest, codes, messages, number};
+
+const START: &str = "layer 1234.1P\nstart -5,-5 \"T2 O2 I0.5 B-0.2 D0.8 P3 U8 A20 S5\"\n";
+
+/// A plate of 40 x 25 with two openings, whose circles begin at 3 o'clock. The contour is drawn with `verb`.
+fn plate(verb: &str) -> String {
+    format!(
+        "{START}sweep -5,-5 11,13\nmill circle 11,13 d 10\nsweep 11,13 31,13\nmill circle 31,13 d 6\n\
+         sweep 31,13 0,0\n{verb} 0,0 42,0\n{verb} to 42,27 0,27 0,0\nsweep 0,0 50,-5\nend 50,-5\n{PLATE}"
+    )
+}
+
+const PLATE: &str = "layer Part\npolyline 1,1 41,1 41,26 1,26 closed\ncircle 11,13 d 10\ncircle 31,13 d 6\n";
+
+#[test]
+fn a_plate_with_bars_is_as_drawn() {
+    assert_eq!(messages(&plate("bars")), [""; 0]);
+}
+
+#[test]
+fn a_plate_without_bars_is_loose_unless_something_else_holds_it() {
+    let drawing = plate("mill");
+    assert_eq!(codes(&drawing), ["PB212", "PB217"]);
+    let held = PartTest { is_held_otherwise: true, ..PartTest::default() };
+    assert_eq!(held.codes(&[("1234.1P.dxf", &drawing)]), ["PB212"]);
+}
+
+/// A contour 0.5 mm too far outside leaves material all round, and is as loose without bars.
+#[test]
+fn a_contour_too_far_outside_leaves_material_all_round() {
+    let contour = |verb: &str| {
+        plate(verb)
+            .replace(&format!("{verb} 0,0 42,0"), &format!("{verb} -0.5,-0.5 42.5,-0.5"))
+            .replace("to 42,27 0,27 0,0", "to 42.5,27.5 -0.5,27.5 -0.5,-0.5")
+            .replace("13 0,0", "13 -0.5,-0.5")
+            .replace("sweep 0,0", "sweep -0.5,-0.5")
+    };
+    assert_eq!(codes(&contour("mill")), ["PB212", "PB215", "PB217"]);
+    let left = PartTest::default().diagnostics(&[("1234.1P.dxf", &contour("bars"))]);
+    assert_eq!(left.len(), 4, "{left:?}");
+    for found in &left {
+        assert!((number(found, "thickness") - 0.5).abs() < 0.01, "{}", found.text(Lang::En));
+    }
+}
+
+const EDGE: &str = "layer Part\npolyline 0,1 40,1 40,20 0,20 closed\n";
+
+#[test]
+fn an_edge_may_be_off_by_the_tolerance() {
+    let shifted = |y: f64| {
+        format!("{START}sweep -5,-5 0,{y}\nmill 0,{y} 40,{y}\nsweep 40,{y} 50,-5\nend 50,-5\n{EDGE}")
+    };
+    for (y, expected) in
+        [(0.0, None), (0.019, None), (0.021, Some("PB213")), (-0.019, None), (-0.021, Some("PB215"))]
+    {
+        let found: Vec<String> = codes(&shifted(y)).into_iter().filter(|code| code != "PB212").collect();
+        assert_eq!(found, expected.into_iter().collect::<Vec<_>>(), "{y}");
+    }
+    let depth = |y: f64| {
+        let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &shifted(y))]);
+        let found = found.into_iter().find(|found| found.code().to_string() == "PB213").unwrap();
+        (number(&found, "depth"), number(&found, "length"), found.severity)
+    };
+    let (shallow, length, severity) = depth(0.099);
+    assert!((shallow - 0.099).abs() < 1e-6 && length > 39.0, "{shallow} {length}");
+    assert_eq!(severity, Severity::Warning);
+    assert_eq!(depth(0.101).2, Severity::Error);
+}
+
+#[test]
+fn compatible_programs_get_warnings_only() {
+    let drawing = format!(
+        "{START}sweep -5,-5 0,0.5\nmill 0,0.5 40,0.5\nsweep 40,0.5 50,-5\nend 50,-5\n\
+         layer Part\npolyline 0,1 40,1 40,20 0,20 closed\n"
+    );
+    let compatible = PartTest { is_compatible: true, ..PartTest::default() };
+    let found = compatible.diagnostics(&[("1234.1P.dxf", &drawing)]);
+    assert!(found.iter().any(|found| found.code().to_string() == "PB213"));
+    assert!(found.iter().all(|found| found.severity == Severity::Warning), "{found:?}");
+}
+
+/// Both ends of the arc are clear of the straight edge.
+#[test]
+fn an_arc_that_bulges_into_an_edge_is_found_between_its_ends() {
+    let bulge = |height: f64| {
+        let bulge = 2.0 * height / 40.0;
+        format!(
+            "{START}sweep -5,-5 40,0\nmill arc 40,0 0,0 bulge {bulge}\nsweep 0,0 50,-5\nend 50,-5\n\
+             layer Part\npolyline 0,1 40,1 40,20 0,20 closed\n"
+        )
+    };
+    assert!(!codes(&bulge(0.019)).contains(&"PB213".to_owned()));
+    let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &bulge(0.03))]);
+    let found = found.iter().find(|found| found.code().to_string() == "PB213").expect("a gouge");
+    assert!((number(found, "depth") - 0.03).abs() < 1e-4, "{found:?}");
+}
+
+#[test]
+fn grooves_and_marks_above_the_plate_may_cross_the_part() {
+    let with = |cut: &str| {
+        format!(
+            "{START}sweep -5,-5 0,0\nmill 0,0 40,0\nsweep 40,0 20,5\n{cut}\nsweep 20,15 50,-5\nend 50,-5\n\
+             layer Part\npolyline 0,1 40,1 40,20 0,20 closed\n"
+        )
+    };
+    let codes = |cut: &str| codes(&with(cut)).into_iter().filter(|code| code != "PB212").collect::<Vec<_>>();
+    assert_eq!(codes("mill 20,5 20,15 \"B0.5\""), [""; 0], "a groove");
+    assert_eq!(codes("mark 20,5 20,15 \"D1.5\""), [""; 0], "a mark");
+    assert_eq!(codes("mill 20,5 20,15 \"B0.01\""), [""; 0], "just above the plate");
+    assert_eq!(codes("mill 20,5 20,15 \"B0\""), ["PB213"], "through");
+}
+
+#[test]
+fn corners_that_no_cutter_reaches_are_one_remark() {
+    let corner = |outline: &str| {
+        format!(
+            "layer 1234.1P\nstart 0,0 \"T2 O4 I1 B0 S5\"\nmill 0,0 20,0\nmill to 20,10\nend 20,10\n\
+             layer Part\n{outline}\nline 22,10 40,10\nline to 40,-20\nline to 0,-20\nline to 0,-2\n"
+        )
+    };
+    let fillet = |radius: f64| {
+        let (x, y) = (22.0 - radius, -2.0 + radius);
+        corner(&format!("line 0,-2 {x},-2\narc {x},-2 22,{y} centre {x},{y}\nline 22,{y} 22,10"))
+    };
+    let sharp = corner("line 0,-2 22,-2\nline 22,-2 22,10");
+    assert_eq!(codes(&sharp), ["PB216"]);
+    assert_eq!(codes(&fillet(1.5)), ["PB216"], "smaller than half of O");
+    assert_eq!(codes(&fillet(2.0)), [""; 0], "equal");
+    // The path has a sharp corner where the part has a larger radius.
+    assert_eq!(codes(&fillet(4.0)), ["PB213"], "larger");
+}
+
+#[test]
+fn a_bar_that_another_path_cuts_is_lost() {
+    let second = |x: f64, bottom: f64| {
+        format!(
+            "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 B{bottom} S5\"\nsweep -8,-8 {x},-3\n\
+             mill {x},-3 {x},0\nsweep {x},0 60,-5\nend 60,-5\n",
+            plate("bars")
+        )
+    };
+    let codes = |drawing: &str| PartTest::default().codes(&[("1234.1.dxf", drawing)]);
+    // 42 / 11: three bars, those inside at 14 and 28.
+    assert_eq!(codes(&second(14.0, -0.2)), ["PB218"]);
+    assert_eq!(codes(&second(14.0, 0.79)), [""; 0], "it ends as high as the bar");
+    assert_eq!(codes(&second(21.0, -0.2)), [""; 0], "between the bars");
+    assert_eq!(codes(&second(0.0, -0.2)), ["PB218"], "half bars at a corner");
+}
+
+#[test]
+fn a_contour_whose_bars_a_second_path_cuts_is_loose() {
+    let drawing = format!(
+        "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -8,-8 0,0\n\
+         mill 0,0 42,0\nmill to 42,27 0,27 0,0\nsweep 0,0 60,-5\nend 60,-5\n",
+        plate("bars")
+    );
+    assert_eq!(PartTest::default().codes(&[("1234.1.dxf", &drawing)]), ["PB217", "PB218"]);
+}
+
+/// Short lines without a gap stay whole, and are one bar.
+#[test]
+fn a_whole_segment_may_be_a_bar() {
+    let drawing =
+        plate("mill").replace("mill to 42,27 0,27 0,0", "mill to 42,27\nbars to 0,27 \"U50\"\nmill to 0,0");
+    assert_eq!(codes(&drawing).into_iter().filter(|code| code != "PB408").collect::<Vec<_>>(), [""; 0]);
+}
+
+fn project(distance: f64, height: f64) -> String {
+    let y = 2.0 * 11.0 + distance;
+    format!(
+        "layer 8001.1P\nstart -10,0 \"T2 O2 MX\"\nsweep -10,0 0,0\nsubpath 0,0 30,0 \">1234.1P H{height}\"\n\
+         sweep 30,0 0,{y}\nsubpath 0,{y} 30,{y} \">1234.1P\"\nend 30,{y}\n"
+    )
+}
+
+/// A square of 22 x 22 around the line from start to end, milled on all sides.
+fn component() -> String {
+    "layer 1234.1P\nstart 0,0 \"T2 O2 I0.5 B0 D0.8 P3 U8 MX\"\nsweep 0,0 3,-12\nbars 3,-12 27,-12\n\
+     bars to 27,12 3,12 3,-12\nsweep 3,-12 30,0\nend 30,0\nlayer Part\npolyline 4,-11 26,-11 26,11 4,11 closed\n"
+        .to_owned()
+}
+
+#[test]
+fn neighbours_in_a_project_need_room_for_the_cutter() {
+    let component = component();
+    let found = |distance: f64| {
+        let project = project(distance, 0.0);
+        let found =
+            PartTest::default().diagnostics(&[("8001.1P.dxf", &project), ("1234.1P.dxf", &component)]);
+        found.into_iter().filter(|found| found.code().to_string() != "PB210").collect::<Vec<_>>()
+    };
+    assert_eq!(found(2.0), [], "they touch");
+    let both = found(1.5);
+    assert_eq!(both.len(), 2, "{both:?}");
+    for found in &both {
+        assert_eq!(found.code().to_string(), "PB214");
+        assert!((number(found, "depth") - 0.5).abs() < 1e-6, "{found:?}");
+    }
+}
+
+/// A raised component is on a plate of its own: cuts of the other one go through it, but its own end above the other.
+#[test]
+fn heights_of_embeddings_raise_the_plate() {
+    let component = component();
+    let project = project(1.5, 1.5);
+    let found = PartTest::default().diagnostics(&[("8001.1P.dxf", &project), ("1234.1P.dxf", &component)]);
+    let found: Vec<String> = found
+        .iter()
+        .filter(|found| found.code().to_string() == "PB214")
+        .map(|found| found.text(Lang::En))
+        .collect();
+    assert_eq!(found.len(), 1, "{found:?}");
+}
+
+#[test]
+fn chords_instead_of_an_arc_are_as_exact_as_their_sagitta() {
+    let disc = |sagitta: f64| {
+        let radius: f64 = 20.0;
+        let count = (std::f64::consts::PI / (2.0 * sagitta / radius).sqrt()).ceil();
+        let point = |number: f64| {
+            let at = direction(number / count * 360.0) * radius;
+            format!("{},{}", at.x, at.y)
+        };
+        let first = point(0.0);
+        let mut way = format!("{START}sweep -5,-5 {first}\nmill {first}");
+        for number in 1..=count as u32 {
+            way += &format!(" {}", point(f64::from(number)));
+        }
+        format!("{way}\nsweep {first} 50,-5\nend 50,-5\nlayer Part\ncircle 0,0 d 38\n")
+    };
+    assert_eq!(codes(&disc(0.01)), ["PB212", "PB217"]);
+    assert_eq!(codes(&disc(0.03)), ["PB212", "PB213", "PB217"]);
+}
+
+#[test]
+fn what_is_milled_twice_or_not_moved_at_all_changes_nothing() {
+    let twice =
+        plate("bars").replace("sweep 0,0 50,-5", "sweep 0,0 11,13\nmill circle 11,13 d 8\nsweep 11,13 50,-5");
+    assert_eq!(messages(&twice), [""; 0]);
+}
+
+#[test]
+fn an_opening_may_be_cleared_in_a_zigzag() {
+    let mut way = "sweep 31,13 6,6\nmill 6,6".to_owned();
+    for row in 0..8 {
+        let y = 6 + 2 * row;
+        let to = if row % 2 == 0 { 16 } else { 6 };
+        way += &format!(" {to},{y}");
+        if row < 7 {
+            way += &format!(" {to},{}", y + 2);
+        }
+    }
+    let drawing = plate("bars")
+        .replace("sweep -5,-5 11,13\nmill circle 11,13 d 10\nsweep 11,13 31,13", "sweep -5,-5 31,13")
+        .replace("sweep 31,13 0,0", &format!("{way}\nmill 6,6 6,20\nmill 16,6 16,20\nsweep 6,20 0,0"))
+        .replace("circle 11,13 d 10\n", "polyline 5,5 17,5 17,21 5,21 closed\n");
+    let found: Vec<String> = codes(&drawing);
+    assert!(
+        !found.contains(&"PB213".to_owned()) && !found.contains(&"PB215".to_owned()),
+        "{:?}",
+        messages(&drawing)
+    );
+}
+
+#[test]
+fn a_hole_that_the_part_lacks_is_a_gouge() {
+    let drawing =
+        plate("bars").replace("sweep 31,13 0,0", "sweep 31,13 21,13\nmill circle 21,13 d 2\nsweep 21,13 0,0");
+    let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+    let [found] = &found[..] else { panic!("{found:?}") };
+    // 5 mm from the rim of the larger opening.
+    assert!((number(found, "depth") - 6.0).abs() < 1e-6, "{found:?}");
+}
+
+/// A thread round a hole is no island, and a hole in it no missing one.
+#[test]
+fn of_rings_in_each_other_one_must_be_cut() {
+    let drawing = plate("bars") + "circle 31,13 d 5\n";
+    assert_eq!(messages(&drawing), [""; 0]);
+    let drawing = plate("bars") + "circle 31,13 d 7\n";
+    assert_eq!(messages(&drawing), [""; 0]);
+    let drawing = plate("bars") + "circle 21,13 d 5\n";
+    assert_eq!(codes(&drawing), ["PB220"]);
+}
+
+#[test]
+fn a_group_in_the_expression_names_the_path() {
+    let part = |layer: &str| plate("bars").replace("layer Part", &format!("layer \"{layer}\""));
+    let test = PartTest { pattern: "Part ([0-9_]+)", ..PartTest::default() };
+    assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_1"))]), [""; 0]);
+    assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_2"))]), ["PB220"]);
+    assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_"))]), ["PB220"], "digits follow");
+}
+
+/// Far from the origin, turned, and with three decimals, the same things are found.
+#[test]
+fn places_and_directions_do_not_matter() {
+    for degrees in [0.0_f64, 33.3, 180.0] {
+        let (cos, sin) = (direction(degrees).x, direction(degrees).y);
+        let at =
+            |x: f64, y: f64| format!("{:.3},{:.3}", 1600.0 + x * cos - y * sin, 700.0 + x * sin + y * cos);
+        let drawing = |y: f64| {
+            format!(
+                "layer 1234.1P\nstart {} \"T2 O2 I1 B0 S5\"\nmill {} {}\nend {}\nlayer Part\n\
+                 polyline {} {} {} {} closed\n",
+                at(0.0, y),
+                at(0.0, y),
+                at(40.0, y),
+                at(40.0, y),
+                at(0.0, 1.0),
+                at(40.0, 1.0),
+                at(40.0, 20.0),
+                at(0.0, 20.0)
+            )
+        };
+        assert_eq!(codes(&drawing(0.0)), [""; 0], "{degrees}");
+        assert_eq!(codes(&drawing(0.018)), [""; 0], "{degrees}");
+        assert_eq!(codes(&drawing(0.022)), ["PB213"], "{degrees}");
+        assert_eq!(codes(&drawing(-0.022)), ["PB215"], "{degrees}");
+    }
+}

@@ -1,0 +1,285 @@
+//! Random outlines with arcs and openings: paths that are offset exactly, and paths that are not.
+
+use std::f64::consts::TAU;
+
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_path::{Xy, direction};
+
+use crate::{PartTest, number};
+
+/// A corner of a rounded polygon: where its arc begins and ends, and its centre. `is_outer`: whether the corner points out of the part.
+struct Corner {
+    from: Xy,
+    to: Xy,
+    centre: Xy,
+    radius: f64,
+    is_outer: bool,
+}
+
+/// A part with rounded corners and round openings.
+struct RandomPart {
+    corners: Vec<Corner>,
+    openings: Vec<(Xy, f64)>,
+}
+
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
+impl RandomPart {
+    /// A star-shaped polygon whose corners are rounded. `None` if the roundings do not fit on its sides.
+    fn new(random: &mut Random) -> Option<Self> {
+        let count = random.between(4.0, 9.0).floor();
+        let point = |number: f64, random: &mut Random| {
+            let angle = (number + random.between(-0.2, 0.2)) / count * 360.0;
+            Xy::origin() + direction(angle) * random.between(22.0, 34.0)
+        };
+        let points: Vec<Xy> = (0..count as u32).map(|number| point(f64::from(number), random)).collect();
+        let mut corners = Vec::new();
+        let mut room = Vec::new();
+        for (number, at) in points.iter().enumerate() {
+            let before = (points[(number + points.len() - 1) % points.len()] - at).normalize();
+            let after = (points[(number + 1) % points.len()] - at).normalize();
+            let radius = random.between(2.5, 5.0);
+            let half = (before + after).normalize();
+            // The distance from the corner to the arc's ends, by the angle between its sides.
+            let cosine = half.dot(&after);
+            let sine = (1.0 - cosine * cosine).sqrt();
+            let tangent = radius * cosine / sine;
+            if cosine < 0.02 {
+                return None;
+            }
+            corners.push(Corner {
+                from: at + before * tangent,
+                to: at + after * tangent,
+                centre: at + half * (radius / sine),
+                radius,
+                is_outer: after.perp(&before) > 0.0,
+            });
+            room.push(tangent);
+        }
+        let fits = (0..points.len()).all(|number| {
+            let next = (number + 1) % points.len();
+            (points[next] - points[number]).norm() > room[number] + room[next] + 0.5
+        });
+        let openings = vec![
+            (Xy::new(-6.0, 0.0), random.between(2.0, 4.0)),
+            (Xy::new(7.0, 1.0), random.between(2.0, 5.0)),
+        ];
+        fits.then_some(Self { corners, openings })
+    }
+
+    /// The outline shifted outwards by `distance` mm, as elements of a drawing.
+    fn contour(&self, distance: f64, line: &str, arc: &str) -> String {
+        let shifted: Vec<[Xy; 2]> = self.corners.iter().map(|corner| corner.shifted(distance)).collect();
+        let mut text = String::new();
+        for (number, corner) in self.corners.iter().enumerate() {
+            let ([from, to], next) = (shifted[number], shifted[(number + 1) % shifted.len()][0]);
+            let clockwise = if corner.is_outer { "" } else { " cw" };
+            let Corner { centre, .. } = corner;
+            text += &format!(
+                "{arc} {},{} {},{} centre {},{}{clockwise}\n{line} {},{} {},{}\n",
+                from.x, from.y, to.x, to.y, centre.x, centre.y, to.x, to.y, next.x, next.y
+            );
+        }
+        text
+    }
+
+    /// A drawing of the part and of its path, which runs `distance` mm beside the outline, with another cut.
+    fn drawing(&self, tool: f64, distance: f64, other: &str) -> String {
+        let start = self.corners[0].shifted(distance)[0];
+        let mut text = format!("layer 1234.1P\nstart 60,60 \"T2 O{tool} I1 B-0.2 D0.8 P2 U6 A30 S5\"\n");
+        let mut at = "60,60".to_owned();
+        for (centre, radius) in &self.openings {
+            // The circle that is drawn is the outer edge of what is milled.
+            let diameter = 2.0 * (radius - distance) + tool;
+            let to = format!("{},{}", centre.x, centre.y);
+            text += &format!("sweep {at} {to}\nmill circle {to} d {diameter}\n");
+            at = to;
+        }
+        text +=
+            &format!("sweep {at} {},{}\n{}", start.x, start.y, self.contour(distance, "bars", "mill arc"));
+        text += &format!("sweep {},{} 70,60\n{other}end 70,60\nlayer Part\n", start.x, start.y);
+        text += &self.contour(0.0, "line", "arc");
+        for (centre, radius) in &self.openings {
+            text += &format!("circle {},{} r {radius}\n", centre.x, centre.y);
+        }
+        text
+    }
+
+    #[expect(clippy::disallowed_methods, reason = "only the sign of the sum of the angles counts")]
+    /// The signed distance from a point to the part, positive outside: an independent calculation.
+    fn signed(&self, at: Xy) -> f64 {
+        let mut distance = f64::INFINITY;
+        let mut turned = 0.0;
+        let mut visit = |from: Xy, to: Xy| {
+            let (a, b) = (from - at, to - at);
+            turned += a.perp(&b).atan2(a.dot(&b));
+        };
+        for (number, corner) in self.corners.iter().enumerate() {
+            let next = self.corners[(number + 1) % self.corners.len()].from;
+            let way = next - corner.to;
+            let share = (way.dot(&(at - corner.to)) / way.norm_squared()).clamp(0.0, 1.0);
+            distance = distance.min((corner.to + way * share - at).norm());
+            visit(corner.to, next);
+            let out = at - corner.centre;
+            let is_beside =
+                [corner.from, corner.to].map(|end| (end - corner.centre).perp(&out) * corner.sign());
+            if is_beside[0] >= 0.0 && is_beside[1] <= 0.0 {
+                distance = distance.min((out.norm() - corner.radius).abs());
+            }
+            let steps = 40;
+            let angle = (corner.from - corner.centre).angle(&(corner.to - corner.centre)) * corner.sign();
+            let place = |step: u32| {
+                let from = corner.from - corner.centre;
+                let turn = direction((angle * f64::from(step) / f64::from(steps)).to_degrees());
+                corner.centre + rotated(from, turn)
+            };
+            for step in 0..steps {
+                visit(place(step), place(step + 1));
+            }
+        }
+        let mut signed = if turned.abs() > TAU / 2.0 { -distance } else { distance };
+        for (centre, radius) in &self.openings {
+            let inside = radius - (at - centre).norm();
+            signed = if inside > 0.0 { inside } else { signed.max(inside) };
+            if inside > 0.0 {
+                return inside;
+            }
+        }
+        signed
+    }
+}
+
+fn rotated<V>(way: V, turn: V) -> V
+where
+    V: std::ops::Index<usize, Output = f64> + std::ops::IndexMut<usize> + Copy,
+{
+    let mut turned = way;
+    turned[0] = way[0] * turn[0] - way[1] * turn[1];
+    turned[1] = way[0] * turn[1] + way[1] * turn[0];
+    turned
+}
+
+impl Corner {
+    fn sign(&self) -> f64 {
+        if self.is_outer { 1.0 } else { -1.0 }
+    }
+
+    /// The ends of its arc on a path `distance` mm outside.
+    fn shifted(&self, distance: f64) -> [Xy; 2] {
+        let radius = self.radius + distance * self.sign();
+        [self.from, self.to].map(|at| self.centre + (at - self.centre) * (radius / self.radius))
+    }
+}
+
+fn findings(drawing: &str) -> Vec<Diagnostic> {
+    let found = PartTest::default().diagnostics(&[("1234.1P.dxf", drawing)]);
+    // Short lines of the contour stay whole, which is intended.
+    found.into_iter().filter(|found| !matches!(&*found.code().to_string(), "PB408" | "PB212")).collect()
+}
+
+fn parts(count: usize) -> impl Iterator<Item = (RandomPart, Random)> {
+    let mut random = Random(2025);
+    let all = std::iter::from_fn(move || {
+        let part = RandomPart::new(&mut random);
+        Some(part.map(|part| (part, Random(random.0 ^ 0x5555))))
+    });
+    all.flatten().take(count)
+}
+
+const TOOL: f64 = 2.0;
+
+#[test]
+fn paths_with_the_right_offset_have_no_findings() {
+    for (number, (part, _)) in parts(60).enumerate() {
+        let drawing = part.drawing(TOOL, TOOL / 2.0, "");
+        let found: Vec<String> = findings(&drawing).iter().map(|found| found.text(Lang::En)).collect();
+        assert_eq!(found, [""; 0], "{number}:\n{drawing}");
+    }
+}
+
+#[test]
+fn paths_with_a_wrong_offset_are_found_all_round() {
+    for (number, (part, mut random)) in parts(50).enumerate() {
+        let wrong = random.between(0.03, 0.9);
+        let inside = findings(&part.drawing(TOOL, TOOL / 2.0 - wrong, ""));
+        // Each of the openings and each corner and side.
+        let gouges: Vec<&Diagnostic> =
+            inside.iter().filter(|found| found.code().to_string() == "PB213").collect();
+        assert!(gouges.len() >= part.corners.len() + 2, "{number}: {inside:?}");
+        for gouge in gouges {
+            assert!(
+                (number_of(gouge, "depth") - wrong).abs() < 0.01,
+                "{number}: {wrong} {}",
+                gouge.text(Lang::En)
+            );
+        }
+        let outside = findings(&part.drawing(TOOL, TOOL / 2.0 + wrong, ""));
+        let left: Vec<&Diagnostic> =
+            outside.iter().filter(|found| found.code().to_string() == "PB215").collect();
+        assert!(left.len() > part.corners.len() / 2, "{number}: {wrong} {outside:?}");
+        for found in left {
+            assert!(
+                (number_of(found, "thickness") - wrong).abs() < 0.01,
+                "{number}: {wrong} {}",
+                found.text(Lang::En)
+            );
+        }
+    }
+}
+
+/// A line from outside that enters the part: place and depth agree with sampled distances.
+#[test]
+fn a_stray_cut_is_found_where_it_is_deepest() {
+    for (number, (part, mut random)) in parts(50).enumerate() {
+        let away = direction(random.between(0.0, 360.0));
+        let aside = direction(random.between(0.0, 360.0));
+        let (begin, wrong) = (Xy::origin() + away * 45.0, random.between(0.03, 2.0));
+        // The end of the cut, at the right distance from the rim, less the error.
+        let mut reach = 45.0;
+        while part.signed(Xy::origin() + away * reach) > TOOL / 2.0 - wrong {
+            reach -= 0.1;
+        }
+        let deep = Xy::origin() + away * reach;
+        let end = deep + aside * 3.0;
+        let way = |share: f64| {
+            if share < 0.5 {
+                begin + (deep - begin) * (2.0 * share)
+            } else {
+                deep + (end - deep) * (2.0 * share - 1.0)
+            }
+        };
+        let samples = (0..=600).map(|sample| way(f64::from(sample) / 600.0));
+        let depth = |at: Xy| TOOL / 2.0 - part.signed(at);
+        let deepest = samples.map(depth).fold(f64::NEG_INFINITY, f64::max);
+        let other = format!(
+            "sweep 70,60 {},{}\nmill {},{} {},{} {},{}\nsweep {},{} 70,60\n",
+            begin.x, begin.y, begin.x, begin.y, deep.x, deep.y, end.x, end.y, end.x, end.y
+        )
+        .replace("sweep 70,60", "sweep 75,60");
+        let drawing =
+            part.drawing(TOOL, TOOL / 2.0, &other).replace(" 70,60\nsweep 75,60", " 75,60\nsweep 75,60");
+        let found = findings(&drawing);
+        let gouges: Vec<&Diagnostic> =
+            found.iter().filter(|found| found.code().to_string() == "PB213").collect();
+        let depths = gouges.iter().map(|found| number_of(found, "depth"));
+        let best = depths.fold(f64::NEG_INFINITY, f64::max);
+        assert!((best - deepest).abs() < 0.01, "{number}: {best} {deepest} {found:?}");
+        for gouge in gouges {
+            let point = gouge.arguments.iter().find(|(name, _)| *name == "point").map(|(_, value)| value);
+            let Some(pathbuild_diagnostic::Value::Point(point)) = point else { panic!("{gouge:?}") };
+            let own = depth(Xy::new(point.x.0, point.y.0));
+            assert!((own - number_of(gouge, "depth")).abs() < 0.01, "{number}: {own} {gouge:?}");
+        }
+    }
+}
+
+fn number_of(found: &Diagnostic, name: &str) -> f64 {
+    number(found, name)
+}

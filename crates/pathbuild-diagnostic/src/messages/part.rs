@@ -1,0 +1,81 @@
+//! Messages about finished parts: their outlines, and the cuts beside and into them. (PB213 to PB220)
+
+messages! {
+    /// A cut into the part that its path makes.
+    GOUGE: GougedPart {
+        en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
+        de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
+        help_en: "draw the path half of O beside the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
+        help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen oder den Umriss berichtigen; `part-tolerance` in pathbuild.toml erlaubt kleine Abweichungen",
+    }
+    /// A cut into a part that another path brings.
+    GOUGED_NEIGHBOUR: GougedNeighbour {
+        en: "the cutter, O{tool}, goes {depth} mm into the part of path {other}, which lies at {place} of the program, at {point}",
+        de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das bei {place} des Programms liegt",
+        help_en: "place the two farther apart: between parts there must be room for the cutter",
+        help_de: "die beiden weiter auseinander setzen: zwischen Teilen muss Platz für den Fräser sein",
+    }
+    /// Material left beside an outline.
+    LEFTOVER: LeftoverAtPart {
+        en: "up to {thickness} mm of material remain at the outline of the part, from {from} to {to}, over {length} mm (places: {count})",
+        de: "am Umriss des Teils bleiben bis zu {thickness} mm Material stehen, von {from} bis {to}, auf {length} mm (Stellen: {count})",
+        help_en: "draw the path half of O beside the outline; to leave an allowance on purpose, draw the part with it",
+        help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen; soll ein Aufmaß bleiben, das Teil damit zeichnen",
+    }
+    /// A cut beside an outline that does not go through the plate.
+    NOT_CUT_THROUGH: LeftoverAtPart {
+        en: "the cut along the outline of the part, from {from} to {to}, over {length} mm, does not go through: it ends at Z{height} (places: {count})",
+        de: "der Schnitt am Umriss des Teils, von {from} bis {to}, auf {length} mm, geht nicht durch: er endet bei Z{height} (Stellen: {count})",
+        help_en: "set B to 0 or below; draw a groove with the line type DIVIDE if it is to remain one",
+        help_de: "B auf 0 oder darunter setzen; soll es eine Nut bleiben, sie mit dem Linientyp DIVIDE zeichnen",
+    }
+    /// Inner corners that are sharper than the cutter.
+    UNREACHABLE_CORNER: UnreachableCorner {
+        en: "the cutter, O{tool}, does not reach all of the outline: inner corners such as the one at {point} are too sharp, over {length} mm in all",
+        de: "der Fräser, O{tool}, erreicht nicht den ganzen Umriss: Innenecken wie die bei {point} sind zu scharf, zusammen auf {length} mm",
+        help_en: "round the corners of the part with at least half of O, use a smaller cutter, or accept the rounding",
+        help_de: "die Ecken des Teils mit mindestens O/2 runden, einen kleineren Fräser nehmen oder die Rundung hinnehmen",
+    }
+    /// A part that nothing holds.
+    LOOSE_PART: LoosePart {
+        en: "the part whose outline begins at {point} is cut out all round, and no support bar holds it",
+        de: "das Teil, dessen Umriss bei {point} beginnt, wird rundum ausgefräst, und kein Stützsteg hält es",
+        help_en: "draw parts of its contour with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
+        help_de: "Teile der Kontur mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
+    }
+    /// A support bar that another cut removes.
+    BAR_CUT_AWAY: BarCutAway {
+        en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other}",
+        de: "dieser Schnitt nimmt {lost} von {length} mm des Stützstegs bei {point} von Pfad {other} weg",
+        help_en: "leave the bar out of this cut, or end the cut higher than D of the bar",
+        help_de: "den Schnitt am Steg aussparen oder höher als D des Stegs enden lassen",
+    }
+    /// Two ends of an outline that almost meet.
+    OUTLINE_GAP: DoubtfulOutline {
+        en: "the outline of the part has a gap: it ends at {point} and at {other}, {distance} mm apart",
+        de: "der Umriss des Teils hat eine Lücke: er endet bei {point} und bei {other}, {distance} mm auseinander",
+        help_en: "let the ends meet: the CAD's object snap joins them; what is not closed is not checked",
+        help_de: "die Enden zusammenführen, der Objektfang im CAD verbindet sie; was nicht geschlossen ist, wird nicht geprüft",
+    }
+    /// A layer with parts, none of which has a closed outline.
+    NO_CLOSED_OUTLINE: DoubtfulOutline {
+        en: "layer {layer} has no closed outline, so no part is checked there",
+        de: "Layer {layer} hat keinen geschlossenen Umriss, deshalb wird dort kein Teil geprüft",
+        help_en: "draw the outline with CONTINUOUS lines, arcs, circles or closed polylines whose ends meet all around; other line types do not count",
+        help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien vom Linientyp CONTINUOUS zeichnen, deren Enden sich rundum treffen; andere Linientypen zählen nicht",
+    }
+    /// An element on a layer with parts that cannot be read.
+    OUTLINE_UNREADABLE: DoubtfulOutline {
+        en: "this {entity} on a layer with a part could not be read, so the outline may lack something",
+        de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; dem Umriss fehlt vielleicht etwas",
+        help_en: "draw the outline with lines, arcs, circles or closed polylines; `approximate-curves` in pathbuild.toml reads ellipses and splines",
+        help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; mit `approximate-curves` in pathbuild.toml werden Ellipsen und Splines gelesen",
+    }
+    /// A ring of a part that no path comes near.
+    OUTLINE_NOT_CUT: OutlineNotCut {
+        en: "no path of this drawing cuts along this outline",
+        de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang",
+        help_en: "draw the missing path, or move what is no outline of the part to another layer",
+        help_de: "den fehlenden Pfad zeichnen, oder was kein Umriss des Teils ist, auf einen anderen Layer legen",
+    }
+}

@@ -1,0 +1,231 @@
+//! Stretches of a curve that are near another curve, found exactly.
+
+use nalgebra::Vector2;
+
+use crate::geometry::{Arc, Curve, Line, Xy};
+
+/// A stretch of a curve, in mm along it.
+pub(crate) type Stretch = (f64, f64);
+
+/// Gap in mm below which two stretches are one.
+pub(crate) const GAP: f64 = 1e-9;
+
+/// Adds the stretches of `along` that are nearer to `other` than `reach` mm.
+///
+/// Candidates for their ends are the places where `along` crosses the border of the shape that a disc sweeps along `other`. Between two
+/// neighbouring candidates the distance of the middle decides, so that curves that touch or coincide need no special case.
+pub(crate) fn within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<Stretch>) {
+    let length = along.length();
+    let mut cuts = vec![0.0, length];
+    cross_circle(along, other.start(), reach, &mut cuts);
+    cross_circle(along, other.end(), reach, &mut cuts);
+    match other {
+        Curve::Line(Line { start, end }) => {
+            if let Some(direction) = (end - start).try_normalize(0.0) {
+                let aside = Vector2::new(-direction.y, direction.x) * reach;
+                cross_line(along, &Line { start: start + aside, end: end + aside }, &mut cuts);
+                cross_line(along, &Line { start: start - aside, end: end - aside }, &mut cuts);
+            }
+        }
+        Curve::Arc(Arc { centre, radius, .. }) => {
+            cross_circle(along, *centre, radius + reach, &mut cuts);
+            cross_circle(along, *centre, (radius - reach).abs(), &mut cuts);
+        }
+    }
+    cuts.retain(|cut| (0.0..=length).contains(cut));
+    cuts.sort_by(f64::total_cmp);
+    for cut in cuts.windows(2) {
+        let (from, to) = (cut[0], cut[1]);
+        if to > from && other.distance_to(at(along, f64::midpoint(from, to))) < reach {
+            found.push((from, to));
+        }
+    }
+}
+
+/// The point of a curve at a distance in mm along it.
+pub(crate) fn at(curve: &Curve, along: f64) -> Xy {
+    match curve {
+        Curve::Line(Line { start, end }) => {
+            let length = (end - start).norm();
+            if length == 0.0 { *start } else { start + (end - start) * (along / length) }
+        }
+        Curve::Arc(_) => curve.section(0.0, along).end(),
+    }
+}
+
+/// Sorts stretches and joins those that touch.
+pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
+    stretches.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    let mut all: Vec<Stretch> = Vec::with_capacity(stretches.len());
+    for (from, to) in stretches {
+        match all.last_mut() {
+            Some(last) if from <= last.1 + gap => last.1 = last.1.max(to),
+            _ => all.push((from, to)),
+        }
+    }
+    all
+}
+
+/// What joined stretches leave of the range from `start` to `end`.
+pub(crate) fn rest(stretches: &[Stretch], start: f64, end: f64) -> Vec<Stretch> {
+    let mut at = start;
+    let mut left = Vec::new();
+    for (from, to) in stretches {
+        if *from > at {
+            left.push((at, from.min(end)));
+        }
+        at = at.max(*to);
+    }
+    if at < end {
+        left.push((at, end));
+    }
+    left.retain(|(from, to)| to > from);
+    left
+}
+
+/// What is in both of two sequences of joined stretches.
+pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
+    let mut all = Vec::new();
+    let (mut a, mut b) = (one.iter().peekable(), other.iter().peekable());
+    while let (Some(first), Some(second)) = (a.peek(), b.peek()) {
+        let stretch = (first.0.max(second.0), first.1.min(second.1));
+        if stretch.1 > stretch.0 {
+            all.push(stretch);
+        }
+        if first.1 < second.1 {
+            a.next()
+        } else {
+            b.next()
+        };
+    }
+    all
+}
+
+/// Where an arc has the point of its circle in that direction from its centre, in mm along it.
+fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
+    if !arc.spans(out) {
+        return None;
+    }
+    let from = arc.start - arc.centre;
+    let angle = libm::atan2(from.perp(&out), from.dot(&out));
+    let ahead = if arc.clockwise { -angle } else { angle };
+    Some(arc.radius * if ahead < 0.0 { ahead + std::f64::consts::TAU } else { ahead })
+}
+
+fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut Vec<f64>) {
+    match along {
+        Curve::Line(line) => cuts.extend(line_and_circle(line, centre, radius).into_iter().flatten()),
+        Curve::Arc(arc) => {
+            let way = centre - arc.centre;
+            let squared = way.norm_squared();
+            if squared == 0.0 {
+                return;
+            }
+            let share = (squared + arc.radius * arc.radius - radius * radius) / (2.0 * squared);
+            let half = arc.radius * arc.radius / squared - share * share;
+            if half < 0.0 {
+                return;
+            }
+            let across = Vector2::new(-way.y, way.x) * libm::sqrt(half);
+            cuts.extend([across, -across].into_iter().filter_map(|side| along_arc(arc, way * share + side)));
+        }
+    }
+}
+
+/// The places where the infinite line through a line crosses a circle, in mm along the line.
+fn line_and_circle(line: &Line, centre: Xy, radius: f64) -> Option<[f64; 2]> {
+    let way = line.end - line.start;
+    let squared = way.norm_squared();
+    if squared == 0.0 {
+        return None;
+    }
+    let out = line.start - centre;
+    let foot = -way.dot(&out) / squared;
+    let half = radius * radius - (out + way * foot).norm_squared();
+    if half < 0.0 {
+        return None;
+    }
+    let (half, length) = (libm::sqrt(half / squared), libm::sqrt(squared));
+    Some([(foot - half) * length, (foot + half) * length])
+}
+
+fn cross_line(along: &Curve, line: &Line, cuts: &mut Vec<f64>) {
+    let way = line.end - line.start;
+    match along {
+        Curve::Line(own) => {
+            let direction = own.end - own.start;
+            let across = direction.perp(&way);
+            if across != 0.0 {
+                cuts.push((line.start - own.start).perp(&way) / across * direction.norm());
+            }
+        }
+        Curve::Arc(arc) => {
+            let places = line_and_circle(line, arc.centre, arc.radius).into_iter().flatten();
+            let length = way.norm();
+            let outwards = places.map(|place| line.start + way * (place / length) - arc.centre);
+            cuts.extend(outwards.filter_map(|out| along_arc(arc, out)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(a: [f64; 2], b: [f64; 2]) -> Curve {
+        Curve::Line(Line { start: Xy::new(a[0], a[1]), end: Xy::new(b[0], b[1]) })
+    }
+
+    fn stretches(along: &Curve, other: &Curve, reach: f64) -> Vec<Stretch> {
+        let mut found = Vec::new();
+        within(along, other, reach, &mut found);
+        joined(found, GAP)
+    }
+
+    #[test]
+    fn a_parallel_line_is_near_all_along_or_nowhere() {
+        let along = line([0.0, 0.0], [10.0, 0.0]);
+        let other = line([2.0, 1.0], [8.0, 1.0]);
+        assert_eq!(stretches(&along, &other, 1.0), [], "it only touches");
+        let [(from, to)] = stretches(&along, &other, 1.25)[..] else { panic!("one stretch") };
+        assert!((from - 1.25).abs() < 1e-12 && (to - 8.75).abs() < 1e-12, "{from} {to}");
+    }
+
+    /// Compares with the distances of sample points, for pairs on a coarse grid, where curves often touch or coincide.
+    #[test]
+    fn stretches_agree_with_sampled_distances() {
+        let mut state = 7_u64;
+        let mut number = |count: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % count
+        };
+        for round in 0..2000 {
+            let mut curve = || {
+                let mut half = |count| number(count) as f64 / 2.0;
+                let at = Xy::new(half(12), half(12));
+                if number(2) == 0 {
+                    let mut half = |count| number(count) as f64 / 2.0;
+                    Curve::Line(Line { start: at, end: Xy::new(half(12), half(12)) })
+                } else {
+                    let (radius, from, span) = (
+                        1.0 + number(6) as f64 / 2.0,
+                        45.0 * number(8) as f64,
+                        45.0 * (1 + number(8)) as f64,
+                    );
+                    Curve::Arc(Arc::from_angles(at, radius, from, from + span, number(2) == 0))
+                }
+            };
+            let (along, other) = (curve(), curve());
+            let reach = 0.25 + number(6) as f64 / 4.0;
+            let found = stretches(&along, &other, reach);
+            let length = along.length();
+            for sample in 1..100 {
+                let place = length * f64::from(sample) / 100.0;
+                let distance = other.distance_to(at(&along, place));
+                let is_found = found.iter().any(|(from, to)| *from < place && place < *to);
+                let is_clear = (distance - reach).abs() > 1e-9;
+                assert!(!is_clear || is_found == (distance < reach), "{round}: {along:?} {other:?} {place}");
+            }
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Whether cuts close a ring round a part. (book: language/part)
+
+use std::f64::consts::{FRAC_PI_4, PI};
+
+use nalgebra::Vector2;
+use rstar::RTree;
+
+use super::leftover::beside;
+use super::prepared::{Boxed, PreparedPart, index, near, square};
+use crate::geometry::{Curve, Line, Xy};
+use crate::keep_out::around;
+
+/// Largest distance in mm between an arc and the chords that stand for it.
+const SAGITTA: f64 = 0.005;
+
+/// A straight sweep of a cutter.
+#[derive(Clone, Copy)]
+struct Sweep {
+    line: Line,
+    radius: f64,
+}
+
+/// Whether through cuts, with their radii, close a ring round a part.
+///
+/// Sweeps that overlap are united, and each remembers the angle round a point of the part by which it is ahead of the first of its group.
+/// Two sweeps of a group that overlap with another angle than the remembered one close a ring.
+pub(super) fn is_cut_out(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> bool {
+    let boxes = index(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
+    let Some(centre) = point_in_material(part, cuts, &boxes) else { return false };
+    let sweeps: Vec<Sweep> = cuts.iter().flat_map(|(curve, radius)| sweeps(curve, *radius)).collect();
+    let boxes = index(sweeps.iter().map(|sweep| around(&Curve::Line(sweep.line), sweep.radius)));
+    let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
+    let turn = |from: Xy, to: Xy| {
+        let (from, to) = (from - centre, to - centre);
+        libm::atan2(from.perp(&to), from.dot(&to))
+    };
+    for (number, sweep) in sweeps.iter().enumerate() {
+        for other in near(&boxes, around(&Curve::Line(sweep.line), sweep.radius)) {
+            if other <= number {
+                continue;
+            }
+            let met = &sweeps[other];
+            let (here, there) = nearest_points(&sweep.line, &met.line);
+            if (there - here).norm() > sweep.radius + met.radius - OVERLAP {
+                continue;
+            }
+            let angle = turn(sweep.line.start, here) + turn(here, there) + turn(there, met.line.start);
+            if groups.unite(number, other, angle) {
+                return true;
+            }
+        }
+    }
+    false
+}
+
+/// Overlap in mm from which two sweeps are one opening.
+const OVERLAP: f64 = 1e-6;
+
+/// Sweeps that overlap, directly or through others.
+struct Groups {
+    parents: Vec<usize>,
+    /// The angle by which each sweep is ahead of its parent.
+    angles: Vec<f64>,
+}
+
+impl Groups {
+    /// Unites two sweeps, the second of which is ahead by an angle. Returns whether that closes a ring.
+    fn unite(&mut self, one: usize, other: usize, angle: f64) -> bool {
+        let ((root, ahead), (other_root, other_ahead)) = (self.root(one), self.root(other));
+        let difference = ahead + angle - other_ahead;
+        if root == other_root {
+            return difference.abs() > PI;
+        }
+        self.parents[other_root] = root;
+        self.angles[other_root] = difference;
+        false
+    }
+
+    fn root(&mut self, sweep: usize) -> (usize, f64) {
+        let mut way = Vec::new();
+        let mut root = sweep;
+        while self.parents[root] != root {
+            way.push(root);
+            root = self.parents[root];
+        }
+        let mut angle = 0.0;
+        for step in way.into_iter().rev() {
+            angle += self.angles[step];
+            self.angles[step] = angle;
+            self.parents[step] = root;
+        }
+        (root, angle)
+    }
+}
+
+/// A point of the part that is under no cut, near its rim.
+fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &RTree<Boxed>) -> Option<Xy> {
+    let mut curves: Vec<&Curve> = part.part.rings[0].curves.iter().collect();
+    curves.sort_by(|one, other| other.length().total_cmp(&one.length()));
+    let is_free = |at: Xy| {
+        let mut over = near(boxes, square(at, 0.0)).into_iter().map(|number| &cuts[number]);
+        part.is_material(at) && !over.any(|(curve, radius)| curve.distance_to(at) < *radius)
+    };
+    let depths = [0.001, 0.05, 0.3, 1.0, 3.0];
+    depths.into_iter().find_map(|depth| {
+        curves.iter().take(6).find_map(|curve| {
+            let inside = beside(curve, -depth)?;
+            Some(inside.section(0.0, inside.length() / 2.0).end()).filter(|at| is_free(*at))
+        })
+    })
+}
+
+fn sweeps(curve: &Curve, radius: f64) -> Vec<Sweep> {
+    let Curve::Arc(arc) = curve else {
+        let line = Line { start: curve.start(), end: curve.end() };
+        return vec![Sweep { line, radius }];
+    };
+    let step = 2.0 * libm::acos((1.0 - SAGITTA / arc.radius).clamp(-1.0, 1.0)).min(FRAC_PI_4);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number from 1 up")]
+    let count = (arc.degrees.to_radians() / step).ceil().max(1.0) as u32;
+    let length = arc.length();
+    let place = |number: u32| curve.section(0.0, length * f64::from(number) / f64::from(count)).end();
+    (0..count)
+        .map(|number| Sweep { line: Line { start: place(number), end: place(number + 1) }, radius })
+        .collect()
+}
+
+/// The nearest points of two lines.
+fn nearest_points(one: &Line, other: &Line) -> (Xy, Xy) {
+    let (along, across) = (one.end - one.start, other.end - other.start);
+    let between = other.start - one.start;
+    let divisor = along.perp(&across);
+    if divisor != 0.0 {
+        let (share, other_share) = (between.perp(&across) / divisor, between.perp(&along) / divisor);
+        if (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&other_share) {
+            let crossing = one.start + along * share;
+            return (crossing, crossing);
+        }
+    }
+    let pairs = [
+        (one.start, foot(other, across, one.start)),
+        (one.end, foot(other, across, one.end)),
+        (foot(one, along, other.start), other.start),
+        (foot(one, along, other.end), other.end),
+    ];
+    let distance = |pair: &(Xy, Xy)| (pair.1 - pair.0).norm_squared();
+    pairs.into_iter().fold(pairs[0], |best, next| if distance(&next) < distance(&best) { next } else { best })
+}
+
+fn foot(line: &Line, along: Vector2<f64>, at: Xy) -> Xy {
+    let squared = along.norm_squared();
+    if squared == 0.0 {
+        return line.start;
+    }
+    line.start + along * (along.dot(&(at - line.start)) / squared).clamp(0.0, 1.0)
+}

@@ -1,0 +1,173 @@
+//! A part prepared for queries: where a point is, and how deep a cutter there goes into the part.
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::Part;
+use super::intervals::{GAP, Stretch, at as at_along, joined, within};
+use crate::geometry::{Curve, Xy};
+use crate::keep_out::{Outline, around};
+
+/// A part with its rings indexed.
+pub(crate) struct PreparedPart<'p> {
+    pub(crate) part: &'p Part,
+    outlines: Vec<Outline>,
+    ring_boxes: RTree<Boxed>,
+    /// The curves of all rings, each with its ring.
+    curves: Vec<(usize, Curve)>,
+    curve_boxes: RTree<Boxed>,
+}
+
+pub(crate) type Boxed = GeomWithData<Rectangle<[f64; 2]>, usize>;
+
+/// Where a point lies.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Side {
+    Outside,
+    Material,
+    /// Inside these openings.
+    Openings(Vec<usize>),
+}
+
+/// Creates an index of boxes, which are numbered from 0.
+pub(crate) fn index(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> RTree<Boxed> {
+    let numbered = boxes.enumerate().map(|(n, extent)| Boxed::new(Rectangle::from_aabb(extent), n));
+    RTree::bulk_load(numbered.collect())
+}
+
+/// The numbers of the boxes that meet another one, in ascending order, so that no result depends on the shape of the tree.
+pub(crate) fn near(boxes: &RTree<Boxed>, extent: AABB<[f64; 2]>) -> Vec<usize> {
+    let mut found: Vec<usize> =
+        boxes.locate_in_envelope_intersecting(extent).map(|found| found.data).collect();
+    found.sort_unstable();
+    found
+}
+
+/// The square round a point.
+pub(crate) fn square(at: Xy, reach: f64) -> AABB<[f64; 2]> {
+    AABB::from_corners([at.x - reach, at.y - reach], [at.x + reach, at.y + reach])
+}
+
+impl<'p> PreparedPart<'p> {
+    pub(crate) fn new(part: &'p Part) -> Self {
+        let outlines: Vec<Outline> = part.rings.iter().map(|ring| Outline::new(&ring.curves)).collect();
+        let numbered = (0..).zip(&part.rings);
+        let curves: Vec<(usize, Curve)> =
+            numbered.flat_map(|(ring, drawn)| drawn.curves.iter().map(move |curve| (ring, *curve))).collect();
+        Self {
+            part,
+            ring_boxes: index(outlines.iter().map(Outline::extent)),
+            outlines,
+            curve_boxes: index(curves.iter().map(|(_, curve)| around(curve, 1e-6))),
+            curves,
+        }
+    }
+
+    /// The bounding box of the part.
+    pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
+        self.outlines[0].extent()
+    }
+
+    /// The curves near a box, with their rings.
+    pub(crate) fn curves_near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
+        near(&self.curve_boxes, extent)
+            .into_iter()
+            .map(|number| (self.curves[number].0, &self.curves[number].1))
+    }
+
+    pub(crate) fn side(&self, at: Xy) -> Side {
+        let around = near(&self.ring_boxes, AABB::from_point([at.x, at.y]));
+        let inside: Vec<usize> =
+            around.into_iter().filter(|ring| self.outlines[*ring].contains(at)).collect();
+        match inside.split_first() {
+            Some((0, [])) => Side::Material,
+            Some((0, openings)) => Side::Openings(openings.to_vec()),
+            _ => Side::Outside,
+        }
+    }
+
+    pub(crate) fn is_material(&self, at: Xy) -> bool {
+        self.side(at) == Side::Material
+    }
+
+    /// The distance from a point to any ring, or to a single one; infinite beyond `reach`.
+    fn distance(&self, at: Xy, ring: Option<usize>, reach: f64) -> f64 {
+        let curves = self.curves_near(square(at, reach));
+        let of_ring = curves.filter(|(own, _)| ring.is_none_or(|ring| ring == *own));
+        of_ring.map(|(_, curve)| curve.distance_to(at)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How deep a cutter of this radius goes into the part with its centre there, in mm; negative if it stays outside. A cutter inside
+    /// several openings may stay inside any of them.
+    pub(crate) fn depth(&self, at: Xy, radius: f64) -> f64 {
+        match self.side(at) {
+            Side::Outside => radius - self.distance(at, Some(0), radius),
+            Side::Openings(openings) => {
+                let depth = |ring: usize| radius - self.distance(at, Some(ring), radius);
+                openings.into_iter().map(depth).fold(f64::INFINITY, f64::min)
+            }
+            Side::Material => {
+                let mut reach = radius.max(1.0);
+                loop {
+                    let distance = self.distance(at, None, reach);
+                    if distance <= reach || reach > FARTHEST {
+                        return radius + distance.min(FARTHEST);
+                    }
+                    reach *= 4.0;
+                }
+            }
+        }
+    }
+
+    /// The stretches of a way on which a cutter of this radius goes deeper than `tolerance` into the part. A way without length gives a
+    /// stretch without length.
+    pub(crate) fn entered(&self, way: &Curve, radius: f64, tolerance: f64) -> Vec<Stretch> {
+        let length = way.length();
+        if length == 0.0 {
+            let is_deep = self.depth(way.start(), radius) > tolerance;
+            return if is_deep { vec![(0.0, 0.0)] } else { Vec::new() };
+        }
+        // The depth is continuous and passes the tolerance only where a ring is exactly that far away.
+        let mut cuts = Vec::new();
+        for (_, curve) in self.curves_near(around(way, radius)) {
+            within(way, curve, radius - tolerance, &mut cuts);
+        }
+        let mut ends: Vec<f64> = cuts.into_iter().flat_map(|(from, to)| [from, to]).collect();
+        ends.extend([0.0, length]);
+        ends.sort_by(f64::total_cmp);
+        let is_deep = |cut: &&[f64]| {
+            let middle = at_along(way, f64::midpoint(cut[0], cut[1]));
+            cut[1] - cut[0] > GAP && self.depth(middle, radius) > tolerance
+        };
+        joined(ends.windows(2).filter(is_deep).map(|cut| (cut[0], cut[1])).collect(), GAP)
+    }
+
+    /// The deepest place of a stretch, and its depth. The stretch is sampled, and the search refined around the best sample.
+    pub(crate) fn deepest(&self, way: &Curve, (from, to): Stretch, radius: f64) -> (Xy, f64) {
+        let place = |along: f64| at_along(way, along);
+        let depth = |along: f64| self.depth(place(along), radius);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let samples = ((to - from) / SAMPLED).ceil().clamp(8.0, 64.0) as u32;
+        let step = (to - from) / f64::from(samples);
+        let sampled = (0..=samples).map(|number| from + step * f64::from(number));
+        let deeper = |best: (f64, f64), next: (f64, f64)| if next.0 > best.0 { next } else { best };
+        let best = sampled.map(|along| (depth(along), along)).fold((f64::NEG_INFINITY, from), deeper);
+        let (mut low, mut high) = ((best.1 - step).max(from), (best.1 + step).min(to));
+        for _ in 0..REFINED {
+            let third = (high - low) / 3.0;
+            if depth(low + third) < depth(high - third) { low += third } else { high -= third }
+        }
+        let middle = f64::midpoint(low, high);
+        let best = deeper(best, (depth(middle), middle));
+        (place(best.1), best.0)
+    }
+}
+
+/// Upper bound on distances in mm: no part is larger.
+const FARTHEST: f64 = 1e7;
+
+/// Distance in mm between the samples of a stretch.
+const SAMPLED: f64 = 0.5;
+
+/// Number of steps of the search between two samples: their distance shrinks to less than a micrometre.
+const REFINED: usize = 20;

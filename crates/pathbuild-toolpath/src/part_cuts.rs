@@ -1,0 +1,173 @@
+//! The cuts of a single path, for the check of its part. (book: language/part)
+
+use std::sync::Arc;
+
+use pathbuild_motion::{Move, Pace};
+use pathbuild_path::{
+    Arc as CurveArc, Bars, Curve, Cut, Line, PartCut, Path, PathCuts, PathOptions, Role, SegmentKind, Shape,
+    StandingBar, WalkedPath, Way, Xy, approx,
+};
+
+use crate::fold::{Parts, fold_traced};
+use crate::mill::BarPlan;
+use crate::moves::way;
+
+/// The cuts of a path without those that it embeds, in the coordinates of its drawing.
+pub fn part_cuts(path: &Path, walked: &WalkedPath, is_compatible: bool) -> PathCuts {
+    let options = PathOptions {
+        feed: Some(1.0),
+        sweep_height: Some(path.embedded_sweep_height()),
+        compatible: is_compatible,
+        ..PathOptions::default()
+    };
+    let (program, trace) = fold_traced(&LonePath { path, walked }, (), "", options);
+    let radius = path.tool / 2.0;
+    let cuts = program.moves().filter_map(|(number, movement)| {
+        let element = trace.steps.get(number as usize - 1)?.element?;
+        let way = cutting_way(&movement).filter(|way| approx::above(path.thickness, way.lowest()))?;
+        let curve = shifted(&way.curve, path.start);
+        Some(PartCut { way: Way { curve, ..way }, radius, element })
+    });
+    PathCuts {
+        name: path.name.clone(),
+        cuts: cuts.collect(),
+        bars: bars(path),
+        has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
+        drawn: Arc::clone(&path.drawn),
+    }
+}
+
+/// The way of a move that cuts, as opposed to a rapid move.
+pub fn cutting_way(movement: &Move) -> Option<Way> {
+    if movement.pace == Pace::Rapid { None } else { way(movement) }
+}
+
+/// A path that embeds nothing.
+struct LonePath<'p> {
+    path: &'p Path,
+    walked: &'p WalkedPath,
+}
+
+impl Parts for LonePath<'_> {
+    type Id = ();
+
+    fn path(&self, (): ()) -> &Path {
+        self.path
+    }
+
+    fn walked(&self, (): ()) -> &WalkedPath {
+        self.walked
+    }
+
+    fn embedded(&self, (): (), _: usize) -> Option<()> {
+        None
+    }
+}
+
+/// Undoes the placement of an emitted path, which begins at (0, 0).
+fn shifted(curve: &Curve, by: Xy) -> Curve {
+    let by = by.coords;
+    match curve {
+        Curve::Line(line) => Curve::Line(Line { start: line.start + by, end: line.end + by }),
+        Curve::Arc(arc) => {
+            Curve::Arc(CurveArc { centre: arc.centre + by, start: arc.start + by, end: arc.end + by, ..*arc })
+        }
+    }
+}
+
+/// The support bars of a path.
+fn bars(path: &Path) -> Vec<StandingBar> {
+    let mut all = Vec::new();
+    let mut halves = Vec::new();
+    for segment in &path.segments {
+        match &segment.kind {
+            SegmentKind::Cut(cut) => {
+                let cut = &path.cuts[*cut as usize];
+                let element = &path.drawn.elements[segment.element as usize];
+                let (Some(bars), Role::Cut(Cut::Support), Shape::Curve(curve)) =
+                    (&cut.bars, element.role, element.shape)
+                else {
+                    continue;
+                };
+                let of_segment = BarsAlong { bars, bottom: cut.bottom, curve, element: segment.element };
+                halves.extend([curve.start(), curve.end()]);
+                all.extend(of_segment.places(path.tool));
+            }
+            SegmentKind::Helix(number) => {
+                let helix = &path.helices[*number as usize];
+                let Some((bottom, bars)) = &helix.bars else { continue };
+                let radius = helix.axis_radius(path.tool);
+                let low = Xy::new(helix.centre.x, helix.centre.y - radius);
+                let centre = helix.centre;
+                let curve = Curve::Arc(CurveArc {
+                    centre,
+                    radius,
+                    start: low,
+                    end: low,
+                    clockwise: true,
+                    degrees: 360.0,
+                });
+                halves.extend([low, low]);
+                all.extend(
+                    BarsAlong { bars, bottom: *bottom, curve, element: segment.element }.places(path.tool),
+                );
+            }
+            SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}
+        }
+    }
+    // A half bar at the end of a segment goes on in the next one, or the cut that follows takes half of O from it.
+    let goes_on = |at: Xy| halves.iter().filter(|half| approx::coincide(**half, at)).count() > 1;
+    all.into_iter().map(|bar: BarPlace| bar.standing(path.tool / 2.0, &goes_on)).collect()
+}
+
+/// The bars of a segment.
+struct BarsAlong<'b> {
+    bars: &'b Bars,
+    bottom: f64,
+    curve: Curve,
+    element: u32,
+}
+
+/// A bar, and its position along its segment in mm.
+struct BarPlace {
+    curve: Curve,
+    from: f64,
+    to: f64,
+    /// Length in mm of the slopes beside it, at most.
+    slope: f64,
+    top: f64,
+    element: u32,
+}
+
+impl BarsAlong<'_> {
+    fn places(&self, tool: f64) -> Vec<BarPlace> {
+        let length = self.curve.length();
+        let plan = BarPlan::new(self.bars, self.bottom, tool, length);
+        let spans = plan.map_or_else(|| vec![(0.0, length)], |plan| plan.bars().collect());
+        let place = |(from, to)| BarPlace {
+            curve: self.curve,
+            from,
+            to,
+            slope: self.bars.top - self.bottom,
+            top: self.bars.top,
+            element: self.element,
+        };
+        spans.into_iter().map(place).collect()
+    }
+}
+
+impl BarPlace {
+    /// The bar without what the cuts beside it take.
+    fn standing(&self, radius: f64, goes_on: &dyn Fn(Xy) -> bool) -> StandingBar {
+        let length = self.curve.length();
+        let is_whole = |end: f64, at: Xy| approx::near(end, 0.0) && goes_on(at);
+        let from = if is_whole(self.from, self.curve.start()) { 0.0 } else { self.from + radius };
+        let to = if is_whole(length - self.to, self.curve.end()) { length } else { self.to - radius };
+        let foot = self.curve.section((self.from - self.slope).max(0.0), (self.to + self.slope).min(length));
+        let middle = (to - from > SHORTEST).then(|| self.curve.section(from, to));
+        StandingBar { middle, foot, top: self.top, element: self.element }
+    }
+}
+
+/// Length in mm below which a bar is none.
+const SHORTEST: f64 = 0.01;
