@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 
-use super::{View, place};
+use super::{View, view};
 use crate::report::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
@@ -11,9 +11,9 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
 
 pub(super) fn line(diagnostic: &Diagnostic, view: &View) -> String {
     let location =
-        place::location(diagnostic, view).map(|location| format!("{location}: ")).unwrap_or_default();
-    let severity = place::severity(diagnostic.severity, view);
-    let element = place::element(diagnostic, view);
+        view::location(diagnostic, view).map(|location| format!("{location}: ")).unwrap_or_default();
+    let severity = view::severity(diagnostic.severity, view);
+    let element = view::element(diagnostic, view);
     let element = if element.is_empty() { element } else { format!(" ({element})") };
     format!("{location}{severity}[{}] {}{element}\n", diagnostic.code(), diagnostic.text(view.lang))
 }

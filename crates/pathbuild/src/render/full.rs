@@ -10,7 +10,7 @@ use miette::{
 };
 use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, shown};
 
-use super::{View, place};
+use super::{View, view};
 use crate::report::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
@@ -97,11 +97,10 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
 const AROUND: usize = 400;
 
 fn header(diagnostic: &Diagnostic, view: &View) -> String {
-    let severity = place::severity(diagnostic.severity, view);
+    let severity = view::severity(diagnostic.severity, view);
     let mut header = format!("{severity}[{}] {}", diagnostic.code(), diagnostic.code().name());
-    let element = place::element(diagnostic, view);
-    for part in place::location(diagnostic, view).into_iter().chain((!element.is_empty()).then_some(element))
-    {
+    let element = view::element(diagnostic, view);
+    for part in view::location(diagnostic, view).into_iter().chain((!element.is_empty()).then_some(element)) {
         header.push_str(" · ");
         header.push_str(&part);
     }
@@ -112,7 +111,7 @@ fn header(diagnostic: &Diagnostic, view: &View) -> String {
 fn further(diagnostic: &Diagnostic, view: &View) -> Vec<String> {
     let note = view.choose("note", "Hinweis");
     let notes = diagnostic.notes.iter().map(|remark| format!("{note}: {}", remark.text(view.lang)));
-    let trace = diagnostic.trace.iter().rev().map(|step| place::embedding(step, view));
+    let trace = diagnostic.trace.iter().rev().map(|step| view::embedding(step, view));
     notes.chain(trace).collect()
 }
 

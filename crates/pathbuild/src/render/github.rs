@@ -4,7 +4,7 @@
 
 use pathbuild_diagnostic::{Diagnostic, Severity, shown};
 
-use super::{View, concise, place};
+use super::{View, concise, view};
 use crate::report::Findings;
 
 /// Number of annotations per severity that GitHub shows for a step.
@@ -37,7 +37,7 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
     }
     properties
         .push(format!("title={}", property(&format!("{} {}", diagnostic.code(), diagnostic.code().name()))));
-    let element = place::element(diagnostic, view);
+    let element = view::element(diagnostic, view);
     let text =
         [Some(diagnostic.text(view.lang)), view.help(diagnostic), (!element.is_empty()).then_some(element)];
     let text = text.into_iter().flatten().collect::<Vec<_>>().join("\n");

@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
-use super::{View, place};
+use super::{View, view};
 use crate::report::{Findings, Fingerprint};
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
@@ -18,7 +18,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
 }
 
 fn issue(diagnostic: &Diagnostic, fingerprint: Fingerprint, view: &View) -> Json {
-    let element = place::element(diagnostic, view);
+    let element = view::element(diagnostic, view);
     let element = if element.is_empty() { element } else { format!(" ({element})") };
     let help = view.help(diagnostic).unwrap_or_default();
     json!({

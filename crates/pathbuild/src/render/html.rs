@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_view::escaped;
 
-use super::{RenderedText, View, place};
+use super::{RenderedText, View, view};
 use crate::report::Findings;
 
 /// Renders the page. `pictures` has one entry per finding.
@@ -41,7 +41,7 @@ fn summary(findings: &Findings, view: &View) -> String {
 
 /// One finding: picture, code, message, help, place.
 fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
-    let severity = place::severity(diagnostic.severity, view);
+    let severity = view::severity(diagnostic.severity, view);
     let class = if diagnostic.is_error() { "error" } else { "warning" };
     let (code, name) = (diagnostic.code(), diagnostic.code().name());
     _ = writeln!(text, "<article class=\"{class}\">");
@@ -56,12 +56,12 @@ fn article(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, vi
     if let Some(fault) = &diagnostic.text {
         _ = writeln!(text, "<pre>{}</pre>", lines(&fault.text));
     }
-    let location = place::location(diagnostic, view).unwrap_or_default();
-    let parts = [location, place::element(diagnostic, view)];
+    let location = view::location(diagnostic, view).unwrap_or_default();
+    let parts = [location, view::element(diagnostic, view)];
     let parts: Vec<String> = parts.iter().filter(|part| !part.is_empty()).map(|part| escaped(part)).collect();
     _ = writeln!(text, "<p class=\"place\">{}</p>", parts.join(" · "));
     for step in &diagnostic.trace {
-        _ = writeln!(text, "<p class=\"place\">{}</p>", escaped(&place::embedding(step, view)));
+        _ = writeln!(text, "<p class=\"place\">{}</p>", escaped(&view::embedding(step, view)));
     }
     text.push_str("</div>\n</article>\n");
 }

@@ -7,7 +7,6 @@ mod gitlab;
 mod html;
 pub(crate) mod json;
 mod junit;
-mod place;
 mod sarif;
 mod view;
 

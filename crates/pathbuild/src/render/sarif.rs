@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
-use super::{View, place};
+use super::{View, view};
 use crate::report::{Findings, Fingerprint};
 
 /// Upper bound on results: GitHub refuses runs with more.
@@ -81,7 +81,7 @@ fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], vie
         "message": { "text": message(diagnostic, view) },
         "locations": location(diagnostic, view).map_or_else(Vec::new, |location| vec![location]),
         "relatedLocations": diagnostic.trace.iter().map(|step| json!({
-            "message": { "text": place::embedding(step, view) },
+            "message": { "text": view::embedding(step, view) },
             "physicalLocation": { "artifactLocation": artifact(&view.raw_name(&step.file)) },
         })).collect::<Vec<_>>(),
         "partialFingerprints": { "pathbuild/v1": fingerprint.to_string() },
@@ -97,7 +97,7 @@ fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], vie
 
 /// Message, help, and place. SARIF viewers would not show the place otherwise.
 fn message(diagnostic: &Diagnostic, view: &View) -> String {
-    let element = place::element(diagnostic, view);
+    let element = view::element(diagnostic, view);
     let parts =
         [Some(diagnostic.text(view.lang)), view.help(diagnostic), (!element.is_empty()).then_some(element)];
     parts.into_iter().flatten().collect::<Vec<_>>().join("\n")

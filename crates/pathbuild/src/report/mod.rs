@@ -1,15 +1,217 @@
 //! Findings at the end of a run: baseline, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
 
 mod baseline;
-mod conclude;
-mod fingerprint;
 mod pictures;
-mod summary;
 
-pub use baseline::Baseline;
-pub use conclude::conclude;
-pub use fingerprint::Fingerprint;
+use std::collections::{BTreeMap, BTreeSet};
+use std::mem::ManuallyDrop;
+use std::time::Duration;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, in_prose};
+use pathbuild_workspace::check::CheckOutcome;
+use pathbuild_workspace::files;
+
+use self::baseline::BaselineComparison;
+use crate::args::CheckArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::numbers::{count, counted};
+use crate::render::View;
+use crate::table::table;
+
 pub use pathbuild_workspace::check::CheckedFile;
 pub use pathbuild_workspace::findings::{Findings, judge};
+
+pub use self::baseline::{Baseline, Fingerprint};
+
 pub(crate) use pictures::{pictures, write as write_pictures};
-pub use summary::summary;
+
+/// Ends a check of the given duration: applies severities and baseline, shows findings, writes reports and the summary, and returns the
+/// exit status.
+pub fn conclude(context: &Context, args: &CheckArgs, checked: CheckOutcome, time: Duration) -> ExitStatus {
+    let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
+    match &args.baseline {
+        Some(file) if args.update_baseline => {
+            update(context, &context.working_directory.join(file), &findings)
+        }
+        Some(file) => match Baseline::read(
+            &*context.system,
+            &context.working_directory.join(file),
+            context.settings.limits.file_size.value,
+        ) {
+            Ok(baseline) => deliver(context, args, &baseline.compare(findings), time),
+            Err(faults) => context.refuse(faults),
+        },
+        None => {
+            // Leak instead of dropping: freeing a million values takes longer than process exit.
+            let compared = ManuallyDrop::new(BaselineComparison { new: findings, known: 0, gone: 0 });
+            deliver(context, args, &compared, time)
+        }
+    }
+}
+
+fn deliver(context: &Context, args: &CheckArgs, compared: &BaselineComparison, time: Duration) -> ExitStatus {
+    let findings = &compared.new;
+    let pictures = args.pictures.as_ref();
+    let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
+    show(context, args.max_errors, findings);
+    if compared.gone > 0 {
+        let (en, de) = (
+            "entries of the baseline that are no longer found",
+            "bekannte Meldungen, die nicht mehr auftreten",
+        );
+        let phrase = context.choose(en, de);
+        context.printer.detail(format_args!("{phrase}: {}", compared.gone));
+    }
+    if findings.diagnostics.len() > MANY && !context.format.is_for_machines() {
+        context.printer.status_lines(by_code(context, findings));
+    }
+    context.output.figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
+    context.output.figure("drawings", findings.checked.len());
+    context.output.figure("known", compared.known);
+    context.printer.status(summary(findings, compared.known, time, context.lang()));
+    if !failed.is_empty() {
+        return context.fail(failed);
+    }
+    let is_wrong = findings.errors() > 0 || args.error_on_warning && findings.warnings() > 0;
+    if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// Number of findings beyond which they are counted by code, because nobody reads them all.
+const MANY: usize = 100;
+
+/// Shows findings. Text output stops after `most` errors.
+fn show(context: &Context, most: Option<usize>, findings: &Findings) {
+    let Some(most) = most.filter(|_| !context.format.is_for_machines()) else {
+        return context.show(findings);
+    };
+    let mut errors = 0;
+    let is_shown = |found: &&Diagnostic| {
+        errors += usize::from(found.is_error());
+        errors <= most
+    };
+    let shown: Vec<Diagnostic> = findings.diagnostics.iter().take_while(is_shown).cloned().collect();
+    let hidden = findings.diagnostics.len() - shown.len();
+    context.show_some(findings, &Findings { diagnostics: shown, checked: Vec::new() });
+    if hidden > 0 {
+        let findings = match context.lang() {
+            Lang::En => ["finding", "findings"],
+            Lang::De => ["Meldung", "Meldungen"],
+        };
+        let phrase = context.choose("not shown (--max-errors)", "nicht gezeigt (--max-errors)");
+        context.printer.status(format_args!("{} {phrase}", counted(hidden, context.lang(), findings)));
+    }
+}
+
+/// A table of how often each code was found, the most frequent first.
+fn by_code(context: &Context, findings: &Findings) -> String {
+    let mut counts: BTreeMap<(Code, Severity), usize> = BTreeMap::new();
+    for found in &findings.diagnostics {
+        *counts.entry((found.code(), found.severity)).or_default() += 1;
+    }
+    let mut counts: Vec<_> = counts.into_iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let rows = counts.into_iter().map(|((code, severity), number)| {
+        let severity = match severity {
+            Severity::Error => context.choose("error", "Fehler"),
+            Severity::Warning => context.choose("warning", "Warnung"),
+        };
+        vec![count(number, context.lang()), severity.to_owned(), code.to_string(), code.name().to_owned()]
+    });
+    table(&[(context.choose("count", "Anzahl"), true), ("", false), ("", false), ("", false)], rows)
+}
+
+fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus {
+    // Always in English, so that the file does not depend on the user's language.
+    let text = Baseline::text(findings, &plain_view(context, Lang::En));
+    match files::replace(context, file, &text) {
+        Ok(()) => {
+            let findings = findings.diagnostics.len();
+            let known = match context.lang() {
+                Lang::En => counted(findings, Lang::En, ["known finding", "known findings"]),
+                Lang::De => counted(findings, Lang::De, ["bekannte Meldung", "bekannte Meldungen"]),
+            };
+            context.printer.status(format_args!("{}: {known}", file.file_name().unwrap_or_default()));
+            ExitStatus::Success
+        }
+        Err(fault) => context.fail(vec![*fault]),
+    }
+}
+
+/// The view for text files: no colours, no wrapping.
+fn plain_view(context: &Context, lang: Lang) -> View {
+    View { lang, color: false, width: None, base: context.working_directory.clone(), root: None }
+}
+
+/// The last line of a check: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. `known` is the number of findings
+/// suppressed by a baseline.
+pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
+    let words = match lang {
+        Lang::En => &EN,
+        Lang::De => &DE,
+    };
+    let paths = findings.checked.iter().map(|file| file.paths.len()).sum();
+    let drawings = findings.checked.len();
+    let errors = match findings.errors() {
+        0 => words.no_errors.to_owned(),
+        errors => format!(
+            "{} in {}",
+            words.count(errors, words.errors),
+            words.count(erroneous(findings), words.drawings)
+        ),
+    };
+    let warnings = match findings.warnings() {
+        0 => words.no_warnings.to_owned(),
+        warnings => words.count(warnings, words.warnings),
+    };
+    let known = if known == 0 { String::new() } else { format!(", {} {}", count(known, lang), words.known) };
+    let seconds = in_prose(format!("{:.1}", time.as_secs_f64()), lang);
+    let [paths, drawings] = [words.count(paths, words.paths), words.count(drawings, words.drawings)];
+    format!("{paths} in {drawings}: {errors}, {warnings}{known} ({seconds} s)")
+}
+
+/// Number of drawings with errors.
+fn erroneous(findings: &Findings) -> usize {
+    let errors = findings.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
+    errors.filter_map(|diagnostic| diagnostic.file.as_deref()).collect::<BTreeSet<_>>().len()
+}
+
+struct Words {
+    paths: [&'static str; 2],
+    drawings: [&'static str; 2],
+    errors: [&'static str; 2],
+    warnings: [&'static str; 2],
+    no_errors: &'static str,
+    no_warnings: &'static str,
+    known: &'static str,
+    lang: Lang,
+}
+
+const EN: Words = Words {
+    paths: ["path", "paths"],
+    drawings: ["drawing", "drawings"],
+    errors: ["error", "errors"],
+    warnings: ["warning", "warnings"],
+    no_errors: "no errors",
+    no_warnings: "no warnings",
+    known: "known",
+    lang: Lang::En,
+};
+
+const DE: Words = Words {
+    paths: ["Pfad", "Pfade"],
+    drawings: ["Zeichnung", "Zeichnungen"],
+    errors: ["Fehler", "Fehler"],
+    warnings: ["Warnung", "Warnungen"],
+    no_errors: "keine Fehler",
+    no_warnings: "keine Warnungen",
+    known: "bekannt",
+    lang: Lang::De,
+};
+
+impl Words {
+    fn count(&self, count: usize, noun: [&str; 2]) -> String {
+        counted(count, self.lang, noun)
+    }
+}

@@ -4,9 +4,7 @@
 //! thread and knows only the hub. Every change has a number: pages are notified of new numbers by events, and request all changes since the
 //! one they know.
 
-mod connections;
 mod endpoint;
-mod guard;
 mod hub;
 mod page;
 mod routes;

@@ -21,9 +21,9 @@ use tokio::runtime;
 use tokio::sync::watch;
 use tokio::time::timeout;
 
-use super::connections::answer;
+use super::endpoint::answer;
 use super::endpoint::{Endpoint, random};
-use super::guard::{HEADERS, admit};
+use super::endpoint::{HEADERS, admit};
 use super::hub::{AnswerForm, Hub};
 
 /// State of the routes.

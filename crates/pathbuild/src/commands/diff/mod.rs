@@ -1,23 +1,26 @@
 //! `pathbuild diff`: shows how changed drawings change the moves. (docs: "Comparing")
 
-mod json;
-mod markdown;
 mod output;
-mod page;
 mod revision;
-mod side;
-mod text;
 
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Pictures, Tree, programs, trees};
+use pathbuild_workspace::emit::ShownText;
 use pathbuild_workspace::session::Session;
+use pathbuild_workspace::{Inputs, Workspace};
 
+use super::program::Program;
 use crate::args::{DiffArgs, Format};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 
 use output::Output;
-use side::{Drawings, Failure, Side};
+use revision::Revision;
 
 /// Runs the command. Changes are not errors, but paths that can no longer be compared are.
 pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
@@ -26,7 +29,7 @@ pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
         Err(reason) => return context.usage(&reason),
     };
     let pictures = output.has_pictures().then(|| Pictures { lang: context.lang() });
-    let compared = match side::sides(context, args) {
+    let compared = match sides(context, args) {
         Ok([Side::Drawings(old), Side::Drawings(new)]) => Ok(drawings(context, &old, &new, pictures)),
         Ok([Side::Program(old), Side::Program(new)]) => Ok(single(*old, *new, pictures)),
         Ok(_) => {
@@ -59,7 +62,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
 }
 
 /// Compares two programs, or a program and a path.
-fn single(old: side::ComparedProgram, new: side::ComparedProgram, pictures: Option<Pictures>) -> Comparison {
+fn single(old: ComparedProgram, new: ComparedProgram, pictures: Option<Pictures>) -> Comparison {
     let changed = programs(&old.path, &new.path, pictures);
     let is_same = changed.groups.is_empty();
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
@@ -72,9 +75,9 @@ fn single(old: side::ComparedProgram, new: side::ComparedProgram, pictures: Opti
 fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitStatus {
     let findings = context.findings(comparison.problems.concat());
     match context.format {
-        Format::Json => json::rows(context, comparison),
+        Format::Json => output::rows(context, comparison),
         format if format.is_for_machines() => {}
-        _ => context.printer.result(text::text(comparison, context.lang())),
+        _ => context.printer.result(output::text(comparison, context.lang())),
     }
     context.show(&findings);
     if let Err(problem) = output.deliver(context, comparison) {
@@ -87,4 +90,153 @@ fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitSt
     } else {
         ExitStatus::Success
     }
+}
+
+/// One side of the comparison.
+pub(super) enum Side {
+    Drawings(Box<Drawings>),
+    Program(Box<ComparedProgram>),
+}
+
+/// Drawings below a directory, with their configuration.
+pub(super) struct Drawings {
+    pub(super) workspace: Workspace,
+    pub(super) inputs: Inputs,
+    pub(super) root: Utf8PathBuf,
+    /// The revision that they were checked out from; owns the files.
+    revision: Option<Revision>,
+}
+
+/// A program, or the program of a path.
+pub(super) struct ComparedProgram {
+    pub(super) path: ScenePath,
+    pub(super) problems: Vec<Diagnostic>,
+}
+
+/// Why nothing can be compared.
+pub(super) enum Failure {
+    Usage(String),
+    Refused(Vec<Diagnostic>),
+    Found(Vec<Diagnostic>),
+}
+
+/// Kind of an argument.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ArgumentKind {
+    Drawings,
+    Program,
+    /// A revision, or a path if the other argument is a program.
+    Name,
+}
+
+/// Resolves both sides, the old one first.
+pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Failure> {
+    let new = args.new.as_deref().unwrap_or(".");
+    let kinds = [args.old.as_str(), new].map(|argument| kind_of(context, argument));
+    let beside_program = kinds.contains(&ArgumentKind::Program);
+    let side = |argument: &str, kind_of| match kind_of {
+        ArgumentKind::Program => {
+            program(context, Utf8Path::new(argument), args).map(Box::new).map(Side::Program)
+        }
+        ArgumentKind::Name if beside_program => path(context, argument).map(Box::new).map(Side::Program),
+        ArgumentKind::Drawings => drawings_side(context, argument.into(), None),
+        ArgumentKind::Name => {
+            let revision = revision::check_out(context, argument).map_err(Failure::Usage)?;
+            drawings_side(context, revision.root.clone(), Some(revision))
+        }
+    };
+    Ok([side(&args.old, kinds[0])?, side(new, kinds[1])?])
+}
+
+fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
+    let place = Utf8Path::new(argument);
+    let is_drawing = Session::is_drawing(place);
+    match context.system.kind(place) {
+        FileKind::Directory => ArgumentKind::Drawings,
+        FileKind::File if is_drawing => ArgumentKind::Drawings,
+        FileKind::File => ArgumentKind::Program,
+        _ if argument == "." => ArgumentKind::Drawings,
+        FileKind::Missing => ArgumentKind::Name,
+    }
+}
+
+fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -> Result<Side, Failure> {
+    let is_drawing = Session::is_drawing(&place);
+    let named = Inputs::places([&place]);
+    let (workspace, faults) = context.elsewhere(&named);
+    if !faults.is_empty() {
+        return Err(Failure::Refused(faults));
+    }
+    let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
+    let absolute =
+        |place: &Utf8Path| pathbuild_workspace::config::clean(&context.working_directory.join(place));
+    // A directory with a configuration stands for its library.
+    let is_library = !is_drawing
+        && workspace.has_library()
+        && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
+    let inputs = if is_library { Inputs::default() } else { named };
+    Ok(Side::Drawings(Box::new(Drawings { workspace, inputs, root, revision })))
+}
+
+impl Drawings {
+    /// Renames files of a revision to `REVISION:FILE`, as Git does.
+    pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
+        let Some(revision) = &self.revision else { return };
+        for problem in problems {
+            let place = problem.file.as_deref().map(|file| context.working_directory.join(file));
+            let below = place.as_deref().and_then(|place| place.strip_prefix(&revision.root).ok());
+            if let Some(below) = below {
+                problem.file = Some(format!("{}:{below}", revision.name).into());
+            }
+        }
+    }
+}
+
+fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<ComparedProgram, Failure> {
+    let program =
+        Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
+    Ok(ComparedProgram { path: program.scene_path(context), problems: program.read.problems })
+}
+
+/// The program of a path in the working directory.
+fn path(context: &Context, name: &str) -> Result<ComparedProgram, Failure> {
+    let inputs = Inputs { inputs: vec![name.to_owned()] };
+    Session::new(context).with_stable_files(|session| {
+        let selection = session.select(&inputs);
+        let [path] = selection.paths.as_slice() else {
+            let reason = || {
+                context.phrase(
+                    "{} is neither a directory nor a program nor one path",
+                    "{} ist weder ein Verzeichnis noch ein Programm noch ein einzelner Pfad",
+                    &format!("{name:?}"),
+                )
+            };
+            let problems = session.with_hints(selection.problems);
+            return Err(if problems.is_empty() {
+                Failure::Usage(reason())
+            } else {
+                Failure::Found(problems)
+            });
+        };
+        let seen = session.scene(path.file, std::slice::from_ref(&path.name), ShownText::Native);
+        if seen.diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(Failure::Found(session.with_hints(seen.diagnostics)));
+        }
+        let path = seen.scene.paths.into_iter().next().unwrap_or_default();
+        Ok(ComparedProgram { path: as_printed(path), problems: seen.diagnostics })
+    })
+}
+
+/// A path's program as read back from its text, with numbers rounded as printed.
+fn as_printed(path: ScenePath) -> ScenePath {
+    let text = path.gcode.unwrap_or_default();
+    let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
+    let source = GcodeSource {
+        file: &path.file,
+        steps: &read.steps,
+        text: text.as_bytes(),
+        tool: path.tool,
+        rapid: None,
+    };
+    ScenePath { name: path.name, totals: path.totals, ..gcode_path(&source) }
 }

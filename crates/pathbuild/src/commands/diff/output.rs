@@ -1,13 +1,17 @@
 //! Writes a comparison to a file, besides printing it.
 
+use std::fmt::Write;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::WriteOutcome;
-use pathbuild_diagnostic::{Diagnostic, shown};
-use pathbuild_workspace::diff::Comparison;
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
+use pathbuild_view::{ChangeKind, Group, Totals, escaped, moves, phrase};
+use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet, ProgramDiff};
 use pathbuild_workspace::files::cannot_write;
+use serde_json::{Value, json};
 
-use super::{markdown, page};
 use crate::context::Context;
+use crate::numbers::counted;
 
 /// A file to write with its format, if any.
 pub(super) struct Output(Option<(Format, Utf8PathBuf)>);
@@ -51,8 +55,8 @@ impl Output {
     pub(super) fn deliver(&self, context: &Context, comparison: &Comparison) -> Result<(), Box<Diagnostic>> {
         let Some((format, file)) = &self.0 else { return Ok(()) };
         let text = match format {
-            Format::Html => page::page(comparison, context.lang()),
-            Format::Markdown => markdown::markdown(comparison, context.lang()),
+            Format::Html => page(comparison, context.lang()),
+            Format::Markdown => markdown(comparison, context.lang()),
         };
         let refused = |reason| Box::new(cannot_write(file, reason));
         let state = match context.system.write(file, text.as_bytes()).map_err(refused)? {
@@ -62,4 +66,306 @@ impl Output {
         context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
         Ok(())
     }
+}
+
+/// The whole comparison: the outcome of each path, and a summary.
+pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
+    let mut text = String::new();
+    for path in &comparison.paths {
+        _ = writeln!(
+            text,
+            "{} · {}: {}",
+            shown::line(&path.name),
+            shown::line(&place(path)),
+            outcome(path, comparison, lang)
+        );
+        if let Outcome::Changed(program) = &path.outcome {
+            for line in details(program, lang) {
+                _ = writeln!(text, "  {line}");
+            }
+        }
+    }
+    _ = writeln!(text, "{}", summary(comparison, lang));
+    text
+}
+
+/// The drawing of a path, or both if it moved to another drawing.
+pub(super) fn place(path: &PathDiff) -> String {
+    let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
+    match (old, new) {
+        (Some(old), Some(new)) if old != new => format!("{old} → {new}"),
+        (_, Some(file)) | (Some(file), None) => file.to_owned(),
+        (None, None) => String::new(),
+    }
+}
+
+/// The outcome of a path, in a few words.
+pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
+    let (en, de) = match &path.outcome {
+        // `check` builds no programs, so it does not report limits that only programs exceed.
+        Outcome::Broken if comparison.tells_of(path) => ("has errors now", "hat jetzt Fehler"),
+        Outcome::Added => ("new", "neu"),
+        Outcome::Removed => ("gone", "weg"),
+        Outcome::Broken => {
+            ("has errors now (pathbuild check shows them)", "hat jetzt Fehler (pathbuild check zeigt sie)")
+        }
+        Outcome::Mended => ("had errors, has none now", "hatte Fehler, jetzt keine mehr"),
+        Outcome::StillBroken => ("has errors, before and now", "hat Fehler, vorher und jetzt"),
+        Outcome::OtherDrawing => {
+            ("the same moves, from another drawing", "dieselben Bewegungen, aus anderer Zeichnung")
+        }
+        Outcome::Changed(_) => ("changed", "geändert"),
+    };
+    lang.choose(en, de)
+}
+
+/// Errors that kept paths and drawings from being compared, one per line.
+pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
+    let errors = comparison.problems.iter().flatten().filter(|problem| problem.is_error());
+    let line = |problem: &Diagnostic| {
+        let file = problem.file.as_deref().map(Utf8Path::as_str);
+        let places: Vec<&str> = [file, problem.path.as_deref()].into_iter().flatten().collect();
+        let text = problem.text(lang);
+        match problem.help(lang) {
+            Some(help) => format!("{}: {}: {text} ({help})", places.join(" · "), problem.code()),
+            None => format!("{}: {}: {text}", places.join(" · "), problem.code()),
+        }
+    };
+    errors.map(line).collect()
+}
+
+/// One line for each kind of change, and one for the totals.
+pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
+    let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
+    if let [Some(old), Some(new)] = program.totals {
+        lines.push(totals(&old, &new, lang));
+    }
+    lines
+}
+
+fn line(group: &Group, lang: Lang) -> String {
+    let first = lang.choose("the first to", "die erste nach");
+    let at = group.at.map(|[x, y]| format!(", {first} ({}, {})", Number(x), Number(y))).unwrap_or_default();
+    format!("{}: {}, {} mm{at}", phrase(group, lang), moves(group, lang), tenths(group.length).prose(lang))
+}
+
+fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
+    let length = |totals: &Totals| tenths(totals.milling + totals.drilling).prose(lang);
+    let minutes = match (old.minutes, new.minutes) {
+        (Some(old), Some(new)) if (old - new).abs() > f64::EPSILON => {
+            format!(", {} → {} min", Number(old).prose(lang), Number(new).prose(lang))
+        }
+        (_, Some(new)) => format!(", {} min", Number(new).prose(lang)),
+        _ => String::new(),
+    };
+    format!("{}: {} → {} mm{minutes}", lang.choose("cutting", "Fräsweg"), length(old), length(new))
+}
+
+/// "2 of 35 paths changed, 1 new".
+pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
+    let count = |is: fn(&Outcome) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
+    let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
+    let mut parts = vec![match lang {
+        Lang::En => {
+            format!("{changed} of {} changed", counted(comparison.looked_at, lang, ["path", "paths"]))
+        }
+        Lang::De => {
+            format!("{changed} von {} geändert", counted(comparison.looked_at, lang, ["Pfad", "Pfaden"]))
+        }
+    }];
+    let mut add = |number: usize, en: &str, de: &str| {
+        if number > 0 {
+            parts.push(format!("{number} {}", lang.choose(en, de)));
+        }
+    };
+    add(count(|outcome| matches!(outcome, Outcome::Added)), "new", "neu");
+    add(count(|outcome| matches!(outcome, Outcome::Removed)), "gone", "weg");
+    add(count(|outcome| matches!(outcome, Outcome::Broken)), "with errors now", "jetzt mit Fehlern");
+    add(count(|outcome| matches!(outcome, Outcome::Mended)), "without errors now", "jetzt ohne Fehler");
+    add(
+        count(|outcome| matches!(outcome, Outcome::StillBroken)),
+        "with errors before and now",
+        "vorher und jetzt mit Fehlern",
+    );
+    add(
+        count(|outcome| matches!(outcome, Outcome::OtherDrawing)),
+        "from another drawing",
+        "aus anderer Zeichnung",
+    );
+    parts.join(", ")
+}
+
+fn tenths(value: f64) -> Number {
+    Number((value * 10.0).round() / 10.0)
+}
+
+/// A table with one row per path.
+pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
+    let mut text = format!("**pathbuild**: {}\n", summary(comparison, lang));
+    let problems = problems(comparison, lang);
+    if !problems.is_empty() {
+        text.push('\n');
+    }
+    for problem in problems {
+        _ = writeln!(text, "- {}", code(&problem));
+    }
+    if !comparison.paths.is_empty() {
+        table(&mut text, comparison, lang);
+    }
+    shown::lines(&text).into_owned()
+}
+
+fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
+    let head = lang.choose("| path | drawing | moves |", "| Pfad | Zeichnung | Bewegungen |");
+    _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
+    for path in &comparison.paths {
+        let mut cell = outcome(path, comparison, lang).to_owned();
+        if let Outcome::Changed(program) = &path.outcome {
+            cell = details(program, lang)
+                .iter()
+                .map(|line| escaped_markdown(line))
+                .collect::<Vec<_>>()
+                .join("<br>");
+        }
+        _ = writeln!(text, "| {} | {} | {cell} |", cell_of(&path.name), cell_of(&place(path)));
+    }
+}
+
+/// Escapes everything that could be markup or a mention as character references.
+fn escaped_markdown(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in shown::line(text).chars() {
+        let is_plain =
+            character.is_alphanumeric() || matches!(character, ' ' | '.' | ',' | '/' | '-' | '(' | ')' | '→');
+        if is_plain {
+            escaped.push(character);
+        } else {
+            _ = write!(escaped, "&#{};", u32::from(character));
+        }
+    }
+    escaped
+}
+
+/// Formats a name as code in a table cell.
+fn cell_of(name: &str) -> String {
+    code(name).replace('|', "\\|")
+}
+
+/// Formats a text as code, since GitHub turns addresses, numbers and hashes in ordinary text into links, however they are escaped.
+fn code(text: &str) -> String {
+    let text = shown::line(text);
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let ticks = "`".repeat(longest + 1);
+    // Markdown strips the blanks next to the backticks.
+    format!("{ticks} {text} {ticks}")
+}
+
+/// Prints a line for each changed path, and one for the whole comparison.
+pub(super) fn rows(context: &Context, comparison: &Comparison) {
+    for changed in &comparison.paths {
+        context.row("path_change", path(changed));
+    }
+    context.row("comparison", json!({ "paths": comparison.looked_at, "changed": comparison.paths.len() }));
+}
+
+fn path(path: &PathDiff) -> Value {
+    let outcome = match &path.outcome {
+        Outcome::Added => "added",
+        Outcome::Removed => "removed",
+        Outcome::Broken => "broken",
+        Outcome::Mended => "mended",
+        Outcome::StillBroken => "still-broken",
+        Outcome::OtherDrawing => "other-drawing",
+        Outcome::Changed(_) => "changed",
+    };
+    let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
+    let mut value = json!({ "path": path.name, "old_file": old, "new_file": new, "outcome": outcome });
+    if let Outcome::Changed(program) = &path.outcome {
+        value["changes"] = program.groups.iter().map(group).collect();
+        value["old"] = json!(program.totals[0]);
+        value["new"] = json!(program.totals[1]);
+    }
+    value
+}
+
+fn group(group: &Group) -> Value {
+    let mut value =
+        json!({ "moves": group.moves, "length": thousandths(group.length), "first_to": group.at });
+    let kind = match group.kind {
+        None => "rapids",
+        Some(ChangeKind::Added) => "added",
+        Some(ChangeKind::Removed) => "removed",
+        Some(ChangeKind::Reordered) => "reordered",
+        Some(ChangeKind::Shifted(by)) => {
+            value["by"] = json!(by.map(thousandths));
+            "shifted"
+        }
+        Some(ChangeKind::Altered { raised, feed, passes }) => {
+            value["raised"] = json!(raised);
+            value["feed"] = json!(feed);
+            value["passes"] = json!(passes);
+            "altered"
+        }
+    };
+    value["kind"] = kind.into();
+    value
+}
+
+fn thousandths(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
+
+const TEMPLATE: &str = include_str!("page.html");
+
+/// Renders the page.
+pub(super) fn page(comparison: &Comparison, lang: Lang) -> String {
+    let (before, behind) = TEMPLATE.split_once("{{paths}}").unwrap_or((TEMPLATE, ""));
+    let code = lang.choose("en", "de");
+    let title = format!("pathbuild diff: {}", summary(comparison, lang));
+    let mut page = before.replace("{{lang}}", code).replace("{{title}}", &escaped(&title));
+    for problem in problems(comparison, lang) {
+        _ = writeln!(page, "<p>{}</p>", escaped(&problem));
+    }
+    for path in &comparison.paths {
+        section(&mut page, path, comparison, lang);
+    }
+    page.push_str(behind);
+    page
+}
+
+fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: Lang) {
+    _ = writeln!(
+        page,
+        "<section>\n<h2>{} <small>{}</small></h2>\n<p>{}</p>",
+        escaped(&path.name),
+        escaped(&place(path)),
+        outcome(path, comparison, lang)
+    );
+    if let Outcome::Changed(program) = &path.outcome {
+        page.push_str("<ul>\n");
+        for line in details(program, lang) {
+            _ = writeln!(page, "<li>{}</li>", escaped(&line));
+        }
+        page.push_str("</ul>\n");
+        if let Some(pictures) = &program.pictures {
+            show(page, pictures, lang);
+        }
+    }
+    page.push_str("</section>\n");
+}
+
+/// Shows the pictures in three ways. Without scripts, only the changes are visible.
+fn show(page: &mut String, PictureSet { changes, old, new }: &PictureSet, lang: Lang) {
+    let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", lang.choose(en, de));
+    let label = lang.choose("old to new", "alt bis neu");
+    _ = writeln!(
+        page,
+        "<div class=\"pictures\" data-way=\"changes\">\n<nav>{}{}{}</nav>\n<div class=\"changes\">{changes}</div>\n\
+         <div class=\"beside\"><div>{old}</div><div>{new}</div></div>\n\
+         <div class=\"over\"><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"{label}\">\
+         <div class=\"stack\"><div>{old}</div><div class=\"new\">{new}</div></div></div>\n</div>",
+        button("changes", "changes", "Änderungen"),
+        button("beside", "side by side", "nebeneinander"),
+        button("over", "overlaid", "übereinander"),
+    );
 }

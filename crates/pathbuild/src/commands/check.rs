@@ -1,20 +1,61 @@
-//! `check --changed-revision_files REV`: changes since a Git revision.
+//! `pathbuild check`: checks every path of drawings or of the library, without writing anything. (book: reference/commands)
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join, spelt};
-use pathbuild_workspace::check::EarlierFiles;
+use pathbuild_workspace::check::{EarlierFiles, InputsNotDirectories, Request};
 use pathbuild_workspace::config::{FILE_NAME, clean};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Input, Inputs, files};
 
-use crate::commands::git::{self, EntryKind, Repository};
+use super::git::{self, EntryKind, Repository};
+use crate::args::CheckArgs;
 use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::report::conclude;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
+    let begun = Instant::now();
+    if args.inputs.inputs.is_empty() && !context.has_library() {
+        return context.refuse_empty_input();
+    }
+    let revision_files = |revision: &String| RevisionFiles::new(context, &args.inputs, revision);
+    let revision_files = match args.changed_since.as_ref().map(revision_files).transpose() {
+        Ok(revision_files) => revision_files,
+        Err(reason) => return context.usage(&reason),
+    };
+    let changed = revision_files.as_ref().map(|revision_files| revision_files as &dyn EarlierFiles);
+    let request = Request { inputs: &args.inputs, with_all_values: args.all_bindings, changed };
+    let mut session = request.session(context);
+    if args.timings {
+        session.timings().switch_on();
+    }
+    let checked = match request.run(&mut session) {
+        Ok(checked) => checked,
+        Err(InputsNotDirectories) => {
+            return context.usage(context.choose(
+                "--changed-since is for directories or the library, not for single drawings or paths",
+                "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",
+            ));
+        }
+    };
+    let status = conclude(context, args, checked, begun.elapsed());
+    if args.timings {
+        for line in session.timings().lines(context.lang()) {
+            context.printer.status(line);
+        }
+    }
+    // Leak instead of dropping: freeing a million values takes longer than process exit.
+    std::mem::forget(session);
+    status
+}
 
 /// The file names and blob ids of a revision. File names are relative to the root.
 #[derive(Debug)]
-pub(super) struct RevisionFiles<'a> {
+struct RevisionFiles<'a> {
     context: &'a Context,
     repository: Repository<'a>,
     files: BTreeMap<Utf8PathBuf, String>,
@@ -31,7 +72,7 @@ impl<'a> RevisionFiles<'a> {
     ///
     /// # Errors
     /// Git's message if it cannot read the revision.
-    pub(super) fn new(context: &'a Context, inputs: &Inputs, revision: &str) -> Result<Self, String> {
+    fn new(context: &'a Context, inputs: &Inputs, revision: &str) -> Result<Self, String> {
         let revision = git::revision(context, revision)?;
         let repository = Repository::of(context, &place(context, inputs))?;
         let entries = match repository.tree(revision) {

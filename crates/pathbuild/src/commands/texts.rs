@@ -1,21 +1,24 @@
 //! `pathbuild texts`: shows the element that each parameter text belongs to, and the parameters in force for each element. (book:
 //! language/parameter-texts)
 
-mod table;
-
 use std::fmt::Write;
 
-use pathbuild_db::{assigned_texts, check_file, path_names};
-use pathbuild_diagnostic::{Diagnostic, Handle, Number, shown};
-use pathbuild_path::{AssignedElement, AssignedText, Curve, Position, Shape, TextCircle, Xy};
+use pathbuild_db::{
+    Database, SourceFile, assigned_texts, check_file, drawn_path, file_index, in_force, path_names,
+};
+use pathbuild_diagnostic::{Diagnostic, Handle, Number, Point, shown};
+use pathbuild_path::{
+    AssignedElement, AssignedText, Curve, ElementParameters, Parameter, PathName, Position, Provider, Shape,
+    TextCircle, Xy,
+};
+use pathbuild_workspace::config::{self, Origin};
+use pathbuild_workspace::session::Session;
 use regex::Regex;
 use serde_json::{Value as Json, json};
 
 use crate::args::{Format, TextsArgs};
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::config;
-use pathbuild_workspace::session::Session;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
@@ -76,7 +79,7 @@ fn texts(
             Format::Json => OutputItem::Row("text", object(&context.file(file.path(db)), text)),
             _ => OutputItem::Lines(lines(context, name, text)),
         }));
-        shown.extend(paths.flat_map(|path| table::shown(context, db, file, path)));
+        shown.extend(paths.flat_map(|path| table_of(context, db, file, path)));
     }
     (shown, session.with_hints(problems))
 }
@@ -181,4 +184,83 @@ fn element(element: &AssignedElement) -> Json {
 
 fn handle(handle: Option<Handle>) -> Option<String> {
     handle.map(|handle| handle.to_string())
+}
+
+/// The parameters of a path: a table, or one JSON object per element.
+fn table_of(context: &Context, db: &Database, file: SourceFile, path: &PathName) -> Vec<OutputItem> {
+    let index = file_index(db, file).path(path);
+    let Some((index, drawn)) = index.zip(drawn_path(db, file, path)) else { return Vec::new() };
+    let positions = drawn.positions.positions();
+    let elements = in_force(db, file, path, &index.examples, true);
+    let placed =
+        elements.iter().filter_map(|element| Some((element, *positions.get(element.origin.id.0 as usize)?)));
+    let file = file.path(db);
+    match context.format {
+        Format::Json => {
+            let name = context.file(file);
+            placed
+                .map(|(element, at)| OutputItem::Row("element", object_cell(&name, path, element, at)))
+                .collect()
+        }
+        _ => vec![OutputItem::Lines(table(context, file.as_str(), path, placed))],
+    }
+}
+
+fn table<'a>(
+    context: &Context,
+    file: &str,
+    path: &PathName,
+    elements: impl Iterator<Item = (&'a ElementParameters, Position)>,
+) -> String {
+    let title = context.choose("parameters of path", "Parameter des Pfads");
+    let mut text = format!("{}: {title} {}\n", shown::line(file), shown::line(path.as_str()));
+    for (ElementParameters { origin, what, parameters }, position) in elements {
+        let element = named(origin.entity.name(), position);
+        let at = context.choose("at", "bei");
+        let Point { x, y } = origin.point;
+        _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", what.in_lang(context.lang()));
+        for Parameter { letter, value, from } in parameters {
+            let value = shown::line(value);
+            _ = writeln!(text, "    {} {value:<12} {}", letter.as_char(), source(context, from));
+        }
+    }
+    text
+}
+
+/// Describes the source of a parameter.
+fn source(context: &Context, from: &Provider) -> String {
+    let word = from.word().in_lang(context.lang());
+    match from {
+        Provider::Option(name) => option(context, word, name),
+        Provider::Lender(path) => format!("{word}: {}", shown::line(path.as_str())),
+        _ => word.to_owned(),
+    }
+}
+
+/// The configuration key or option that sets a value.
+fn option(context: &Context, word: &str, name: &str) -> String {
+    match context.settings.origin_of_option(name) {
+        Origin::File(line) => context
+            .choose("`{name}` in pathbuild.toml, line {line}", "`{name}` in pathbuild.toml, Zeile {line}")
+            .replace("{name}", name)
+            .replace("{line}", &line.to_string()),
+        Origin::Default | Origin::CommandLine(_) => format!("{word} --{name}"),
+    }
+}
+
+fn object_cell(file: &str, path: &PathName, element: &ElementParameters, position: Position) -> Json {
+    let ElementParameters { origin, what, parameters } = element;
+    let parameter = |Parameter { letter, value, from }: &Parameter| json!({ "letter": letter.as_char(), "value": value.as_str(), "from": from.name(), "which": from.which() });
+    json!({
+        "file": file,
+        "line": position.line,
+        "path": path.as_str(),
+        "entity": origin.entity.name(),
+        "handle": handle(position.handle),
+        "layer": origin.layer.as_str(),
+        "x": origin.point.x.0,
+        "y": origin.point.y.0,
+        "element": what.en,
+        "parameters": parameters.iter().map(parameter).collect::<Vec<_>>(),
+    })
 }

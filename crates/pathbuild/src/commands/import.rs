@@ -1,16 +1,138 @@
-//! The summary of a program as text.
+//! `pathbuild import`: summarizes a G-code program. (book: program/reading)
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Number, in_prose, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, in_prose, shown};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::summary::{Extent, Used};
+use pathbuild_gcode::estimate::{self, Kinematics};
+use pathbuild_gcode::statistics::{MoveTotals, Tally};
+use pathbuild_gcode::summary::{Extent, Summary, Used, is_guess};
+use serde_json::{Value, json};
 
-use super::facts::Facts;
+use super::program::Program;
+use crate::args::{Format, ImportArgs};
 use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it was read.
+pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
+    let mut diagnostics = Vec::new();
+    for file in &args.files {
+        match Program::open(context, file, &args.reading) {
+            Ok(program) => {
+                let facts = Facts::new(context, &program);
+                match context.format {
+                    Format::Json => context.row("program", json(context, &facts)),
+                    _ => context.printer.result(text(context, &facts)),
+                }
+                diagnostics.extend(program.read.problems);
+            }
+            Err(problem) => diagnostics.push(*problem),
+        }
+    }
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// A program's summary, completed by the configuration.
+struct Facts<'a> {
+    program: &'a Program,
+    summary: Summary,
+    /// Feed of rapid moves in mm/min, if known.
+    rapid: Option<f64>,
+    /// Machining time in seconds, if the machine's capabilities are configured.
+    machine_seconds: Option<f64>,
+    /// The first line whose moves are unknown: then lengths, times and the box are unknown as well.
+    unfollowed: Option<u32>,
+    /// Assumptions that were made while reading.
+    taken: Vec<&'a Diagnostic>,
+}
+
+impl<'a> Facts<'a> {
+    fn new(context: &Context, program: &'a Program) -> Self {
+        let steps = &program.read.steps;
+        let unfollowed = program.first_unfollowed_line();
+        Self {
+            program,
+            summary: Summary::of(steps, program.dialect == Dialect::Xpertmill),
+            rapid: context.settings.general.rapid.value,
+            machine_seconds: kinematics(context)
+                .filter(|_| unfollowed.is_none())
+                .map(|machine| estimate::seconds(steps, &machine)),
+            unfollowed,
+            taken: program.read.problems.iter().filter(|problem| is_guess(problem)).collect(),
+        }
+    }
+
+    /// Compatible time in whole minutes; only of cutting moves if the rapid feed is unknown. (book: program/gcode) `None` if a cutting move
+    /// has no feed, or a line is not followed.
+    fn minutes(&self) -> Option<f64> {
+        let total = &self.summary.total;
+        let minutes = self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes();
+        Some(minutes).filter(|minutes| minutes.is_finite() && self.unfollowed.is_none())
+    }
+}
+
+/// Speeds and accelerations from `[machine]`; `None` unless they are complete. Rapid moves default to `rapid`.
+fn kinematics(context: &Context) -> Option<Kinematics> {
+    let machine = &context.settings.machine;
+    let rapid = context.settings.general.rapid.value;
+    Some(Kinematics {
+        rates: machine.rates.value.or(rapid.map(|rapid| [rapid; 3]))?,
+        accelerations: machine.accelerations.value?,
+        junction_deviation: machine.junction_deviation.value,
+    })
+}
+
+fn json(context: &Context, facts: &Facts<'_>) -> Value {
+    let (program, summary) = (facts.program, &facts.summary);
+    let taken =
+        facts.taken.iter().map(|taken| json!({ "line": taken.place.line, "message": taken.text(Lang::En) }));
+    let whole = |extent: &Extent| if facts.unfollowed.is_some() { Extent::default() } else { *extent };
+    json!({
+        "file": context.file(&program.file),
+        "lines": program.lines(),
+        "dialect": program.dialect.name(),
+        "guessed": program.evidence.map(|evidence| json!({ "reason": evidence.reason.en, "line": evidence.line })),
+        "moves": tally(&summary.total),
+        "unfollowed_line": facts.unfollowed,
+        "box": extent(&whole(&summary.extent)),
+        "cutting_box": extent(&whole(&summary.cut)),
+        "tools": summary.tools.iter().map(used).collect::<Vec<_>>(),
+        "minutes": facts.minutes(),
+        "rapid": facts.rapid,
+        "machine_seconds": facts.machine_seconds,
+        "dwell_seconds": summary.dwell,
+        "stops": summary.stops,
+        "tool_changes": summary.tool_changes,
+        "taken": taken.collect::<Vec<_>>(),
+    })
+}
+
+fn tally(tally: &Tally) -> Value {
+    let kind = |kind: &MoveTotals| json!({ "count": kind.moves, "length": kind.total.length });
+    json!({
+        "count": tally.moves(),
+        "arcs": tally.arcs,
+        "rapid": kind(&tally.rapid),
+        "milling": kind(&tally.milling),
+        "drilling": kind(&tally.drilling),
+        "probing": { "count": tally.probing },
+    })
+}
+
+fn extent(extent: &Extent) -> Value {
+    let axis = |ends: &Option<(f64, f64)>| ends.map(|(low, high)| [low, high]);
+    json!({ "x": axis(&extent[0]), "y": axis(&extent[1]), "z": axis(&extent[2]) })
+}
+
+fn used(used: &Used) -> Value {
+    json!({ "tool": used.tool, "moves": tally(&used.tally), "feeds": used.feeds, "speeds": used.speeds })
+}
 
 /// Formats the summary; the first line begins with the file's name.
-pub(super) fn text(context: &Context, facts: &Facts<'_>) -> String {
+fn text(context: &Context, facts: &Facts<'_>) -> String {
     let formatter = Formatter(context);
     let mut text = formatter.title(facts);
     for (label, line) in formatter.lines(facts) {

@@ -1,0 +1,666 @@
+//! The arguments of each command.
+
+use camino::Utf8PathBuf;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Subcommand, ValueEnum};
+use clap_complete::env::Shells;
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_workspace::Inputs;
+
+use super::InputArgs;
+use super::shared::Address;
+use crate::completion;
+
+/// `pathbuild check`
+#[derive(Clone, Debug, Default, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
+pub struct CheckArgs {
+    /// What to check.
+    #[command(flatten)]
+    pub inputs: InputArgs,
+    /// Check every combination of the variables' values, not one example of each
+    #[arg(long)]
+    pub all_bindings: bool,
+    /// Exit with 1 on warnings too
+    #[arg(long)]
+    pub error_on_warning: bool,
+    /// Report only findings that are not in this file
+    #[arg(long, value_name = "FILE")]
+    pub baseline: Option<Utf8PathBuf>,
+    /// Write all findings into the baseline file instead of reporting them
+    #[arg(long, requires = "baseline")]
+    pub update_baseline: bool,
+    /// Check only what depends on files changed since this Git revision
+    #[arg(long, value_name = "REV")]
+    pub changed_since: Option<String>,
+    /// Show how long each stage took
+    #[arg(long)]
+    pub timings: bool,
+    /// Show at most N errors; the last lines count all of them
+    #[arg(long, value_name = "N")]
+    pub max_errors: Option<usize>,
+    /// Write a picture of each finding into this directory: a detail of the drawing with the place circled
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<Utf8PathBuf>,
+}
+
+/// `pathbuild emit`
+#[derive(Clone, Debug, Default, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
+pub struct EmitArgs {
+    /// What to write.
+    #[command(flatten)]
+    pub inputs: InputArgs,
+    /// Write nothing; report the files on disk that are out of date
+    #[arg(long)]
+    pub check: bool,
+    /// With --check: compare only the moves
+    #[arg(long, requires = "check")]
+    pub moves: bool,
+    /// Overwrite measured values in _Z.txt
+    #[arg(long)]
+    pub force: bool,
+    /// Write for this post-processor: a built-in name or a file
+    #[arg(long, value_name = "POST", add = completion::posts())]
+    pub post: Option<String>,
+    /// Join the paths, in this order, into one program called NAME, with a tool change wherever O differs
+    #[arg(long, value_name = "NAME")]
+    pub join: Option<String>,
+    /// Write the dependencies of the files into FILE, for make and Ninja
+    #[arg(long, value_name = "FILE")]
+    pub deps: Option<Utf8PathBuf>,
+    /// Write the program to standard output: `-o -`
+    #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true)]
+    #[arg(conflicts_with_all = ["check", "deps", "remove_stale"])]
+    pub output: Option<String>,
+    /// Remove programs that pathbuild wrote earlier and would no longer write
+    #[arg(long, conflicts_with = "check")]
+    pub remove_stale: bool,
+    /// G-code dialect for checking the post's output, if the post names none
+    #[arg(long, value_name = "DIALECT", add = completion::dialects())]
+    pub dialect: Option<String>,
+    /// Date for posts that write one
+    #[arg(long, value_name = "DATE")]
+    pub date: Option<String>,
+    /// After writing, run the command that the post names
+    #[arg(long, conflicts_with_all = ["check", "output"])]
+    pub run_post_build: bool,
+}
+
+/// `pathbuild adjust`
+#[derive(Clone, Debug, Args)]
+pub struct AdjustArgs {
+    /// DRAWING.dxf, `DRAWING_Clean.gcode`, `DRAWING_Z.txt` or DRAWING
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<Utf8PathBuf>,
+    /// Largest allowed difference between a measured and a drawn height
+    #[arg(long, value_name = "MM", required = true, allow_hyphen_values = true)]
+    pub max_correction: String,
+    /// Print the lines of `DRAWING_Clean.gcode` that match
+    #[arg(long, value_name = "REGEX", allow_hyphen_values = true)]
+    pub show: Option<String>,
+    /// Take values that are missing in `DRAWING_Z.txt` from a sender's log, one `[PRB:X,Y,Z:1]` for each probe, in order
+    #[arg(long, value_name = "FILE")]
+    pub log: Option<Utf8PathBuf>,
+}
+
+/// `pathbuild watch`
+#[derive(Clone, Debug, Default, Args)]
+pub struct WatchArgs {
+    /// What to watch.
+    #[command(flatten)]
+    pub inputs: InputArgs,
+    /// Write the files of `[emit] targets` as well
+    #[arg(long)]
+    pub emit: bool,
+    /// Options of the live page.
+    #[command(flatten)]
+    pub serving: ServeArgs,
+    /// Look for changes at intervals (for network drives)
+    #[arg(long)]
+    pub poll: bool,
+}
+
+/// Options of the page that `pathbuild watch` serves.
+#[derive(Clone, Debug, Default, Args)]
+pub struct ServeArgs {
+    /// Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)
+    #[arg(long, value_name = "ADDR", num_args = 0..=1, default_missing_value = "127.0.0.1", value_parser = Address::parse)]
+    pub serve: Option<Address>,
+    /// With --serve: show the page in the browser
+    #[arg(long, requires = "serve")]
+    pub open: bool,
+    /// With --serve: end when the page has been closed
+    #[arg(long, requires = "serve")]
+    pub until_closed: bool,
+}
+
+/// `pathbuild graph`, `deps`, `rdeps`, `where` and `why`. `--format` takes dot and mermaid here.
+#[derive(Clone, Debug, Default, Args)]
+pub struct GraphArgs {
+    /// What is asked about.
+    #[command(flatten)]
+    pub inputs: InputArgs,
+}
+
+/// `pathbuild list` and `stats`.
+#[derive(Clone, Debug, Default, Args)]
+pub struct ListArgs {
+    /// Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library
+    #[arg(value_name = "GLOB|DRAWING|DIRECTORY", add = completion::paths())]
+    pub inputs: Vec<String>,
+    /// Compare with programs written for this post-processor: a built-in name or a file
+    #[arg(long, value_name = "POST", add = completion::posts())]
+    pub post: Option<String>,
+}
+
+impl ListArgs {
+    /// What is asked about.
+    pub fn inputs(&self) -> Inputs {
+        Inputs { inputs: self.inputs.clone() }
+    }
+}
+
+/// How programs are read.
+#[derive(Clone, Debug, Default, Args)]
+pub struct ReadingArgs {
+    /// G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses
+    #[arg(long, value_name = "DIALECT", value_parser = dialects(), hide_possible_values = true)]
+    pub dialect: Option<Dialect>,
+    /// `XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round
+    #[arg(long, value_name = "din|table", value_enum, hide_possible_values = true)]
+    pub unit_codes: Option<UnitCodesArg>,
+    /// `XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start
+    #[arg(long)]
+    pub absolute_arc_centres: bool,
+    /// `XpertMILL`: ignore F and use the feeds of the layers
+    #[arg(long)]
+    pub ignore_feed: bool,
+}
+
+/// What G70 and G71 mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitCodesArg {
+    /// G70 inches, G71 millimetres.
+    Din,
+    /// The other way round.
+    Table,
+}
+
+fn dialects() -> impl TypedValueParser<Value = Dialect> {
+    let names = Dialect::ALL.iter().map(|dialect| dialect.name());
+    PossibleValuesParser::new(names).try_map(|name| name.parse::<Dialect>().map_err(|()| "unknown dialect"))
+}
+
+/// `pathbuild import`
+#[derive(Clone, Debug, Args)]
+pub struct ImportArgs {
+    /// G-code programs
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<Utf8PathBuf>,
+    /// How they are read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
+}
+
+/// `pathbuild verify`
+#[derive(Clone, Debug, Args)]
+pub struct VerifyArgs {
+    /// G-code programs
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<Utf8PathBuf>,
+    /// Compare with the drawing of this path, which also gives the cutter and the material
+    #[arg(long, value_name = "PATH", add = completion::paths())]
+    pub against: Option<String>,
+    /// Diameter of the cutter; without it from T and `[tool.NAME]`
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub cutter: Option<String>,
+    /// Height of the material's upper face; programs by pathbuild contain it
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub surface: Option<String>,
+    /// Post-processor that wrote the programs: sets the known words and the dialect
+    #[arg(long, value_name = "POST", add = completion::posts())]
+    pub post: Option<String>,
+    /// How they are read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
+}
+
+impl VerifyArgs {
+    /// The programs, followed by the path, whose configuration applies to programs outside its tree.
+    pub(super) fn inputs(&self) -> Inputs {
+        let mut inputs = Inputs::places(&self.files);
+        inputs.inputs.extend(self.against.clone());
+        inputs
+    }
+}
+
+/// `pathbuild post`
+#[derive(Clone, Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct PostArgs {
+    /// Post-processors instead of programs.
+    #[command(subcommand)]
+    pub command: Option<PostCommand>,
+    /// G-code program
+    #[arg(value_name = "FILE", required = true)]
+    pub file: Option<Utf8PathBuf>,
+    /// Post-processor: a built-in name or a file
+    #[arg(long, value_name = "POST", required = true, add = completion::posts())]
+    pub post: Option<String>,
+    /// File to write; without it standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+    /// Height of the material's upper face, for posts that need it; programs by pathbuild contain it
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub surface: Option<String>,
+    /// G-code dialect for checking the post's output, if the post names none
+    #[arg(long, value_name = "DIALECT", add = completion::dialects())]
+    pub target: Option<String>,
+    /// Date for posts that write one
+    #[arg(long, value_name = "DATE")]
+    pub date: Option<String>,
+    /// After writing, run the command that the post names
+    #[arg(long, requires = "output")]
+    pub run_post_build: bool,
+    /// How the program is read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
+}
+
+/// What can be asked about post-processors.
+#[derive(Clone, Debug, Subcommand)]
+pub enum PostCommand {
+    /// List the built-in posts
+    List,
+    /// Print a built-in post's definition
+    Show {
+        /// Name of a built-in post
+        #[arg(add = completion::posts())]
+        name: String,
+    },
+}
+
+/// `pathbuild texts`
+#[derive(Clone, Debug, Default, Args)]
+pub struct TextsArgs {
+    /// Drawings whose texts are listed.
+    #[command(flatten)]
+    pub inputs: InputArgs,
+    /// Show only texts that match
+    #[arg(long = "match", value_name = "REGEX")]
+    pub pattern: Option<String>,
+}
+
+/// `pathbuild view`
+#[derive(Clone, Debug, Args)]
+pub struct ViewArgs {
+    /// Name of a path, drawing (.dxf), or G-code program
+    #[arg(value_name = "PATH|DRAWING|FILE", add = completion::paths())]
+    pub what: String,
+    /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+    /// How a program is read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
+}
+
+/// `pathbuild sheet`
+#[derive(Clone, Debug, Args)]
+pub struct SheetArgs {
+    /// Name of a path, or drawing (.dxf) with one path
+    #[arg(value_name = "PATH|DRAWING", add = completion::paths())]
+    pub what: String,
+    /// File to write: .pdf, .html or .svg; without it the browser shows the setup sheet
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+    /// Write for this post-processor: a built-in name or a file
+    #[arg(long, value_name = "POST", add = completion::posts())]
+    pub post: Option<String>,
+}
+
+/// `pathbuild diff`
+#[derive(Clone, Debug, Args)]
+pub struct DiffArgs {
+    /// Before the change: a directory, a drawing, a Git revision, or a G-code program
+    #[arg(value_name = "OLD")]
+    pub old: String,
+    /// After the change: the same, or a path if OLD is a program (default: working directory)
+    #[arg(value_name = "NEW")]
+    pub new: Option<String>,
+    /// Also write a file: .html (with pictures) or .md (for a pull request)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+    /// How programs are read.
+    #[command(flatten)]
+    pub reading: ReadingArgs,
+}
+
+/// `pathbuild q-project`
+#[derive(Clone, Debug, Args)]
+pub struct QProjectArgs {
+    /// Drawing to embed
+    #[arg(value_name = "DRAWING")]
+    pub drawing: Utf8PathBuf,
+    /// Name of the Q-project's path; without it the drawing's first number with .0Q
+    #[arg(long, value_name = "NAME")]
+    pub path_name: Option<String>,
+    /// File to write; without it `DRAWING_Q.dxf`
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<Utf8PathBuf>,
+}
+
+/// `pathbuild cache`
+#[derive(Clone, Debug, Args)]
+pub struct CacheArgs {
+    /// What to do with it.
+    #[command(subcommand)]
+    pub command: CacheCommand,
+}
+
+/// What can be done with the cache.
+#[derive(Clone, Debug, Subcommand)]
+pub enum CacheCommand {
+    /// Print the directory of the cached results
+    Dir,
+    /// Print the size of the cached results
+    Size,
+    /// Remove cached results that are no longer used
+    Prune,
+    /// Remove all cached results
+    Clean,
+    /// Check every cached result for damage
+    Verify,
+}
+
+/// `pathbuild explain`
+#[derive(Clone, Debug, Default, Args)]
+pub struct ExplainArgs {
+    /// Code or name of a message: PB203, parameter-out-of-range
+    #[arg(value_name = "CODE", add = completion::codes())]
+    pub codes: Vec<String>,
+}
+
+/// `pathbuild init`
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct InitArgs {
+    /// Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs
+    #[arg(long)]
+    pub example: bool,
+}
+
+/// `pathbuild config`
+#[derive(Clone, Debug, Args)]
+pub struct ConfigArgs {
+    /// What to show.
+    #[command(subcommand)]
+    pub command: ConfigCommand,
+}
+
+/// What can be shown of the configuration.
+#[derive(Clone, Debug, Subcommand)]
+pub enum ConfigCommand {
+    /// Print the values in force
+    Show {
+        /// Also say where each value comes from
+        #[arg(long)]
+        origin: bool,
+        /// For which drawings.
+        #[command(flatten)]
+        inputs: InputArgs,
+    },
+    /// Print the JSON schema of pathbuild.toml
+    Schema,
+}
+
+/// `pathbuild completions`
+#[derive(Clone, Debug, Args)]
+pub struct CompletionsArgs {
+    /// Shell to print the script for
+    #[arg(value_name = "SHELL", value_parser = Shells::builtins().names().collect::<Vec<_>>())]
+    pub shell: String,
+}
+
+/// `pathbuild compat`
+#[derive(Clone, Debug, Default, Args)]
+pub struct CompatArgs {
+    /// Print the pathbuild command line instead of running it
+    #[arg(long)]
+    pub print: bool,
+    /// Options and files as `PathDxf2GCode` or `PathGCodeAdjustZ` takes them
+    #[arg(value_name = "ARGUMENT", trailing_var_arg = true, allow_hyphen_values = true)]
+    pub arguments: Vec<String>,
+}
+
+/// English and German of the help of the arguments of commands.
+pub(super) const GERMAN: &[(&str, &str)] = &[
+    ("List the built-in posts", "Listet die eingebauten Postprozessoren auf"),
+    ("Print a built-in post's definition", "Gibt die Definition eines eingebauten Postprozessors aus"),
+    ("Print the directory of the cached results", "Gibt das Verzeichnis der gespeicherten Ergebnisse aus"),
+    ("Print the size of the cached results", "Gibt die Größe der gespeicherten Ergebnisse aus"),
+    (
+        "Remove cached results that are no longer used",
+        "Löscht gespeicherte Ergebnisse, die nicht mehr gebraucht werden",
+    ),
+    ("Remove all cached results", "Löscht alle gespeicherten Ergebnisse"),
+    ("Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden"),
+    ("Print the values in force", "Gibt die geltenden Werte aus"),
+    ("Print the JSON schema of pathbuild.toml", "Gibt das JSON-Schema von pathbuild.toml aus"),
+    (
+        "Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library",
+        "Muster von Pfadnamen (8*, 20[0-5]?.1P), Zeichnungen (.dxf), Verzeichnisse; ohne Zeichnungen und Verzeichnisse die Bibliothek",
+    ),
+    (
+        "DRAWING.dxf, `DRAWING_Clean.gcode`, `DRAWING_Z.txt` or DRAWING",
+        "ZEICHNUNG.dxf, `ZEICHNUNG_Clean.gcode`, `ZEICHNUNG_Z.txt` oder ZEICHNUNG",
+    ),
+    (
+        "Name of a path, drawing (.dxf), or G-code program",
+        "Name eines Pfads, Zeichnung (.dxf) oder G-Code-Programm",
+    ),
+    (
+        "Name of a path, or drawing (.dxf) with one path",
+        "Name eines Pfads, oder Zeichnung (.dxf) mit einem Pfad",
+    ),
+    (
+        "File to write: .pdf, .html or .svg; without it the browser shows the setup sheet",
+        "Zieldatei: .pdf, .html oder .svg; sonst zeigt der Browser das Einrichteblatt",
+    ),
+    (
+        "Before the change: a directory, a drawing, a Git revision, or a G-code program",
+        "Vor der Änderung: ein Verzeichnis, eine Zeichnung, eine Git-Revision oder ein G-Code-Programm",
+    ),
+    (
+        "After the change: the same, or a path if OLD is a program (default: working directory)",
+        "Nach der Änderung: ebenso, zu einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis",
+    ),
+    ("G-code programs", "G-Code-Programme"),
+    ("G-code program", "G-Code-Programm"),
+    ("Name of a built-in post", "Name eines eingebauten Postprozessors"),
+    ("Drawing to embed", "Zeichnung zum Einbetten"),
+    (
+        "Code or name of a message: PB203, parameter-out-of-range",
+        "Code oder Name einer Meldung: PB203, parameter-out-of-range",
+    ),
+    ("Shell to print the script for", "Shell, für die das Skript ist"),
+    (
+        "Options and files as `PathDxf2GCode` or `PathGCodeAdjustZ` takes them",
+        "Optionen und Dateien, wie `PathDxf2GCode` oder `PathGCodeAdjustZ` sie erwartet",
+    ),
+    (
+        "Check every combination of the variables' values, not one example of each",
+        "Prüft jede Kombination der Werte von Variablen, nicht nur je ein Beispiel",
+    ),
+    ("Exit with 1 on warnings too", "Endet auch bei Warnungen mit Exit-Status 1"),
+    (
+        "Report only findings that are not in this file",
+        "Zeigt nur Meldungen, die nicht in dieser Datei stehen",
+    ),
+    (
+        "Write all findings into the baseline file instead of reporting them",
+        "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen",
+    ),
+    (
+        "Check only what depends on files changed since this Git revision",
+        "Prüft nur, was von Dateien abhängt, die seit dieser Git-Revision geändert wurden",
+    ),
+    ("Show how long each stage took", "Zeigt, wie lange jede Stufe gedauert hat"),
+    (
+        "Show at most N errors; the last lines count all of them",
+        "Zeigt höchstens N Fehler; die letzten Zeilen zählen alle",
+    ),
+    (
+        "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
+        "Schreibt zu jeder Meldung ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle",
+    ),
+    (
+        "Write nothing; report the files on disk that are out of date",
+        "Schreibt nichts; meldet Dateien auf der Platte, die nicht aktuell sind",
+    ),
+    ("With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen"),
+    ("Overwrite measured values in _Z.txt", "Überschreibt gemessene Werte in _Z.txt"),
+    (
+        "Write for this post-processor: a built-in name or a file",
+        "Schreibt für diesen Postprozessor: ein eingebauter Name oder eine Datei",
+    ),
+    (
+        "Join the paths, in this order, into one program called NAME, with a tool change wherever O differs",
+        "Fügt die Pfade in dieser Reihenfolge zu einem Programm NAME zusammen, mit Werkzeugwechsel, wo O ein anderes ist",
+    ),
+    (
+        "Write the dependencies of the files into FILE, for make and Ninja",
+        "Schreibt die Abhängigkeiten der Dateien in DATEI, für make und Ninja",
+    ),
+    ("Write the program to standard output: `-o -`", "Schreibt das Programm in die Standardausgabe: `-o -`"),
+    (
+        "Remove programs that pathbuild wrote earlier and would no longer write",
+        "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde",
+    ),
+    (
+        "G-code dialect for checking the post's output, if the post names none",
+        "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt",
+    ),
+    ("Date for posts that write one", "Datum für Postprozessoren, die eines schreiben"),
+    (
+        "After writing, run the command that the post names",
+        "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt",
+    ),
+    ("Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei"),
+    ("File to write; without it standard output", "Zieldatei; sonst die Standardausgabe"),
+    (
+        "Height of the material's upper face, for posts that need it; programs by pathbuild contain it",
+        "Höhe der Materialoberfläche, für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie",
+    ),
+    (
+        "Largest allowed difference between a measured and a drawn height",
+        "Größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe",
+    ),
+    (
+        "Print the lines of `DRAWING_Clean.gcode` that match",
+        "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, die passen",
+    ),
+    (
+        "Take values that are missing in `DRAWING_Z.txt` from a sender's log, one `[PRB:X,Y,Z:1]` for each probe, in order",
+        "Nimmt Werte, die in `ZEICHNUNG_Z.txt` fehlen, aus dem Protokoll eines Senders: je Z-Probe ein `[PRB:X,Y,Z:1]`, der Reihe nach",
+    ),
+    ("Write the files of `[emit] targets` as well", "Schreibt auch die Dateien von `[emit] targets`"),
+    (
+        "Look for changes at intervals (for network drives)",
+        "Sucht in festen Abständen nach Änderungen (für Netzlaufwerke)",
+    ),
+    (
+        "Show the library as a page that stays up to date: on this computer at port 8347, or at ADDR (PORT, IP, IP:PORT or NAME:PORT)",
+        "Zeigt die Bibliothek als Seite, die sich selbst aktualisiert: auf diesem Rechner an Port 8347 oder an ADRESSE (PORT, IP, IP:PORT oder NAME:PORT)",
+    ),
+    ("With --serve: show the page in the browser", "Mit --serve: zeigt die Seite im Browser"),
+    (
+        "With --serve: end when the page has been closed",
+        "Mit --serve: endet, wenn die Seite geschlossen worden ist",
+    ),
+    ("Show only texts that match", "Zeigt nur Texte, die passen"),
+    (
+        "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
+        "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild",
+    ),
+    (
+        "Also write a file: .html (with pictures) or .md (for a pull request)",
+        "Schreibt auch eine Datei: .html (mit Bildern) oder .md (für einen Pull-Request)",
+    ),
+    (
+        "Compare with the drawing of this path, which also gives the cutter and the material",
+        "Vergleicht mit der Zeichnung dieses Pfads, die auch Fräser und Material angibt",
+    ),
+    (
+        "Diameter of the cutter; without it from T and `[tool.NAME]`",
+        "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]`",
+    ),
+    (
+        "Height of the material's upper face; programs by pathbuild contain it",
+        "Höhe der Materialoberfläche; in Programmen von pathbuild steht sie",
+    ),
+    (
+        "Compare with programs written for this post-processor: a built-in name or a file",
+        "Vergleicht mit Programmen für diesen Postprozessor: ein eingebauter Name oder eine Datei",
+    ),
+    (
+        "Name of the Q-project's path; without it the drawing's first number with .0Q",
+        "Name des Q-Projekt-Pfads; sonst die erste Nummer der Zeichnung mit .0Q",
+    ),
+    ("File to write; without it `DRAWING_Q.dxf`", "Zieldatei; sonst `ZEICHNUNG_Q.dxf`"),
+    (
+        "Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs",
+        "Schreibt eine kleine Bibliothek zum Lernen: eine erste Zeichnung, zwei Bauteile, ein Projekt, Vorlagen für CAD-Programme",
+    ),
+    ("Also say where each value comes from", "Gibt auch an, woher jeder Wert kommt"),
+    (
+        "Print the pathbuild command line instead of running it",
+        "Gibt die Befehlszeile von pathbuild aus, statt sie auszuführen",
+    ),
+    (
+        "Post-processor that wrote the programs: sets the known words and the dialect",
+        "Postprozessor, der die Programme geschrieben hat: legt die bekannten Wörter und den Dialekt fest",
+    ),
+    (
+        "G-code dialect: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam or din; without it pathbuild guesses",
+        "G-Code-Dialekt: native, rs274, linuxcnc, grbl, xpertmill, mach3, fanuc, haas, marlin, estlcam oder din; sonst versucht pathbuild, ihn zu erkennen",
+    ),
+    (
+        "`XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round",
+        "`XpertMILL`: din: G70 heißt Zoll und G71 Millimeter; table: umgekehrt",
+    ),
+    (
+        "`XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start",
+        "`XpertMILL`: I und J sind der Bogenmittelpunkt selbst, nicht sein Abstand vom Bogenanfang",
+    ),
+    (
+        "`XpertMILL`: ignore F and use the feeds of the layers",
+        "`XpertMILL`: F wird ignoriert; es gelten die Vorschübe der Layer",
+    ),
+    ("G70 inches, G71 millimetres", "G70 Zoll, G71 Millimeter"),
+    ("The other way round", "Umgekehrt"),
+    ("GLOB|DRAWING|DIRECTORY", "MUSTER|ZEICHNUNG|VERZEICHNIS"),
+    ("PATH|DRAWING|FILE", "PFAD|ZEICHNUNG|DATEI"),
+    ("PATH|DRAWING", "PFAD|ZEICHNUNG"),
+    ("PATH", "PFAD"),
+    ("DRAWING", "ZEICHNUNG"),
+    ("FILE", "DATEI"),
+    ("ADDR", "ADRESSE"),
+    ("DIR", "VERZEICHNIS"),
+    ("OLD", "ALT"),
+    ("NEW", "NEU"),
+    ("DATE", "DATUM"),
+    ("DIALECT", "DIALEKT"),
+    ("CODE", "CODE"),
+    ("NAME", "NAME"),
+    ("POST", "POST"),
+    ("REGEX", "REGEX"),
+    ("REV", "REVISION"),
+    ("SHELL", "SHELL"),
+    ("ARGUMENT", "ARGUMENT"),
+    ("N", "N"),
+    ("MM", "MM"),
+    ("-", "-"),
+    ("din|table", "din|table"),
+    ("unknown dialect", "unbekannter Dialekt"),
+];

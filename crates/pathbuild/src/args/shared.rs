@@ -1,0 +1,498 @@
+//! Arguments that several commands share, and the types of their values.
+
+use std::ffi::OsString;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::ops::Deref;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{
+    Arg, ArgAction, ArgMatches, Args, Command as Definition, CommandFactory, Error, FromArgMatches,
+    Subcommand, ValueEnum,
+};
+use pathbuild_diagnostic::Lang;
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::config::sections::general::OPTIONS;
+use pathbuild_workspace::config::{GivenOptions, OptionValues, Overrides, SettingOption};
+
+use super::{Cli, Command};
+use crate::completion;
+use crate::printer::{ColorChoice, Verbosity};
+
+/// The common options.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Common options")]
+pub struct CommonArgs {
+    /// Options that override the configuration.
+    #[command(flatten)]
+    pub settings: SettingArgs,
+    /// Language of messages (also: `PATHBUILD_LANG`)
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "en|de",
+        display_order = 9
+    )]
+    pub lang: Option<LangArg>,
+    /// Use this configuration instead of the drawing's pathbuild.toml
+    #[arg(long, global = true, value_name = "FILE")]
+    pub config: Option<Utf8PathBuf>,
+    /// Format of the messages
+    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = FORMATS)]
+    pub format: Option<Format>,
+    /// Write a report of the findings into a file as well; `-` is standard output (repeatable)
+    #[arg(long, global = true, value_name = "FORMAT=FILE", value_parser = ReportFile::parse)]
+    pub report: Vec<ReportFile>,
+    /// When to use colours
+    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "auto|always|never")]
+    pub color: Option<ColorChoice>,
+    /// Print less: no status lines; given twice: results only
+    #[arg(short, long, global = true, action = clap::ArgAction::Count, conflicts_with = "verbose")]
+    pub quiet: u8,
+    /// Print more
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+    /// Number of threads
+    #[arg(short, long, global = true, value_name = "N", value_parser = jobs)]
+    pub jobs: Option<u16>,
+    /// Do not trust the tree: read no file outside of it, and run no command that it names
+    #[arg(long, global = true)]
+    pub untrusted: bool,
+    /// Use no cached results and cache none
+    #[arg(long, global = true)]
+    pub no_cache: bool,
+    /// Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)
+    #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
+    pub cache_dir: Option<Utf8PathBuf>,
+}
+
+const FORMATS: &str = "full|concise|json|sarif|github|gitlab|junit";
+
+impl CommonArgs {
+    /// The values that override the configuration.
+    pub fn overrides(&self) -> Overrides {
+        Overrides {
+            settings: self.settings.0.clone(),
+            lang: self.lang.map(Lang::from),
+            config: self.config.clone(),
+            untrusted: self.untrusted,
+            trusted: None,
+        }
+    }
+
+    /// How much to print.
+    pub fn verbosity(&self) -> Verbosity {
+        Verbosity::from_counts(self.quiet, self.verbose)
+    }
+}
+
+/// A language, as written on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LangArg {
+    /// English
+    En,
+    /// German
+    De,
+}
+
+impl From<LangArg> for Lang {
+    fn from(lang: LangArg) -> Self {
+        match lang {
+            LangArg::En => Self::En,
+            LangArg::De => Self::De,
+        }
+    }
+}
+
+fn jobs(text: &str) -> Result<u16, &'static str> {
+    text.parse().ok().filter(|jobs| (1..=1024).contains(jobs)).ok_or("expected a number from 1 to 1024")
+}
+
+/// The options given on the command line that override settings, not yet validated.
+#[derive(Clone, Debug, Default)]
+pub struct SettingArgs(pub GivenOptions);
+
+impl Args for SettingArgs {
+    fn augment_args(command: Definition) -> Definition {
+        OPTIONS.iter().map(argument).fold(command, Definition::arg)
+    }
+
+    fn augment_args_for_update(command: Definition) -> Definition {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for SettingArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let options = OPTIONS.iter().filter_map(|option| Some((option.name, texts(option, matches)?)));
+        Ok(Self(options.collect()))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+fn argument(option: &SettingOption) -> Arg {
+    let argument = Arg::new(option.name)
+        .long(option.name)
+        .global(true)
+        .help(option.help.en)
+        .display_order(option.position);
+    match option.values {
+        OptionValues::Switch => argument.action(ArgAction::SetTrue),
+        OptionValues::Text(name) => argument.value_name(name).allow_hyphen_values(true),
+        OptionValues::Texts(name) => {
+            argument.value_name(name).allow_hyphen_values(true).action(ArgAction::Append)
+        }
+        OptionValues::Directory => argument.value_name("DIR"),
+        OptionValues::Directories => argument.value_name("DIR").action(ArgAction::Append),
+    }
+}
+
+fn texts(option: &SettingOption, matches: &ArgMatches) -> Option<Vec<String>> {
+    if option.values == OptionValues::Switch {
+        return matches.get_flag(option.name).then(Vec::new);
+    }
+    matches.get_many::<String>(option.name).map(|texts| texts.cloned().collect())
+}
+
+/// Drawings, paths and directories as arguments.
+#[derive(Clone, Debug, Default)]
+pub struct InputArgs(Inputs);
+
+#[derive(Args)]
+struct InputArguments {
+    /// Drawings (.dxf), names of paths or patterns of them (8*.1P), directories
+    #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completion::paths())]
+    inputs: Vec<String>,
+}
+
+impl Deref for InputArgs {
+    type Target = Inputs;
+
+    fn deref(&self) -> &Inputs {
+        &self.0
+    }
+}
+
+impl Args for InputArgs {
+    fn augment_args(command: Definition) -> Definition {
+        InputArguments::augment_args(command)
+    }
+
+    fn augment_args_for_update(command: Definition) -> Definition {
+        InputArguments::augment_args_for_update(command)
+    }
+}
+
+impl FromArgMatches for InputArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        InputArguments::from_arg_matches(matches).map(|InputArguments { inputs }| Self(Inputs { inputs }))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Cli {
+    /// Parses a command line, which begins with the program's own name.
+    ///
+    /// # Errors
+    /// An error of usage, or the requested help or version.
+    pub fn read(arguments: &[OsString]) -> Result<Self, Error> {
+        if let Some(read) = Self::read_command(arguments) {
+            return Ok(read);
+        }
+        let matches = Self::matches(&Self::command(), arguments)?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
+    }
+
+    /// Parses a command line with a definition in some language.
+    ///
+    /// # Errors
+    /// An error of usage, or the requested help or version, in that language.
+    pub fn matches(definition: &Definition, arguments: &[OsString]) -> Result<ArgMatches, Error> {
+        let read = |arguments: &[OsString]| definition.clone().try_get_matches_from(arguments);
+        read(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
+            Some(arguments) => read(&arguments),
+            None => Err(error),
+        })
+    }
+
+    /// The language requested by a command line, even if the command line has errors.
+    pub fn lang(arguments: &[OsString]) -> Option<LangArg> {
+        let texts: Vec<&str> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
+        let apart = texts.windows(2).filter(|pair| pair[0] == "--lang").map(|pair| pair[1]);
+        let joined = texts.iter().filter_map(|text| text.strip_prefix("--lang="));
+        apart.chain(joined).find_map(|name| LangArg::from_str(name, false).ok())
+    }
+
+    /// Fast path for a command line that begins with a command and has no errors: defines only that command. Every command gets its own
+    /// copy of the common options, and defining all of them takes a quarter of the time of a short run.
+    fn read_command(arguments: &[OsString]) -> Option<Self> {
+        let commands = Command::augment_subcommands(Definition::new("pathbuild"));
+        let command = commands.find_subcommand(arguments.get(1)?)?.clone();
+        let line = CommonArgs::augment_args(Definition::new("pathbuild")).subcommand(command);
+        Self::from_arg_matches(&line.try_get_matches_from(arguments).ok()?).ok()
+    }
+}
+
+/// Inserts `check` before a drawing that is given in place of a command.
+fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
+    let named = error.get(ContextKind::InvalidSubcommand);
+    let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) = (error.kind(), named) else {
+        return None;
+    };
+    Utf8Path::new(named).extension().filter(|extension| extension.eq_ignore_ascii_case("dxf"))?;
+    let place = arguments.iter().position(|argument| argument == named.as_str())?;
+    let (before, after) = arguments.split_at(place);
+    Some([before, &["check".into()], after].concat())
+}
+
+/// How something is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum Format {
+    /// With the faulty text underlined, help and notes
+    #[default]
+    Full,
+    /// One line each
+    Concise,
+    /// One JSON object a line
+    Json,
+    /// SARIF 2.1.0
+    Sarif,
+    /// Annotations of a GitHub workflow
+    Github,
+    /// GitLab code quality
+    Gitlab,
+    /// `JUnit` XML, a test case for each path
+    Junit,
+    /// A page with pictures: for `--report` only
+    #[value(hide = true)]
+    Html,
+    /// A graph for Graphviz
+    #[value(hide = true)]
+    Dot,
+    /// A graph for Mermaid
+    #[value(hide = true)]
+    Mermaid,
+}
+
+impl Format {
+    /// Whether the format shows diagnostics; the others show graphs.
+    pub fn shows_diagnostics(self) -> bool {
+        !matches!(self, Self::Dot | Self::Mermaid)
+    }
+
+    /// Whether the format is machine-readable, so that it is the result of a run.
+    pub fn is_for_machines(self) -> bool {
+        self == Self::Json || self.is_report()
+    }
+
+    /// Whether the format contains only findings.
+    pub fn is_report(self) -> bool {
+        matches!(self, Self::Sarif | Self::Github | Self::Gitlab | Self::Junit)
+    }
+
+    /// Whether the format can only be written once all findings are known.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Self::Sarif | Self::Gitlab | Self::Junit)
+    }
+}
+
+/// A report to write besides the printed output: `FORMAT=FILE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportFile {
+    /// Format of the report.
+    pub format: Format,
+    /// File to write.
+    pub file: Utf8PathBuf,
+}
+
+impl ReportFile {
+    /// Whether it goes to standard output: `FORMAT=-`.
+    pub fn is_stdout(&self) -> bool {
+        self.file == "-"
+    }
+
+    /// Parses `FORMAT=FILE`.
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
+        let (format, file) = text.split_once('=').ok_or("expected FORMAT=FILE")?;
+        let format = Format::from_str(format, false).ok().filter(|format| format.shows_diagnostics());
+        let format =
+            format.ok_or("the format is full, concise, json, sarif, github, gitlab, junit or html")?;
+        if file.is_empty() {
+            return Err("the name of the file is missing".to_owned());
+        }
+        Ok(Self { format, file: file.into() })
+    }
+}
+
+/// An address of this machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Address {
+    /// Name or IP address.
+    pub host: Host,
+    /// Port; `None` means the default port, or a free one if that is taken.
+    pub port: Option<u16>,
+}
+
+/// A name or an IP address of this machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "self-explanatory")]
+pub enum Host {
+    Ip(IpAddr),
+    Name(String),
+}
+
+impl Address {
+    /// The loopback address, which only this machine can reach.
+    pub const LOOPBACK: Self = Self { host: Host::Ip(IpAddr::V4(Ipv4Addr::LOCALHOST)), port: None };
+
+    /// Parses `8080`, `127.0.0.1`, `[::1]:8080`, `localhost` or `name:8080`. Another name without a port is refused, because it could as
+    /// well be a path or a directory.
+    ///
+    /// # Errors
+    /// What is accepted.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        if let Ok(port) = text.parse() {
+            return Ok(Self { port: Some(port), ..Self::LOOPBACK });
+        }
+        if let Ok(address) = text.parse::<SocketAddr>() {
+            return Ok(Self { host: Host::Ip(address.ip()), port: Some(address.port()) });
+        }
+        let bare = text.strip_prefix('[').and_then(|text| text.strip_suffix(']')).unwrap_or(text);
+        if let Ok(ip) = bare.parse() {
+            return Ok(Self { host: Host::Ip(ip), port: None });
+        }
+        let (name, port) = text.rsplit_once(':').map_or((text, None), |(name, port)| (name, Some(port)));
+        let is_meant = port.is_some() || name.eq_ignore_ascii_case("localhost");
+        let port: Option<u16> = port.map(str::parse).transpose().map_err(|_| ADVICE)?;
+        if !is_meant || !is_name(name) {
+            return Err(ADVICE.to_owned());
+        }
+        Ok(Self { host: Host::Name(name.to_ascii_lowercase()), port })
+    }
+}
+
+const ADVICE: &str = "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)";
+
+/// Whether the text can be a host name.
+fn is_name(text: &str) -> bool {
+    let is_part = |part: &str| {
+        !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')
+    };
+    text.split('.').all(is_part)
+}
+
+/// Arguments of a command, defined only if the command is used.
+#[derive(Clone, Debug)]
+pub struct Deferred<T>(T);
+
+impl<T> Deref for Deferred<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<T: Args> Args for Deferred<T> {
+    fn augment_args(command: Definition) -> Definition {
+        command.defer(define::<T>)
+    }
+
+    fn augment_args_for_update(command: Definition) -> Definition {
+        command.defer(define::<T>)
+    }
+}
+
+impl<T: FromArgMatches> FromArgMatches for Deferred<T> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        T::from_arg_matches(matches).map(Self)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        self.0.update_from_arg_matches(matches)
+    }
+}
+
+/// Defines the arguments of a command, keeping the description that the command already has.
+fn define<T: Args>(command: Definition) -> Definition {
+    let about = command.get_about().cloned().unwrap_or_default();
+    let long_about = command.get_long_about().cloned();
+    let defined = T::augment_args(command).about(about);
+    match long_about {
+        Some(long_about) => defined.long_about(long_about),
+        None => defined.long_about(None),
+    }
+}
+
+/// English and German of the help of shared arguments and their values.
+pub(super) const GERMAN: &[(&str, &str)] = &[
+    (
+        "Drawings (.dxf), names of paths or patterns of them (8*.1P), directories",
+        "Zeichnungen (.dxf), Namen von Pfaden oder Muster dafür (8*.1P), Verzeichnisse",
+    ),
+    ("Common options", "Allgemeine Optionen"),
+    ("Language of messages (also: `PATHBUILD_LANG`)", "Sprache der Meldungen (auch: `PATHBUILD_LANG`)"),
+    (
+        "Use this configuration instead of the drawing's pathbuild.toml",
+        "Nimmt diese Konfiguration statt der pathbuild.toml der Zeichnung",
+    ),
+    ("Format of the messages", "Format der Meldungen"),
+    (
+        "Write a report of the findings into a file as well; `-` is standard output (repeatable)",
+        "Schreibt die Meldungen auch in eine Datei; `-` ist die Standardausgabe (wiederholbar)",
+    ),
+    ("When to use colours", "Wann Farben verwendet werden"),
+    (
+        "Print less: no status lines; given twice: results only",
+        "Gibt weniger aus: keine Statuszeilen; zweimal: nur Ergebnisse",
+    ),
+    ("Print more", "Gibt mehr aus"),
+    ("Number of threads", "Anzahl der Threads"),
+    (
+        "Do not trust the tree: read no file outside of it, and run no command that it names",
+        "Dem Verzeichnisbaum nicht trauen: keine Datei außerhalb lesen, keinen dort genannten Befehl ausführen",
+    ),
+    ("Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine"),
+    (
+        "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
+        "Verzeichnis für gespeicherte Ergebnisse, auch für Kopien des Verzeichnisbaums (auch: `PATHBUILD_CACHE_DIR`)",
+    ),
+    ("With the faulty text underlined, help and notes", "Mit unterstrichenem Text, Hilfe und Hinweisen"),
+    ("One line each", "Je eine Zeile"),
+    ("One JSON object a line", "Je Zeile ein JSON-Objekt"),
+    ("SARIF 2.1.0", "SARIF 2.1.0"),
+    ("Annotations of a GitHub workflow", "Anmerkungen eines GitHub-Workflows"),
+    ("GitLab code quality", "GitLab Code Quality"),
+    ("`JUnit` XML, a test case for each path", "`JUnit`-XML, je Pfad ein Testfall"),
+    ("A page with pictures: for `--report` only", "Eine Seite mit Bildern: nur für `--report`"),
+    ("A graph for Graphviz", "Ein Graph für Graphviz"),
+    ("A graph for Mermaid", "Ein Graph für Mermaid"),
+    ("English", "Englisch"),
+    ("German", "Deutsch"),
+    ("DRAWING|PATH|DIRECTORY", "ZEICHNUNG|PFAD|VERZEICHNIS"),
+    ("FORMAT=FILE", "FORMAT=DATEI"),
+    ("en|de", "en|de"),
+    ("auto|always|never", "auto|always|never"),
+    ("full|concise|json|sarif|github|gitlab|junit", "full|concise|json|sarif|github|gitlab|junit"),
+    ("expected a number from 1 to 1024", "erwartet wird eine Zahl von 1 bis 1024"),
+    ("expected FORMAT=FILE", "erwartet wird FORMAT=DATEI"),
+    (
+        "the format is full, concise, json, sarif, github, gitlab, junit or html",
+        "das Format ist full, concise, json, sarif, github, gitlab, junit oder html",
+    ),
+    ("the name of the file is missing", "der Name der Datei fehlt"),
+    (
+        "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)",
+        "eine Adresse ist PORT, IP, IP:PORT, localhost oder NAME:PORT (Zeichnungen, Pfade und Verzeichnisse stehen vor --serve)",
+    ),
+];

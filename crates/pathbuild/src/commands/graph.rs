@@ -1,0 +1,403 @@
+//! `pathbuild graph`, `deps` and `rdeps`: show which path embeds which. (book: reference/commands)
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+use std::fmt::Write;
+
+use pathbuild_db::{Role, SourceFile, Target, check_file};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, shown};
+use pathbuild_path::{Bindings, PathName};
+use pathbuild_workspace::session::{Direction, Embedding, End, Graph, Node, Selection, Session};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::args::{Format, GraphArgs};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Runs `graph`: lists all embeddings of the given paths; without arguments, those of the library.
+pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
+    let mut session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.refuse_empty_input();
+    }
+    let (arguments, graph) = session.with_stable_files(|session| {
+        let arguments = GraphArguments::new(session, session.select(&args.inputs));
+        let graph = session.graph(&arguments.targets);
+        (arguments, graph)
+    });
+    print(context, &graph, |graph| list(graph, context.lang()));
+    arguments.finish(context, &graph)
+}
+
+/// Runs `deps`: shows what paths embed, level by level.
+pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
+    let mut session = Session::new(context);
+    if args.inputs.inputs.is_empty() && !session.has_library() {
+        return context.refuse_empty_input();
+    }
+    let (arguments, graph) = session.with_stable_files(|session| {
+        let arguments = GraphArguments::new(session, session.select(&args.inputs));
+        let graph = session.graph(&arguments.targets);
+        (arguments, graph)
+    });
+    print(context, &graph, |graph| tree(graph, Direction::Down, context.lang()));
+    arguments.finish(context, &graph)
+}
+
+/// Runs `rdeps`: shows what embeds the given paths, level by level, among all paths of the library; without a library, among those in and
+/// below the working directory.
+pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
+    if args.inputs.inputs.is_empty() {
+        return context.usage(
+            context.choose("name drawings or paths for rdeps", "für rdeps Zeichnungen oder Pfade nennen"),
+        );
+    }
+    let mut session = Session::new(context);
+    let (arguments, whole) = session.with_stable_files(|session| {
+        let mut arguments = GraphArguments::new(session, session.select(&args.inputs));
+        let whole = session.graph(&arguments.with_all_others(session));
+        (arguments, whole)
+    });
+    let db = session.db();
+    let named = arguments.targets.iter().flat_map(|target| {
+        let name = PathName::new(target.name(db));
+        whole.nodes_of(&name, target.file(db).path(db))
+    });
+    let mut roots: Vec<usize> = Vec::new();
+    for root in named {
+        if !roots.contains(&root) {
+            roots.push(root);
+        }
+    }
+    let graph = whole.part(&roots, Direction::Up);
+    print(context, &graph, |graph| tree(graph, Direction::Up, context.lang()));
+    arguments.finish(context, &whole)
+}
+
+/// The resolved arguments.
+struct GraphArguments {
+    targets: Vec<Target>,
+    files: Vec<SourceFile>,
+    problems: Vec<Diagnostic>,
+}
+
+impl GraphArguments {
+    fn new(session: &Session<'_>, selection: Selection) -> Self {
+        let db = session.db();
+        let files = selection.whole(session);
+        session.parse_ahead(&files);
+        let mut targets: Vec<Target> =
+            files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
+        let is_whole: HashSet<SourceFile> = files.iter().copied().collect();
+        let named = selection.paths.iter().filter(|path| !is_whole.contains(&path.file));
+        targets.extend(named.map(|path| session.target(path, Role::Checked)));
+        let mut problems = selection.problems;
+        let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
+        problems.extend(broken.cloned());
+        let problems = session.with_hints(problems);
+        Self { targets, files, problems }
+    }
+
+    /// The requested targets, and all others that may embed them.
+    fn with_all_others(&mut self, session: &Session<'_>) -> Vec<Target> {
+        let (files, problems) = session.all_drawings();
+        self.problems.extend(problems);
+        session.parse_ahead(&files);
+        let arguments: HashSet<SourceFile> = self.files.iter().copied().collect();
+        let others = files.into_iter().filter(|file| !arguments.contains(file));
+        let others = others.flat_map(|file| session.targets(file, &Role::Checked));
+        self.targets.iter().copied().chain(others).collect()
+    }
+
+    /// Shows diagnostics, and reports where the graph is incomplete.
+    fn finish(self, context: &Context, graph: &Graph) -> ExitStatus {
+        let unknown = graph.nodes.iter().filter(|node| !node.is_sound).count();
+        if unknown > 0 {
+            context.printer.status(format_args!(
+                "{}: {unknown} ({})",
+                context.choose(
+                    "paths with errors, which may embed more than is shown",
+                    "Pfade mit Fehlern, die mehr einbetten können als gezeigt"
+                ),
+                context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
+            ));
+        }
+        let problems = self.problems.into_iter().chain(graph.problems.iter().cloned());
+        let findings = context.findings(problems.collect());
+        context.show(&findings);
+        if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    }
+}
+
+fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph) -> String) {
+    match context.format {
+        Format::Dot => context.printer.result(dot(graph)),
+        Format::Mermaid => context.printer.result(mermaid(graph)),
+        Format::Json => context.row("graph", json(context, graph)),
+        _ => context.printer.result(text(graph)),
+    }
+}
+
+/// A path with the values of its variables, written as in a subpath's text: `2051.1P :A0,5 :BX`.
+fn path(node: &Node) -> String {
+    with_values(node.name.as_str(), &node.bindings)
+}
+
+/// The drawing of a path.
+fn file(node: &Node) -> Cow<'_, str> {
+    shown::line(node.file.as_str())
+}
+
+/// The target of an embedding.
+fn end(graph: &Graph, end: &End) -> String {
+    match end {
+        End::Node(node) => path(&graph.nodes[*node]),
+        End::Nowhere(name, code) => nowhere(name.as_ref(), *code),
+    }
+}
+
+/// A missing target with the reason: `9999.1P (PB503 path-not-found)`.
+fn nowhere(name: Option<&PathName>, code: Code) -> String {
+    format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
+}
+
+fn with_values(name: &str, bindings: &Bindings) -> String {
+    let mut label = shown::line(name).into_owned();
+    for (variable, value) in bindings.iter() {
+        label.push_str(" :");
+        label.push(variable);
+        label.push_str(&shown::line(value));
+    }
+    label
+}
+
+/// A tree for each root.
+fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {
+    let neighbours = graph.neighbours(direction);
+    let words = Words::of(lang);
+    let mut text = String::new();
+    let mut is_shown = vec![false; graph.nodes.len()];
+    // Not recursive: a library may nest deeper than the stack.
+    let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
+    while let Some(step) = open.pop() {
+        let (label, mut remarks) = words.line(graph, &step);
+        if let End::Node(node) = step.to {
+            if !std::mem::replace(&mut is_shown[node], true) {
+                let below = neighbours[node].iter().rev();
+                open.extend(
+                    below.map(|index| Step::along(&graph.embeddings[*index], direction, step.level + 1)),
+                );
+            } else if !neighbours[node].is_empty() {
+                remarks.push(words.shown.to_owned());
+            }
+        }
+        _ = write!(text, "{:indent$}{label}", "", indent = 2 * step.level.min(DEEPEST));
+        _ = if remarks.is_empty() { writeln!(text) } else { writeln!(text, "  ({})", remarks.join(", ")) };
+    }
+    text
+}
+
+/// Upper bound on the indentation level: deeper lines would be unreadable, and the output of a long chain would grow quadratically.
+const DEEPEST: usize = 100;
+
+/// A line of a tree.
+struct Step {
+    to: End,
+    /// Number of segments that embed it at this point.
+    count: usize,
+    level: usize,
+}
+
+impl Step {
+    fn root(node: usize) -> Self {
+        Self { to: End::Node(node), count: 1, level: 0 }
+    }
+
+    fn along(embedding: &Embedding, direction: Direction, level: usize) -> Self {
+        let to = match direction {
+            Direction::Down => embedding.to.clone(),
+            Direction::Up => End::Node(embedding.from),
+        };
+        Self { to, count: embedding.count, level }
+    }
+}
+
+struct Words {
+    times: &'static str,
+    shown: &'static str,
+    example: &'static str,
+    errors: &'static str,
+}
+
+impl Words {
+    fn of(lang: Lang) -> &'static Self {
+        match lang {
+            Lang::En => {
+                &Self { times: "times", shown: "as above", example: "example values", errors: "has errors" }
+            }
+            Lang::De => {
+                &Self { times: "mal", shown: "wie oben", example: "Beispielwerte", errors: "hat Fehler" }
+            }
+        }
+    }
+
+    /// The label of a line, with remarks.
+    fn line(&self, graph: &Graph, step: &Step) -> (String, Vec<String>) {
+        let mut remarks = Vec::new();
+        if step.count > 1 {
+            remarks.push(format!("{} {}", step.count, self.times));
+        }
+        let End::Node(node) = step.to else { return (end(graph, &step.to), remarks) };
+        let node = &graph.nodes[node];
+        if node.is_example {
+            remarks.push(self.example.to_owned());
+        }
+        if !node.is_sound {
+            remarks.push(self.errors.to_owned());
+        }
+        (format!("{}  {}", path(node), file(node)), remarks)
+    }
+}
+
+/// `8001.1P > 2051.1P :A0,5`, sorted by embedding path. Paths without any embeddings are listed on their own.
+fn list(graph: &Graph, lang: Lang) -> String {
+    let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
+    let (times, example) = match lang {
+        Lang::En => ("times", "example values"),
+        Lang::De => ("mal", "Beispielwerte"),
+    };
+    let mut text = String::new();
+    for (index, node) in graph.nodes.iter().enumerate() {
+        if below[index].is_empty() && above[index].is_empty() {
+            let remark = if node.is_example { format!("  ({example})") } else { String::new() };
+            _ = writeln!(text, "{}{remark}", path(node));
+        }
+        for embedding in below[index].iter().map(|embedding| &graph.embeddings[*embedding]) {
+            _ = write!(text, "{} > {}", path(node), end(graph, &embedding.to));
+            _ = match embedding.count {
+                1 => writeln!(text),
+                count => writeln!(text, "  ({count} {times})"),
+            };
+        }
+    }
+    text
+}
+
+fn dot(graph: &Graph) -> String {
+    let mut text = String::from("digraph pathbuild {\n  rankdir=LR;\n  node [shape=box];\n");
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let style = if node.is_sound { "" } else { ", style=dashed" };
+        let label = format!("{}\n{}", path(node), file(node));
+        _ = writeln!(text, "  n{index} [label={}{style}];", quoted(&label));
+    }
+    for (index, embedding) in graph.embeddings.iter().enumerate() {
+        let label =
+            if embedding.count > 1 { format!(" [label=\"{}\"]", embedding.count) } else { String::new() };
+        match &embedding.to {
+            End::Node(to) => _ = writeln!(text, "  n{} -> n{to}{label};", embedding.from),
+            End::Nowhere(name, code) => {
+                let missing = quoted(&nowhere(name.as_ref(), *code));
+                _ = writeln!(text, "  m{index} [label={missing}, style=dashed];");
+                _ = writeln!(text, "  n{} -> m{index}{label};", embedding.from);
+            }
+        }
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// Quotes a string for DOT; line breaks become `\n`.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+}
+
+fn mermaid(graph: &Graph) -> String {
+    let mut text = String::from("flowchart LR\n");
+    for (index, node) in graph.nodes.iter().enumerate() {
+        let label = format!("{}<br>{}", escaped(&path(node)), escaped(&file(node)));
+        _ = writeln!(text, "  n{index}[\"{label}\"]");
+    }
+    for (index, embedding) in graph.embeddings.iter().enumerate() {
+        let arrow = if embedding.count > 1 { format!("-->|{}|", embedding.count) } else { "-->".to_owned() };
+        match &embedding.to {
+            End::Node(to) => _ = writeln!(text, "  n{} {arrow} n{to}", embedding.from),
+            End::Nowhere(name, code) => {
+                let missing = escaped(&nowhere(name.as_ref(), *code));
+                _ = writeln!(text, "  n{} {arrow} m{index}([\"{missing}\"])", embedding.from);
+            }
+        }
+    }
+    text
+}
+
+/// Replaces characters that are special to Mermaid by entity codes.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '#' | '"' | '<' | '>' | '&' | '`' | '%' => _ = write!(escaped, "#{};", u32::from(character)),
+            character => escaped.push(character),
+        }
+    }
+    escaped
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    paths: Vec<Path<'a>>,
+    embeddings: Vec<EmbeddingRow<'a>>,
+}
+
+#[expect(clippy::struct_field_names, reason = "the keys of the JSON")]
+#[derive(Serialize)]
+struct Path<'a> {
+    path: &'a str,
+    file: String,
+    values: Map<String, Value>,
+    /// Whether the values are only examples, with which nothing embeds the path.
+    example: bool,
+    /// Whether its drawing has errors, so that its embeddings may be incomplete.
+    erroneous: bool,
+}
+
+/// `to` is null if nothing is embedded; then `path` is the name in the segment, and `code` the reason.
+#[derive(Serialize)]
+struct EmbeddingRow<'a> {
+    from: usize,
+    to: Option<usize>,
+    count: usize,
+    path: Option<&'a str>,
+    code: Option<String>,
+}
+
+fn json(context: &Context, graph: &Graph) -> Value {
+    let object = Object {
+        paths: graph.nodes.iter().map(|node| path_json(context, node)).collect(),
+        embeddings: graph.embeddings.iter().map(|edge| embedding(graph, edge)).collect(),
+    };
+    // Serialization fails only for maps with keys that are not strings.
+    serde_json::to_value(&object).unwrap_or_default()
+}
+
+fn path_json<'a>(context: &Context, node: &'a Node) -> Path<'a> {
+    Path {
+        path: node.name.as_str(),
+        file: context.file(&node.file),
+        values: values(&node.bindings),
+        example: node.is_example,
+        erroneous: !node.is_sound,
+    }
+}
+
+fn values(bindings: &Bindings) -> Map<String, Value> {
+    bindings.iter().map(|(variable, value)| (variable.to_string(), value.into())).collect()
+}
+
+fn embedding<'a>(graph: &'a Graph, edge: &'a Embedding) -> EmbeddingRow<'a> {
+    let (to, path, code) = match &edge.to {
+        End::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
+        End::Nowhere(name, code) => (None, name.as_ref().map(PathName::as_str), Some(code.to_string())),
+    };
+    EmbeddingRow { from: edge.from, to, count: edge.count, path, code }
+}

@@ -1,0 +1,171 @@
+//! `pathbuild list` and `stats`: the paths of a library, and their totals. (book: reference/commands)
+
+use std::fmt::Write;
+
+use pathbuild_workspace::list::{PathListing, Request, Row, State, Stats, Total, path_json, stats_json};
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::Session;
+
+use crate::args::{Format, ListArgs};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::numbers::{self, count, decimal};
+use crate::table::{Column, table};
+
+/// Prints one line per path.
+pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
+    show(context, args, |context, rows, _| match context.format {
+        Format::Json => rows.iter().for_each(|row| {
+            context.row("path", path_json(&context.file(&row.path.drawing), row));
+        }),
+        _ if rows.is_empty() => {}
+        _ => {
+            let cells = rows.iter().map(|row| cells(row, context));
+            context.printer.result(table(&columns(context), cells));
+        }
+    })
+}
+
+/// Prints the totals of the paths.
+pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
+    show(context, args, |context, rows, drawings| {
+        let stats = Stats::of(rows, drawings);
+        match context.format {
+            Format::Json => context.row("statistics", stats_json(&stats)),
+            _ => context.printer.result(text(&stats, context)),
+        }
+    })
+}
+
+/// Lists and shows the paths. Only findings of directories and drawings are shown separately, since the errors of paths are part of the
+/// list.
+fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
+    let inputs = args.inputs();
+    let post_processor = match PostProcessor::for_run(context, args.post.as_deref(), PostArguments::default())
+    {
+        Ok(post_processor) => post_processor,
+        Err(problems) => return context.fail(problems),
+    };
+    let mut session = Session::new(context);
+    let listed = Request { inputs: &inputs, post_processor: post_processor.as_ref() }.run(&mut session);
+    // Leak instead of dropping: freeing all query results takes longer than process exit.
+    std::mem::forget(session);
+    let PathListing { paths, drawings, diagnostics } = match listed {
+        Ok(listed) => listed,
+        Err(reason) => return context.usage(&reason),
+    };
+    let rows: Vec<Row> = paths.into_iter().map(|path| Row::new(context, path)).collect();
+    print(context, &rows, drawings);
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+fn word(state: State, context: &Context) -> &'static str {
+    match state {
+        State::Errors => context.choose("errors", "Fehler"),
+        State::Stale => context.choose("program not current", "Programm nicht aktuell"),
+        State::Current => context.choose("program current", "Programm aktuell"),
+        State::Ok => context.choose("ok", "in Ordnung"),
+    }
+}
+
+fn columns(context: &Context) -> [Column<'static>; 9] {
+    let heading = |en, de| context.choose(en, de);
+    [
+        (heading("path", "Pfad"), false),
+        (heading("drawing", "Zeichnung"), false),
+        ("M", false),
+        ("T", true),
+        ("O", true),
+        (heading("size", "Größe"), true),
+        (heading("length", "Länge"), true),
+        ("min", true),
+        (heading("state", "Zustand"), false),
+    ]
+}
+
+fn cells(row: &Row, context: &Context) -> Vec<String> {
+    let path = &row.path;
+    let number = |number: Option<f64>, places| {
+        number.map_or_else(|| "-".to_owned(), |number| decimal(number, places, context.lang()))
+    };
+    let size =
+        row.size().map(|[width, height]| format!("{} x {}", number(Some(width), 1), number(Some(height), 1)));
+    vec![
+        path.name.as_str().to_owned(),
+        path.drawing.to_string(),
+        path.material.as_deref().unwrap_or("-").to_owned(),
+        number(path.thickness, 3),
+        number(path.tool, 3),
+        size.unwrap_or_else(|| "-".to_owned()),
+        number(path.length, 0),
+        number(path.minutes, 0),
+        state_text(row, context),
+    ]
+}
+
+fn state_text(row: &Row, context: &Context) -> String {
+    let counted = |count, noun| numbers::counted(count, context.lang(), noun);
+    let errors = match row.state() {
+        State::Errors => {
+            counted(row.errors, [context.choose("error", "Fehler"), context.choose("errors", "Fehler")])
+        }
+        state => word(state, context).to_owned(),
+    };
+    if row.warnings == 0 {
+        return errors;
+    }
+    let warnings = [context.choose("warning", "Warnung"), context.choose("warnings", "Warnungen")];
+    format!("{errors}, {}", counted(row.warnings, warnings))
+}
+
+fn text(stats: &Stats, context: &Context) -> String {
+    let lang = context.lang();
+    let say = |en, de| context.choose(en, de);
+    let mut text = format!(
+        "{}: {}, {}: {}, {}: {} mm, {}: {}\n",
+        say("drawings", "Zeichnungen"),
+        count(stats.drawings, lang),
+        say("paths", "Pfade"),
+        count(stats.all.paths, lang),
+        say("length", "Länge"),
+        decimal(stats.all.length, 0, lang),
+        say("minutes", "Minuten"),
+        decimal(stats.all.minutes, 0, lang),
+    );
+    for (state, number) in &stats.states {
+        _ = writeln!(text, "  {}: {}", word(*state, context), count(*number, lang));
+    }
+    _ = writeln!(
+        text,
+        "  {}: {}",
+        say("paths with warnings", "Pfade mit Warnungen"),
+        count(stats.warnings, lang)
+    );
+    let none = || say("none", "keins").to_owned();
+    let materials =
+        stats.materials.iter().map(|(name, total)| (name.as_deref().map_or_else(none, str::to_owned), total));
+    text.push_str(&by(context, say("material M", "Material M"), materials));
+    let cutters = stats.cutters.iter().map(|(tool, total)| {
+        #[expect(clippy::cast_precision_loss, reason = "a diameter within a drawing's limits")]
+        let shown = tool.map_or_else(none, |tool| decimal(tool as f64 / 1000.0, 3, lang));
+        (shown, total)
+    });
+    text.push_str(&by(context, say("cutter O", "Fräser O"), cutters));
+    text
+}
+
+fn by<'a>(context: &Context, heading: &str, totals: impl Iterator<Item = (String, &'a Total)>) -> String {
+    let lang = context.lang();
+    let columns = [
+        (heading, false),
+        (context.choose("paths", "Pfade"), true),
+        (context.choose("length", "Länge"), true),
+        ("min", true),
+    ];
+    let rows = totals.map(|(name, total)| {
+        vec![name, count(total.paths, lang), decimal(total.length, 0, lang), decimal(total.minutes, 0, lang)]
+    });
+    format!("\n{}", table(&columns, rows))
+}

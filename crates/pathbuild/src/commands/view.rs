@@ -1,0 +1,201 @@
+//! `pathbuild view`: shows a path, a drawing or a program. (docs: "Pictures")
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::{Diagnostic, Value, shown};
+use pathbuild_view::{Scene, VisibleParts};
+use pathbuild_workspace::files::is_there;
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::emit::{SceneReport, ShownText};
+use pathbuild_workspace::session::{NamedPaths, Session};
+
+use super::picture_output::{deliver, show};
+use super::program::Program;
+use crate::args::ViewArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+
+/// Runs the command. Errors are shown in the picture.
+pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
+    let output = match Output::of(context, args.output.as_deref()) {
+        Ok(output) => output,
+        Err(reason) => return context.usage(&reason),
+    };
+    let target = match target_scene(context, args) {
+        Ok(scene) => scene,
+        Err(Failure::Usage(reason)) => return context.usage(&reason),
+        Err(Failure::Found(problems)) => return context.fail(problems),
+    };
+    let (scene, findings) = target.report.with_findings(context, &target.file);
+    context.show(&findings);
+    if let Err(problem) = output.deliver(context, &scene) {
+        return context.fail(vec![*problem]);
+    }
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// The scene of an argument.
+struct TargetScene {
+    report: SceneReport,
+    /// The drawing or program that is shown.
+    file: String,
+}
+
+/// Why nothing can be shown.
+enum Failure {
+    Usage(String),
+    Found(Vec<Diagnostic>),
+}
+
+/// The scene of the argument. A file that is not a drawing is read as a program.
+fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
+    let file = Utf8Path::new(&args.what);
+    let is_drawing = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+    if !is_drawing && is_there(file) {
+        return program(context, file, args);
+    }
+    Session::new(context).with_stable_files(|session| drawing(session, &args.what))
+}
+
+fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
+    let program =
+        Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
+    let mut scene = Scene::new(file.file_name().unwrap_or_default());
+    scene.paths.push(program.scene_path(context));
+    let report = SceneReport { scene, diagnostics: program.read.problems };
+    Ok(TargetScene { report, file: file.to_string() })
+}
+
+fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
+    let Some(NamedPaths { file, names }) = session.named_paths(what).map_err(Failure::Found)? else {
+        let reason = session.workspace().phrase(
+            "view shows one path, drawing or program: `{}` is a directory",
+            "view zeigt einen Pfad, eine Zeichnung oder ein Programm: `{}` ist ein Verzeichnis",
+            &shown::line(what),
+        );
+        return Err(Failure::Usage(reason));
+    };
+    let db = session.db();
+    let post_processor = PostProcessor::for_run(session.workspace(), None, PostArguments::default());
+    let post_processor = post_processor.map_err(Failure::Found)?;
+    let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
+    let missing = session.no_path(file.path(db), &names, &report.diagnostics);
+    report.diagnostics.extend(missing);
+    if names.is_empty() {
+        // An empty picture could replace one that shows something.
+        return Err(Failure::Found(report.diagnostics));
+    }
+    report.diagnostics = session.with_hints(report.diagnostics);
+    Ok(TargetScene { report, file: file.path(db).to_string() })
+}
+
+/// Destination of a scene, with its format.
+struct Output {
+    format: Format,
+    /// The file; `None` shows the scene in the browser.
+    file: Option<Utf8PathBuf>,
+}
+
+/// Format of a picture.
+#[derive(Clone, Copy)]
+enum Format {
+    Svg,
+    Json,
+    #[cfg(feature = "pictures")]
+    Png,
+    #[cfg(feature = "pictures")]
+    Pdf,
+    #[cfg(feature = "pictures")]
+    Html,
+}
+
+impl Format {
+    /// Chooses the format by the extension.
+    #[cfg(feature = "pictures")]
+    fn of(extension: &str) -> Option<Self> {
+        Some(match extension {
+            "svg" => Self::Svg,
+            "json" => Self::Json,
+            "png" => Self::Png,
+            "pdf" => Self::Pdf,
+            "html" => Self::Html,
+            _ => return None,
+        })
+    }
+
+    #[cfg(not(feature = "pictures"))]
+    fn of(extension: &str) -> Option<Self> {
+        Some(match extension {
+            "svg" => Self::Svg,
+            "json" => Self::Json,
+            _ => return None,
+        })
+    }
+
+    #[cfg(feature = "pictures")]
+    fn names(context: &Context) -> &str {
+        context.choose(
+            "the name must end in .svg, .png, .pdf, .html or .json",
+            "der Name muss auf .svg, .png, .pdf, .html oder .json enden",
+        )
+    }
+
+    #[cfg(not(feature = "pictures"))]
+    fn names(context: &Context) -> &str {
+        context.choose(
+            "the name must end in .svg or .json: this pathbuild was built without the feature `pictures`",
+            "der Name muss auf .svg oder .json enden: dieses pathbuild ist ohne das Feature `pictures` gebaut",
+        )
+    }
+
+    fn bytes(self, scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
+        match self {
+            Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
+            Self::Json => Ok((scene.to_json() + "\n").into_bytes()),
+            #[cfg(feature = "pictures")]
+            Self::Png => pathbuild_view::png(scene, shown),
+            #[cfg(feature = "pictures")]
+            Self::Pdf => pathbuild_view::pdf(scene, shown),
+            #[cfg(feature = "pictures")]
+            Self::Html => Ok(pathbuild_view::page(scene, shown.lang).into_bytes()),
+        }
+    }
+}
+
+impl Output {
+    /// Chooses the format by the extension.
+    ///
+    /// # Errors
+    /// If the extension is unknown.
+    fn of(context: &Context, file: Option<&Utf8Path>) -> Result<Self, String> {
+        let Some(file) = file else { return Self::browser(context) };
+        let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
+        let format = Format::of(&extension);
+        let format =
+            format.ok_or_else(|| format!("-o {}: {}", shown::line(file.as_str()), Format::names(context)))?;
+        Ok(Self { format, file: Some(file.to_owned()) })
+    }
+
+    #[cfg(feature = "pictures")]
+    #[expect(clippy::unnecessary_wraps, reason = "without pictures there is no page")]
+    fn browser(_: &Context) -> Result<Self, String> {
+        Ok(Self { format: Format::Html, file: None })
+    }
+
+    #[cfg(not(feature = "pictures"))]
+    fn browser(context: &Context) -> Result<Self, String> {
+        let needs = context.choose("view needs -o FILE", "view braucht -o DATEI");
+        Err(format!("{needs}: {}", Format::names(context)))
+    }
+
+    /// Writes or shows the scene.
+    ///
+    /// # Errors
+    /// If it cannot be written or shown.
+    fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
+        let bytes = self.format.bytes(scene, VisibleParts::all(context.lang()));
+        match &self.file {
+            Some(file) => deliver(context, file, bytes),
+            None => show(context, bytes),
+        }
+    }
+}
