@@ -9,9 +9,9 @@ use pathbuild_path::approx::above;
 use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
-use super::survey::{Survey, Used};
-use super::table::{ProbePoint, ProbeTable, ProgramProbe};
+use super::scan::{Survey, Used};
 use super::values::{Entered, ProbeLine};
+use super::values::{ProbePoint, ProbeTable, ProgramProbe};
 use crate::native::{f3, push_exact};
 
 /// Measured heights by probe number.

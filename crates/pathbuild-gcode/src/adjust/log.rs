@@ -10,7 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, Message};
 use regex::bytes::{Captures, Regex};
 
 use super::Source;
-use super::lines::{Line, lines};
+use super::scan::{Line, lines};
 use super::values::{Entered, ProbeLine, parse};
 
 /// Values that differ by no more than this, in mm, are considered equal: users enter three decimals.

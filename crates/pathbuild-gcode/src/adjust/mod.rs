@@ -5,11 +5,8 @@
 
 mod check;
 mod formula;
-mod lines;
 mod log;
 mod scan;
-mod survey;
-mod table;
 mod values;
 mod write;
 
@@ -18,10 +15,9 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::provenance::is_same_program;
 
+use self::values::ProbeTable;
+pub(crate) use self::values::{ProgramProbe, probe_entry};
 use check::{Check, Values};
-use survey::Survey;
-use table::ProbeTable;
-pub(crate) use table::{ProgramProbe, probe_entry};
 
 /// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
 #[derive(Clone, Copy, Debug)]
@@ -89,11 +85,11 @@ pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText>
 
 /// The probes listed in the header of a program, without measured heights.
 pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
-    let program = &program[lines::mark(program).len()..];
+    let program = &program[scan::mark(program).len()..];
     let lines =
-        (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| table::is_header(line));
+        (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| values::is_header(line));
     let entries = lines.filter_map(|(line, content)| {
-        let (number, probe) = table::entry_of_line(content)?;
+        let (number, probe) = values::entry_of_line(content)?;
         Some(FormulaText { line, text: format!("#{number} {probe}"), is_applied: false })
     });
     entries.collect()
@@ -133,7 +129,7 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let measured = |(probe, made): (&u32, &ProgramProbe)| Some((*probe, made.measured?));
     let values = stated.iter().map(measured).collect::<Option<Values>>()?;
     let mut problems = Vec::new();
-    let survey = Survey::of(clean, &mut problems);
+    let survey = scan::Survey::of(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let inputs = Inputs { program: clean, values: program, log: None, max_correction: f64::INFINITY };
     has_all.then(|| write::adjusted(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
@@ -161,7 +157,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
 pub fn adjust(inputs: &Inputs<'_>) -> Result<Adjusted, Vec<Diagnostic>> {
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);
-    let survey = Survey::of(inputs.program, &mut problems);
+    let survey = scan::Survey::of(inputs.program, &mut problems);
     let mut lines = values::read(inputs.values, &mut problems);
     if let Some(log) = inputs.log {
         log::fill(&mut lines, inputs.values, log, &mut problems);

@@ -7,10 +7,8 @@ use pathbuild_diagnostic::messages::probes as messages;
 
 use super::check::Values;
 use super::formula::{self, Fault, Probes};
-use super::lines::{Line, lines, mark};
-use super::scan::{Spot, spots};
-use super::survey::{in_line, located, number};
-use super::table::{entry_of_line, is_header};
+use super::scan::{Line, Spot, in_line, lines, located, mark, number, spots};
+use super::values::{entry_of_line, is_header};
 use super::{Adjusted, Inputs};
 use crate::native::{f3, push_exact};
 

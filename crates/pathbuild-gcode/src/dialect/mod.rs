@@ -5,16 +5,15 @@
 mod codes;
 mod comment;
 mod rules;
-mod spelling;
 
 use std::fmt;
 use std::str::FromStr;
 
+pub use self::rules::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 pub use codes::{Acceptance, Letters, Words};
 pub(crate) use comment::beginning_of;
 pub use comment::{ascii, is_active_comment, within_comment};
 pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rules, StartMotion};
-pub use spelling::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 
 /// The supported kinds of G-code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]

@@ -12,7 +12,7 @@ use pathbuild_motion::{Action, StatedWord, Step, WordEffect};
 use super::codes;
 use super::evaluate::name_of;
 use super::execute::{Interpreter, whole};
-use super::gather::ValueFault;
+use super::gather::{Jump, Name, ValueFault};
 use super::limits;
 use super::switches::CALLS;
 use crate::read::{Block, BlockReader, OWord, OWordKind, Place, Value};
@@ -22,32 +22,6 @@ const DEEPEST: usize = 10;
 
 /// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
 const MOST_LINES: u32 = 1_000_000;
-
-/// How a control names a subprogram.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Name {
-    /// `o100 sub`, `o<name> sub`.
-    Subroutine(Box<str>),
-    /// `O100`.
-    Program(u32),
-    /// `N100`.
-    Line(u32),
-}
-
-/// Which line is executed after a block, unless it is the next one.
-#[derive(Debug)]
-pub(super) enum Jump {
-    /// Runs a subprogram several times, with values for its parameters.
-    Call(Name, u32, Vec<f64>),
-    /// Runs the lines up to the end of the loop several times.
-    Repeat(Box<str>, u32),
-    /// Passes over the definition of a subroutine.
-    Pass(Box<str>),
-    /// Ends the subprogram.
-    Return,
-    /// Ends a pass through the loop.
-    EndRepeat,
-}
 
 /// Why lines are no longer executed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -249,17 +223,6 @@ impl<'r, 'i> Runner<'r, 'i> {
             0 => d.quoting("name", name),
             most => d.with("most", most),
         });
-    }
-}
-
-impl Name {
-    fn shown(&self) -> String {
-        match self {
-            Self::Subroutine(name) if name.bytes().all(|byte| byte.is_ascii_digit()) => format!("o{name}"),
-            Self::Subroutine(name) => format!("o<{name}>"),
-            Self::Program(number) => format!("O{number}"),
-            Self::Line(number) => format!("N{number}"),
-        }
     }
 }
 

@@ -4,13 +4,11 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 use pathbuild_motion::{Action, Axes, Change, Move, Pace, Step};
 
-use super::calls::Jump;
 use super::codes;
-use super::evaluate::Parameters;
-use super::formulas::StatedProbes;
-use super::gather::{Gathered, Slot};
-use super::options::{Heights, Options};
+use super::evaluate::{Parameters, StatedProbes};
+use super::gather::{Gathered, Jump, Slot};
 use super::state::State;
+use super::state::{Heights, Options};
 use crate::dialect::{Acceptance, Percent, Rules, beginning_of};
 use crate::read::{At, Block, Problems, Span};
 

@@ -1,105 +1,15 @@
 //! Compares correction formulas of native programs with the numbers that are executed. (book: language/probes)
 
-use std::collections::BTreeMap;
-
 use pathbuild_diagnostic::messages::gcode as say;
 
+use super::evaluate::{NoValue, ProbeHeight};
 use super::execute::Interpreter;
-use crate::adjust::{ProgramProbe, probe_entry};
+use crate::adjust::probe_entry;
 use crate::provenance::Provenance;
-use crate::read::{Binary, Block, Formula, Function, Op, Span};
+use crate::read::{Block, Formula, Span};
 
 /// Permitted difference in mm between a formula and its number, which has three decimals.
 const ROUNDING: f64 = 0.001 * (1.0 + 1e-6);
-
-/// What a native program lists about its probes before its first word.
-#[derive(Debug, Default)]
-pub(super) struct StatedProbes {
-    probes: BTreeMap<u32, ProgramProbe>,
-    /// Whether pathbuild wrote the program, so that every probe is listed in its header.
-    is_ours: bool,
-    has_begun: bool,
-    /// S0, the only height that is never corrected.
-    start_height: Option<f64>,
-    stack: Vec<f64>,
-}
-
-/// Which height of a probe to use for evaluating a formula.
-#[derive(Clone, Copy, PartialEq)]
-enum ProbeHeight {
-    Drawn,
-    Measured,
-}
-
-/// Why a formula cannot be evaluated.
-enum NoValue {
-    /// The program does not list this probe.
-    UnknownProbe(u32),
-    /// The program does not list the measured height of this probe.
-    Unmeasured(u32),
-    Infinite,
-}
-
-impl StatedProbes {
-    fn evaluate(&mut self, code: &[Op], height: ProbeHeight) -> Result<f64, NoValue> {
-        let mut stack = std::mem::take(&mut self.stack);
-        stack.clear();
-        let value = self.run(code, height, &mut stack);
-        self.stack = stack;
-        value.and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoValue::Infinite) })
-    }
-
-    fn run(&self, code: &[Op], height: ProbeHeight, stack: &mut Vec<f64>) -> Result<f64, NoValue> {
-        for (index, op) in code.iter().enumerate() {
-            // The reader has compiled the formula, so every operator has its operands.
-            let mut pop = || stack.pop().unwrap_or(f64::NAN);
-            let value = match *op {
-                Op::Number(number) => number,
-                Op::Parameter => {
-                    let number = pop();
-                    #[expect(
-                        clippy::cast_possible_truncation,
-                        clippy::cast_sign_loss,
-                        reason = "it saturates"
-                    )]
-                    self.probe(number as u32, height, &code[index + 1..])?
-                }
-                Op::Function(Function::Negate) => -pop(),
-                Op::Binary(operator) => {
-                    let right = pop();
-                    let left = pop();
-                    match operator {
-                        Binary::Plus => left + right,
-                        Binary::Minus => left - right,
-                        Binary::Times => left * right,
-                        Binary::Divide => left / right,
-                        _ => f64::NAN,
-                    }
-                }
-                _ => f64::NAN,
-            };
-            stack.push(value);
-        }
-        Ok(stack.pop().unwrap_or(f64::NAN))
-    }
-
-    /// The height of a probe. In programs that do not list their probes, `[#51-2.000]` gives the height at which it was drawn.
-    fn probe(&self, number: u32, height: ProbeHeight, behind: &[Op]) -> Result<f64, NoValue> {
-        match (self.probes.get(&number), height) {
-            (Some(probe), ProbeHeight::Drawn) => Ok(probe.height),
-            (Some(probe), ProbeHeight::Measured) => probe.measured.ok_or(NoValue::Unmeasured(number)),
-            (None, ProbeHeight::Drawn) if !self.is_ours => match behind {
-                [Op::Number(drawn), Op::Binary(Binary::Minus), ..] => Ok(*drawn),
-                _ => Err(NoValue::UnknownProbe(number)),
-            },
-            (None, _) => Err(NoValue::UnknownProbe(number)),
-        }
-    }
-
-    fn has_measured(&self) -> bool {
-        self.probes.values().any(|probe| probe.measured.is_some())
-    }
-}
 
 impl Interpreter<'_> {
     /// Stores the probes and the provenance listed before the first word of a native program.

@@ -139,3 +139,40 @@ impl Values {
 
 /// An error in a value, with its position in the line.
 pub(super) type ValueFault = (Fault, Span);
+
+/// How a control names a subprogram.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Name {
+    /// `o100 sub`, `o<name> sub`.
+    Subroutine(Box<str>),
+    /// `O100`.
+    Program(u32),
+    /// `N100`.
+    Line(u32),
+}
+
+/// Which line is executed after a block, unless it is the next one.
+#[derive(Debug)]
+pub(super) enum Jump {
+    /// Runs a subprogram several times, with values for its parameters.
+    Call(Name, u32, Vec<f64>),
+    /// Runs the lines up to the end of the loop several times.
+    Repeat(Box<str>, u32),
+    /// Passes over the definition of a subroutine.
+    Pass(Box<str>),
+    /// Ends the subprogram.
+    Return,
+    /// Ends a pass through the loop.
+    EndRepeat,
+}
+
+impl Name {
+    pub(super) fn shown(&self) -> String {
+        match self {
+            Self::Subroutine(name) if name.bytes().all(|byte| byte.is_ascii_digit()) => format!("o{name}"),
+            Self::Subroutine(name) => format!("o<{name}>"),
+            Self::Program(number) => format!("O{number}"),
+            Self::Line(number) => format!("N{number}"),
+        }
+    }
+}

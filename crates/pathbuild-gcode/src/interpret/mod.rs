@@ -7,22 +7,16 @@
 mod arc;
 mod calls;
 mod codes;
-mod conflicts;
 mod cycle;
 mod evaluate;
 mod execute;
-mod feed;
 mod formulas;
 mod gather;
 mod guess;
 mod limits;
 mod motion;
-mod offsets;
-mod options;
-mod places;
 mod state;
 mod switches;
-mod union;
 mod words;
 
 use std::ops::ControlFlow;
@@ -31,10 +25,10 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::NOT_G_CODE;
 use pathbuild_motion::{Move, Step};
 
+pub use self::guess::{Disputes, UnionWord, union_word};
+pub use self::state::{Heights, MachineOffsets, Options, UnitCodes};
 pub use codes::name as code_name;
 pub use guess::{Evidence, EvidenceKind, Guess, guess};
-pub use options::{Heights, MachineOffsets, Options, UnitCodes};
-pub use union::{Disputes, UnionWord, union_word};
 
 use crate::dialect::Dialect;
 use crate::read::BlockReader;

@@ -4,8 +4,8 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_toolpath::{Correction, ProbePoint, Program};
 
-use super::correction::{FIRST_PARAMETER, Formulas, height_of};
 use super::number::f3;
+use super::number::{FIRST_PARAMETER, Formulas, height_of};
 use crate::adjust::{FormulaText, formula_texts, probe_entries, without_comments};
 use crate::provenance::Provenance;
 

@@ -1,91 +1,15 @@
 //! Compiles expressions while reading them: operands come before the operator, so that a stack suffices for evaluation.
 //! (book: program/reading)
 
-use std::ops::Range;
-
 use pathbuild_diagnostic::messages::gcode as say;
 
-use super::block::Span;
+use super::block::{Binary, Code, Function, Op, Span};
 use super::line::{Broken, Line};
 use super::number;
 use crate::dialect::Operators;
 
 /// Maximum nesting depth of brackets, functions and `#`. (LinuxCNC's own limit is well below 50.)
 const DEEPEST: u8 = 40;
-
-/// A range of operations in a block.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Code {
-    pub(super) first: u32,
-    pub(super) end: u32,
-}
-
-impl Code {
-    pub(super) fn range(self) -> Range<usize> {
-        self.first as usize..self.end as usize
-    }
-}
-
-/// An operation on a stack of numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Op {
-    /// Pushes a number.
-    Number(f64),
-    /// Replaces a number by the value of the parameter with that number.
-    Parameter,
-    /// Pushes the value of a named parameter, whose name is this part of the line.
-    Named(Span),
-    /// Pushes 1 if there is a parameter with this name, otherwise 0.
-    Exists(Span),
-    /// Replaces the topmost number.
-    Function(Function),
-    /// Replaces the two topmost numbers y, x by the angle of (x, y) in degrees.
-    Atan,
-    /// Replaces the two topmost numbers.
-    Binary(Binary),
-}
-
-/// Functions of one number; angles are in degrees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Function {
-    Negate,
-    Abs,
-    Acos,
-    Asin,
-    Cos,
-    Exp,
-    /// Rounds down to an integer.
-    Fix,
-    /// Rounds up to an integer.
-    Fup,
-    Ln,
-    Round,
-    Sin,
-    Sqrt,
-    Tan,
-}
-
-/// Operators on two numbers. Comparisons and logical operators return 1 or 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Binary {
-    Power,
-    Times,
-    Divide,
-    Modulo,
-    Plus,
-    Minus,
-    And,
-    Or,
-    Xor,
-    Equal,
-    NotEqual,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-}
 
 const FUNCTIONS: [(&[u8], Function); 12] = [
     (b"ABS", Function::Abs),

@@ -3,11 +3,9 @@
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 
-use super::block::{Comment, Formula, Number, OWord, Setting, Span, Value, Word};
-use super::expression::{Code, Op};
-use super::number::{self};
+use super::block::{Code, Comment, Formula, Number, OWord, Op, Setting, Span, Value, Word, decode};
+use super::number;
 use super::problems::{At, Problems};
-use super::text::decode;
 use crate::dialect::{Rules, Slash, Spelling};
 
 /// The line cannot be read, for a reason that has been reported.

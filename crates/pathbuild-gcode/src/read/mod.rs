@@ -4,22 +4,17 @@
 //! reported and skipped.
 
 mod block;
-mod comment;
 mod expression;
-mod formula;
 mod line;
 mod number;
 mod problems;
 mod reader;
-mod real_time;
-mod text;
 mod word;
 
 pub use block::{
-    Block, Comment, CommentStyle, Formula, Number, OWord, OWordKind, Setting, Span, Target, Value, Word,
+    Binary, Block, Code, Comment, CommentStyle, Formula, Function, Number, OWord, OWordKind, Op, Setting,
+    Span, Target, Value, Word, quote,
 };
-pub use expression::{Binary, Code, Function, Op};
 pub use problems::{At, Problems};
 pub(crate) use reader::Place;
 pub use reader::{BlockReader, LONGEST_LINE};
-pub use text::quote;

@@ -1,7 +1,6 @@
 //! Numbers in G-code notation: sign, digits and one decimal point, but no exponent.
 
-use super::block::Number;
-use super::text::decode;
+use super::block::{Number, decode};
 use crate::dialect::{Blanks, Spelling};
 
 /// Powers of ten that a double represents exactly.

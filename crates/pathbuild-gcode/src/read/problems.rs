@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::gcode::{MORE, ONE_MORE};
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 
-use super::block::{Block, Span};
-use super::text;
+use super::block::{Block, Span, column, fault};
 
 /// Maximum number of times that a message is reported per file, since a doubtful word in each of a million lines is a single problem.
 const SHOWN: u64 = 20;
@@ -34,8 +33,8 @@ impl<'a> At<'a> {
     }
 
     fn place(&self, diagnostic: Diagnostic) -> Diagnostic {
-        let column = text::column(self.text, self.span.start as usize);
-        diagnostic.at_line(self.line, Some(column)).with_text(text::fault(self.text, self.span))
+        let column = column(self.text, self.span.start as usize);
+        diagnostic.at_line(self.line, Some(column)).with_text(fault(self.text, self.span))
     }
 }
 

@@ -2,14 +2,12 @@
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message};
+use pathbuild_diagnostic::{Diagnostic, Message, Text};
 
-use super::block::{Block, Comment, CommentStyle, Span};
-use super::formula::plain_formula;
+use super::block::{Block, Comment, CommentStyle, Span, end_of_line};
 use super::line::{Line, Parts, plain_words};
 use super::problems::{At, Problems};
-use super::real_time;
-use super::text::end_of_line;
+use super::word::plain_formula;
 use crate::dialect::{LineLength, Percent, Rules};
 
 /// Maximum length of a line in bytes. No machine accepts lines of a comparable length.
@@ -308,7 +306,7 @@ impl<'t> BlockReader<'t> {
     }
 
     fn check_real_time(&mut self, line: &[u8]) {
-        let Some((byte, effect)) = real_time::first(line) else { return };
+        let Some((byte, effect)) = first(line) else { return };
         let found = match line[byte] {
             printable @ b' '..=b'~' => char::from(printable).to_string(),
             other => format!("0x{other:02X}"),
@@ -384,4 +382,28 @@ fn bare(bytes: &[u8]) -> usize {
 fn trim_end(line: &[u8]) -> &[u8] {
     let blanks = line.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t' | b'\r')).count();
     &line[..line.len() - blanks]
+}
+
+/// The first byte of a line that acts immediately, and its effect. Other bytes above 127 are only removed.
+pub(super) fn first(line: &[u8]) -> Option<(usize, &'static Text)> {
+    line.iter().enumerate().find_map(|(at, &byte)| effect(byte).map(|effect| (at, effect)))
+}
+
+fn effect(byte: u8) -> Option<&'static Text> {
+    Some(match byte {
+        0x18 => &Text { en: "reset", de: "Zurücksetzen" },
+        b'!' => &Text { en: "feed hold", de: "Vorschub anhalten" },
+        b'~' => &Text { en: "go on after a hold", de: "nach einem Halt weiterfahren" },
+        b'?' => &Text { en: "report the state", de: "Zustand melden" },
+        0x84 => &Text { en: "safety door", de: "Schutztür" },
+        0x85 => &Text { en: "cancel jogging", de: "Handfahrt abbrechen" },
+        0x90..=0x94 => &Text { en: "change the feed", de: "Vorschub ändern" },
+        0x95..=0x97 => &Text { en: "change the rapid speed", de: "Eilganggeschwindigkeit ändern" },
+        0x99..=0x9E => &Text {
+            en: "change the spindle's speed, or stop it",
+            de: "Drehzahl der Spindel ändern, oder sie anhalten",
+        },
+        0xA0 | 0xA1 => &Text { en: "switch the coolant", de: "Kühlung schalten" },
+        _ => return None,
+    })
 }

@@ -1,14 +1,16 @@
 //! Reads words and settings that do not have the simplest form.
 
+use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
 
-use super::block::{Number, OWord, OWordKind, Setting, Span, Target, Value, Word};
-use super::comment::comment_sign;
+use super::block::{
+    Binary, Code, Comment, CommentStyle, Formula, Number, OWord, OWordKind, Op, Setting, Span, Target, Value,
+    Word, decode,
+};
 use super::expression::Syntax;
-use super::line::{Broken, Line};
+use super::line::{Broken, Line, Parts};
 use super::number::{self, Oddity};
-use super::text::decode;
-use crate::dialect::{Blanks, Grammar};
+use crate::dialect::{Blanks, Grammar, Spelling, Style};
 
 impl Line<'_> {
     pub(super) fn word(&mut self, letter: u8) -> Result<(), Broken> {
@@ -231,4 +233,167 @@ impl Line<'_> {
 
 fn syntax_of(grammar: &Grammar) -> Syntax {
     Syntax::Dialect { operators: grammar.operators, names: grammar.names, signs: grammar.signs }
+}
+
+impl Line<'_> {
+    pub(super) fn round_comment(&mut self) -> Result<(), Broken> {
+        let start = self.at;
+        if self.spelling().formulas && self.bytes.get(start + 1) == Some(&b'=') && self.word_ends_at(start) {
+            return self.formula();
+        }
+        let Some(length) = memchr(b')', &self.bytes[start..]) else {
+            return Err(self.fault(&say::UNCLOSED_COMMENT, Span::new(start, self.bytes.len()), |d| d));
+        };
+        let text = Span::new(start + 1, start + length);
+        if !self.spelling().nested_comments
+            && let Some(inner) = memchr(b'(', &self.bytes[text.range()])
+        {
+            let inner = start + 1 + inner;
+            return Err(self.fault(&say::NESTED_COMMENT, Span::new(inner, inner + 1), |d| d));
+        }
+        self.check_comment(self.spelling().round_comments, "(", Span::new(start, start + 1))?;
+        self.out.comments.push(Comment { style: CommentStyle::Round, text });
+        self.at = start + length + 1;
+        Ok(())
+    }
+
+    fn word_ends_at(&self, at: usize) -> bool {
+        self.out.words.last().is_some_and(|word| {
+            self.bytes[word.span.end as usize..at].iter().all(|byte| matches!(byte, b' ' | b'\t'))
+        })
+    }
+
+    fn formula(&mut self) -> Result<(), Broken> {
+        let start = self.at;
+        let applied = self.bytes.get(start + 2) == Some(&b'=');
+        self.at += if applied { 3 } else { 2 };
+        let code = self.compiled_expression(Syntax::Formula)?;
+        self.closing_bracket(b')')?;
+        let word = Span::new(self.out.words.len() - 1, self.out.words.len()).start;
+        self.out.formulas.push(Formula { word, applied, code, span: Span::new(start, self.at) });
+        Ok(())
+    }
+
+    pub(super) fn comment_to_end(&mut self, byte: u8) -> Result<(), Broken> {
+        let spelling = self.spelling();
+        let (style, usual, sign) = match byte {
+            b';' => (CommentStyle::Semicolon, spelling.semicolon_comments, ";"),
+            b'!' => (CommentStyle::Bang, spelling.bang_comments, "!"),
+            _ if self.bytes.get(self.at + 1) == Some(&b'/') => {
+                (CommentStyle::Slashes, spelling.slash_comments, "//")
+            }
+            _ => return self.unknown_character(),
+        };
+        let sign_span = Span::new(self.at, self.at + sign.len());
+        self.check_comment(usual, sign, sign_span)?;
+        let text = Span::new(self.at + sign.len(), self.bytes.len());
+        self.out.comments.push(Comment { style, text });
+        self.at = self.bytes.len();
+        Ok(())
+    }
+
+    /// Whether the words so far include a command whose line ends with a message.
+    pub(super) fn has_message(&self) -> bool {
+        let codes = self.spelling().message_codes;
+        let [first, rest @ ..] = self.out.words.as_slice() else { return false };
+        let is_one = |value: Value| matches!(value, Value::Number(number) if codes.iter().any(|code| f64::from(*code) == number.value));
+        !codes.is_empty()
+            && first.letter == b'M'
+            && is_one(first.value)
+            && rest.iter().all(|word| matches!(word.letter, b'S' | b'P'))
+    }
+
+    /// Reads the rest of the line up to a semicolon as a message, unless it is S or P with a number.
+    pub(super) fn message(&mut self) {
+        self.skip_blanks();
+        let rest = &self.bytes[self.at..];
+        let is_word = matches!(rest, [b'S' | b'P' | b's' | b'p', b'0'..=b'9' | b'.', ..]);
+        let length = memchr(b';', rest).unwrap_or(rest.len());
+        if is_word || length == 0 {
+            return;
+        }
+        let text = Span::new(self.at, self.at + length);
+        self.out.comments.push(Comment { style: CommentStyle::Message, text });
+        self.at += length;
+    }
+
+    fn check_comment(&mut self, style: Style, sign: &'static str, span: Span) -> Result<(), Broken> {
+        match style {
+            Style::Usual => Ok(()),
+            Style::Doubtful => {
+                let comment = comment_sign(self.spelling());
+                self.report(&say::FOREIGN_COMMENT, span, |d| {
+                    d.quoting("sign", sign).quoting("comment", comment)
+                });
+                Ok(())
+            }
+            Style::Unknown => self.unknown_character(),
+        }
+    }
+}
+
+/// The comment notation of a dialect.
+pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
+    if spelling.slash_comments == Style::Usual { "//" } else { "(" }
+}
+
+/// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Leaves anything else,
+/// without
+/// changing the parts, to the reader of expressions.
+///
+/// In a program with probes, nearly all bytes belong to such formulas.
+#[inline]
+pub(super) fn plain_formula(bytes: &[u8], start: usize, parts: &mut Parts) -> Option<usize> {
+    let word = parts.words.len().checked_sub(1)?;
+    if bytes.get(start..start + 2) != Some(b"(=") || parts.words[word].span.end as usize != start {
+        return None;
+    }
+    let first = parts.code.len();
+    let applied = bytes.get(start + 2) == Some(&b'=');
+    let Some(end) = sum(bytes, start + 2 + usize::from(applied), &mut parts.code) else {
+        parts.code.truncate(first);
+        return None;
+    };
+    let [code, word, span] =
+        [(first, parts.code.len()), (word, word), (start, end)].map(|(a, b)| Span::new(a, b));
+    let code = Code { first: code.start, end: code.end };
+    parts.formulas.push(Formula { word: word.start, applied, code, span });
+    Some(end)
+}
+
+/// Reads a height and the terms of the probes, up to and including the closing bracket.
+fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
+    let (height, mut at) = number::plain(bytes, start)?;
+    code.push(Op::Number(height.value));
+    loop {
+        match bytes.get(at)? {
+            b')' => return Some(at + 1),
+            b'+' => at = term(bytes, at + 1, code)?,
+            _ => return None,
+        }
+    }
+}
+
+/// Reads `0.441*[#51-2.000]`.
+fn term(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
+    let (weight, at) = number::plain(bytes, start)?;
+    let at = passed(bytes, at, b"*[#")?;
+    let (probe, at) = number::plain(bytes, at)?;
+    let at = passed(bytes, at, b"-")?;
+    let (height, at) = number::plain(bytes, at)?;
+    let at = passed(bytes, at, b"]")?;
+    code.extend([
+        Op::Number(weight.value),
+        Op::Number(probe.value),
+        Op::Parameter,
+        Op::Number(height.value),
+        Op::Binary(Binary::Minus),
+        Op::Binary(Binary::Times),
+        Op::Binary(Binary::Plus),
+    ]);
+    Some(at)
+}
+
+fn passed(bytes: &[u8], at: usize, signs: &[u8]) -> Option<usize> {
+    bytes[at..].starts_with(signs).then_some(at + signs.len())
 }

@@ -2,10 +2,9 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
-use pathbuild_motion::{Action, Axes, Move, Pace};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, widest_chord};
 
 use super::height_map::{Capsule, HeightMap};
-use super::pieces::{self, MovePiece};
 use super::stock::{self, Stock};
 use crate::interpret::Program;
 use crate::read::Problems;
@@ -124,7 +123,7 @@ impl Extent {
         let Some(piece) = cutting_piece(line, movement, stock) else { return };
         self.line = line;
         self.area += covered_area(movement, piece.cutter);
-        self.pieces += u64::from(pieces::count(movement, stock.resolution() / CHORDS)) - 1;
+        self.pieces += u64::from(count(movement, stock.resolution() / CHORDS)) - 1;
         let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
         for (side, extent) in sides.iter_mut().zip(movement.extent()) {
             let Some((low, high)) = extent else { continue };
@@ -229,7 +228,7 @@ impl<'s> Bench<'s> {
     }
 
     fn parts(&self, movement: &Move) -> impl Iterator<Item = MovePiece> + use<> {
-        pieces::pieces(movement, self.resolution / CHORDS)
+        pieces(movement, self.resolution / CHORDS)
     }
 }
 
@@ -255,6 +254,54 @@ fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
 /// Upper bound of the area in mm² within O of a move. An arc with different radii at its ends extends to the larger one.
 fn covered_area(movement: &Move, cutter: f64) -> f64 {
     let widest = movement.extent().iter().take(2).flatten().map(|(low, high)| high - low).fold(0.0, f64::max);
-    let tips = 2.0 * cutter * pieces::slopes(movement);
+    let tips = 2.0 * cutter * slopes(movement);
     2.0 * cutter * (movement.length().max(widest) + tips)
+}
+
+/// Maximum height of a part of a slope, in mm.
+const STEP: f64 = 0.05;
+
+/// Maximum number of parts per move.
+const MOST: f64 = 4096.0;
+
+/// A straight part of a move.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MovePiece {
+    pub(super) from: [f64; 3],
+    pub(super) to: [f64; 3],
+}
+
+impl MovePiece {
+    pub(super) fn lowest(&self) -> f64 {
+        self.from[2].min(self.to[2])
+    }
+
+    pub(super) fn highest(&self) -> f64 {
+        self.from[2].max(self.to[2])
+    }
+}
+
+/// Number of parts required because a move is not level, at least 1.
+pub(super) fn slopes(movement: &Move) -> f64 {
+    let is_plunge = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.shape, MoveShape::Line);
+    let rise = libm::fabs(movement.to.z() - movement.from.z());
+    if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
+}
+
+/// Number of parts into which a move is divided, at least 1.
+pub(super) fn count(movement: &Move, sagitta: f64) -> u32 {
+    let slope = slopes(movement);
+    let count = match movement.shape {
+        MoveShape::Line => slope,
+        MoveShape::Arc(arc) => slope
+            .max(arc.sweep(&movement.from, &movement.to) / widest_chord(arc.radius(&movement.from), sagitta)),
+    };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST")]
+    let count = count.ceil().clamp(1.0, MOST) as u32;
+    count
+}
+
+/// The parts of a move. Arcs become chords at a distance of at most `sagitta` mm.
+pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
+    movement.split(count(movement, sagitta)).map(|piece| MovePiece { from: piece.from.at, to: piece.to.at })
 }

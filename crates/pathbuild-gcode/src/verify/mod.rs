@@ -5,29 +5,25 @@
 //! than a missing warning.
 
 mod against;
-mod coarse;
 mod compare;
 mod height_map;
-mod lines;
 mod machine;
 mod material;
-mod pieces;
 mod rapids;
 mod rules;
 mod stated;
 mod stock;
 mod tops;
-mod walk;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::Step;
 
+pub use self::compare::same_move_lines;
+pub use self::rules::coarse_arcs;
 pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
-pub use coarse::coarse_arcs;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
-pub use lines::same_move_lines;
 pub use machine::{Machine, MachineRules, Travel};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;

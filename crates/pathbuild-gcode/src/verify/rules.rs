@@ -4,13 +4,14 @@ use std::fmt;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_motion::{Action, Axes, Change, Move, Pace, Position, Spindle, Step, Turning};
+use pathbuild_motion::{Action, Axes, Change, Move, MoveShape, Pace, Position, Spindle, Step, Turning};
 
 use super::Checks;
 use super::machine::Limits;
 use super::stock::Stock;
-use crate::interpret::code_name;
-use crate::read::Problems;
+use crate::dialect::Dialect;
+use crate::interpret::{Options, code_name, interpret_each};
+use crate::read::{BlockReader, Problems, Value, Word};
 
 /// Heights are equal if they differ by less than this, in mm.
 const SAME_HEIGHT: f64 = 0.002;
@@ -238,4 +239,55 @@ fn probe(line: u32, movement: &Move, problems: &mut Problems) {
     } else if movement.to.z() > movement.from.z() {
         problems.add_at_line(&say::USELESS_PROBE, line, |d| d);
     }
+}
+
+/// Number of decimals required for millimetres.
+const FINE: u8 = 3;
+
+/// Radii are equal if they differ by less than this, in mm.
+const EXACT: f64 = 1e-4;
+
+/// Reports the first arc of a program in millimetres if centres have decimals but never three of them. Numbers without decimals are
+/// considered to be written by hand and exact.
+pub fn coarse_arcs(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
+    let mut reader = BlockReader::new(text, dialect.rules());
+    let (mut finest, mut first) = (0, None);
+    while let Some(block) = reader.next_block() {
+        for word in block.words {
+            if is_inch(word) {
+                return None;
+            }
+            let Value::Number(number) = word.value else { continue };
+            let is_centre = matches!(word.letter, b'I' | b'J' | b'K');
+            if is_centre || matches!(word.letter, b'X' | b'Y' | b'Z') {
+                finest = finest.max(number.decimals);
+            }
+            if finest >= FINE {
+                return None;
+            }
+            if is_centre && number.decimals > 0 {
+                first = first.or(Some(block.line));
+            }
+        }
+    }
+    let line = first.filter(|_| has_rounded_arc(text, dialect))?;
+    let mut problems = Problems::default();
+    problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("decimals", u64::from(finest)));
+    problems.into_diagnostics().pop()
+}
+
+/// Whether some arc has different radii at its ends. Numbers that fit exactly were not rounded.
+fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
+    let mut is_rounded = false;
+    interpret_each(text, dialect, &Options::default(), &mut |step| {
+        let Some((_, movement)) = step.as_move() else { return };
+        let MoveShape::Arc(arc) = movement.shape else { return };
+        is_rounded |= libm::fabs(arc.radius(&movement.from) - arc.radius(&movement.to)) > EXACT;
+    });
+    is_rounded
+}
+
+fn is_inch(word: &Word) -> bool {
+    let Value::Number(number) = word.value else { return false };
+    word.letter == b'G' && (number.value == 20.0 || number.value == 70.0)
 }

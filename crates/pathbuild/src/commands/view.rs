@@ -3,9 +3,9 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_view::{Scene, VisibleParts};
+use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_there;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::session::{NamedPaths, Session};
 
 use super::picture_output::{deliver, show};

@@ -4,7 +4,6 @@
 //! Anything else in a
 //! program that could change where, how deep or how fast the tool cuts is a difference. The claims in its header are ignored.
 
-mod chain;
 mod clamps;
 mod cuts;
 mod setup;

@@ -1,0 +1,175 @@
+//! Estimates the duration of a program on a machine with limited acceleration. (book: program/reading)
+//!
+//! The planner is similar to that of GRBL: along each move the tool accelerates, moves at its feed and decelerates; the speed in corners
+//! follows
+//! from the junction deviation. It looks ahead as far as useful, whereas a control only sees a few moves.
+
+use pathbuild_motion::{Action, Move, MoveShape, Pace, Step};
+
+/// The limits of a machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kinematics {
+    /// Maximum speeds of X, Y and Z in mm/min, for rapid moves and for feeds.
+    pub rates: [f64; 3],
+    /// Maximum accelerations of X, Y and Z, in mm/s².
+    pub accelerations: [f64; 3],
+    /// Distance in mm by which a corner could be cut at the speed at which it is taken. With 0, the tool stops in every corner.
+    pub junction_deviation: f64,
+}
+
+/// The duration of a program in seconds, consisting of moves and dwells, without stops for the operator.
+///
+/// Axes with unknown positions count as not moving. A move without a feed counts as a rapid; the interpreter reports the missing
+/// feed.
+pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
+    let mut seconds = 0.0;
+    let mut ways: Vec<Way> = Vec::new();
+    for step in steps {
+        match &step.action {
+            Action::Move(movement) => ways.extend(Way::of(movement, kinematics)),
+            Action::Dwell(pause) => {
+                seconds += seconds_of(&ways, kinematics) + pause;
+                ways.clear();
+            }
+            Action::ChangeTool(_) | Action::Stop { .. } | Action::Spindle(_) => {
+                seconds += seconds_of(&ways, kinematics);
+                ways.clear();
+            }
+            Action::SelectTool(_)
+            | Action::Coolant(_)
+            | Action::System(_)
+            | Action::Word(_)
+            | Action::ProgramNumber(_)
+            | Action::Change(_)
+            | Action::Comment(_)
+            | Action::End => {}
+        }
+    }
+    seconds + seconds_of(&ways, kinematics)
+}
+
+/// A move without interruption, in mm and seconds.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    length: f64,
+    /// Target speed in mm/s.
+    speed: f64,
+    /// Maximum acceleration in mm/s².
+    acceleration: f64,
+    /// Directions at the start and at the end, as unit vectors.
+    begin: [f64; 3],
+    end: [f64; 3],
+    /// Whether the tool stops at the end, because it is unknown where a probe stops.
+    stops: bool,
+}
+
+impl Way {
+    /// Converts a move; `None` if it does not move.
+    fn of(movement: &Move, kinematics: &Kinematics) -> Option<Self> {
+        let length = movement.length();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let shares = movement.axis_shares();
+        let limit = |limits: &[f64; 3]| {
+            let along = limits.iter().zip(shares).filter(|(_, share)| *share > 0.0);
+            along.map(|(limit, share)| limit / share).fold(f64::INFINITY, f64::min)
+        };
+        let acceleration = limit(&kinematics.accelerations);
+        let fastest = limit(&kinematics.rates) / 60.0;
+        let wanted = movement.pace.feed().filter(|feed| *feed > 0.0).map_or(fastest, |feed| feed / 60.0);
+        let (begin, end) = directions(movement, length);
+        Some(Self {
+            length,
+            speed: wanted.min(fastest).min(turning_speed(movement, kinematics)),
+            acceleration,
+            begin,
+            end,
+            stops: matches!(movement.pace, Pace::Probe { .. }),
+        })
+    }
+}
+
+/// Speed in mm/s at which the axes of an arc's plane can still keep the tool on it.
+fn turning_speed(movement: &Move, kinematics: &Kinematics) -> f64 {
+    let MoveShape::Arc(arc) = movement.shape else { return f64::INFINITY };
+    let weakest =
+        arc.plane.axes().map(|axis| kinematics.accelerations[axis]).into_iter().fold(f64::INFINITY, f64::min);
+    libm::sqrt(weakest * arc.radius(&movement.from).max(arc.radius(&movement.to)))
+}
+
+fn directions(movement: &Move, length: f64) -> ([f64; 3], [f64; 3]) {
+    let known = movement.from.known.and(movement.to.known);
+    let way: [f64; 3] = std::array::from_fn(|axis| {
+        let is_known = known.has(pathbuild_motion::Axes::of(axis));
+        if is_known { movement.to.at[axis] - movement.from.at[axis] } else { 0.0 }
+    });
+    let MoveShape::Arc(arc) = movement.shape else {
+        let direction = way.map(|axis| axis / length);
+        return (direction, direction);
+    };
+    let across = way[arc.plane.third()] / length;
+    let along = libm::sqrt((1.0 - across * across).max(0.0));
+    let tangent = |at: &[f64; 3]| {
+        let mut direction = [0.0; 3];
+        for (axis, part) in arc.plane.axes().into_iter().zip(arc.tangent(at)) {
+            direction[axis] = part * along;
+        }
+        direction[arc.plane.third()] = across;
+        direction
+    };
+    (tangent(&movement.from.at), tangent(&movement.to.at))
+}
+
+/// Time in seconds for consecutive moves from standstill to standstill.
+fn seconds_of(ways: &[Way], kinematics: &Kinematics) -> f64 {
+    let squares = entry_squares(ways, kinematics);
+    ways.iter().zip(squares.windows(2)).map(|(way, ends)| duration(way, ends[0], ends[1])).sum()
+}
+
+/// The squared speeds between moves, including those before the first and after the last.
+fn entry_squares(ways: &[Way], kinematics: &Kinematics) -> Vec<f64> {
+    let mut squares = vec![0.0; ways.len() + 1];
+    for (index, pair) in ways.windows(2).enumerate() {
+        squares[index + 1] = corner_square(&pair[0], &pair[1], kinematics);
+    }
+    // The speed is limited by what can be reached from before and by what can be decelerated afterwards.
+    for (index, way) in ways.iter().enumerate().rev() {
+        squares[index] = squares[index].min(squares[index + 1] + 2.0 * way.acceleration * way.length);
+    }
+    for (index, way) in ways.iter().enumerate() {
+        squares[index + 1] = squares[index + 1].min(squares[index] + 2.0 * way.acceleration * way.length);
+    }
+    squares
+}
+
+/// Squared speed permitted in the corner between two moves: that of a circle which touches both and passes the corner at the junction
+/// deviation.
+fn corner_square(before: &Way, behind: &Way, kinematics: &Kinematics) -> f64 {
+    if before.stops {
+        return 0.0;
+    }
+    let slower = before.speed.min(behind.speed);
+    // Cosine of the angle between the moves as seen from the corner: 1 is a reversal, -1 is straight on.
+    let cosine: f64 = -before.end.iter().zip(behind.begin).map(|(a, b)| a * b).sum::<f64>();
+    let half_sine = libm::sqrt((0.5 * (1.0 - cosine)).clamp(0.0, 1.0));
+    let square = if half_sine >= 1.0 - 1e-9 {
+        f64::INFINITY
+    } else {
+        let acceleration = before.acceleration.min(behind.acceleration);
+        acceleration * kinematics.junction_deviation * half_sine / (1.0 - half_sine)
+    };
+    square.min(slower * slower)
+}
+
+/// Time in seconds for a move whose speeds at both ends are given as squares.
+fn duration(way: &Way, from: f64, to: f64) -> f64 {
+    let (speed, acceleration) = (way.speed, way.acceleration);
+    // Square of the speed that would be reached if only the length limited it.
+    let peak = 0.5 * (from + to) + acceleration * way.length;
+    let top = speed.min(libm::sqrt(peak));
+    let (from, to) = (libm::sqrt(from), libm::sqrt(to));
+    let ramp = |end: f64| (top - end).max(0.0) / acceleration;
+    let ramps = 0.5 * ((top + from) * ramp(from) + (top + to) * ramp(to));
+    ramp(from) + ramp(to) + (way.length - ramps).max(0.0) / top
+}
