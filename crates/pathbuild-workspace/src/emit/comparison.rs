@@ -14,7 +14,7 @@ use pathbuild_path::PathName;
 use pathbuild_toolpath::Program;
 
 use super::options::{Provenances, writing};
-use super::outcome::{Request, State, Task};
+use super::outcome::{ProgramOutcome, State};
 use super::plan::Job;
 use crate::session::{OutputKind, SelectedPath, Session};
 use crate::workspace::Workspace;
@@ -147,33 +147,24 @@ pub fn native_text(
     Ok(text.unwrap_or_default())
 }
 
-/// Adds a note to each difference that `--compatible` would remove. If there are any differences, the programs are generated a second time
-/// for this.
+/// Adds a note to each difference of moves that `--compatible` would remove. If there are any differences, `emit` generates the programs a
+/// second time for this, in a workspace of that mode.
 pub(super) fn name_compatible<'p>(
     workspace: &Workspace,
-    request: &Request<'_>,
     jobs: impl Iterator<Item = &'p mut Job>,
+    emit: impl FnOnce(&Workspace) -> Vec<ProgramOutcome>,
 ) {
     let problems: Vec<&mut Diagnostic> =
         jobs.filter_map(|job| job.outcome.as_mut()).flat_map(|outcome| &mut outcome.problems).collect();
-    let is_asked = request.task == Task::Compare { moves_only: true };
-    if !is_asked || problems.is_empty() || workspace.settings.general.compatible.value {
+    if problems.is_empty() || workspace.settings.general.compatible.value {
         return;
     }
-    let same = current_if_compatible(workspace, request);
+    let files = emit(&workspace.in_mode(true)).into_iter().flat_map(|outcome| outcome.files);
+    let same = files.filter(|(_, state)| matches!(state, State::Current)).map(|(file, _)| file);
+    let same: Vec<Utf8PathBuf> = same.collect();
     for problem in problems {
         if problem.file.as_ref().is_some_and(|file| same.contains(file)) {
             problem.notes.push(Note { message: &outputs::SAME_IF_COMPATIBLE, arguments: Vec::new() });
         }
     }
-}
-
-/// The files that are up to date with `--compatible`.
-fn current_if_compatible(workspace: &Workspace, request: &Request<'_>) -> Vec<Utf8PathBuf> {
-    let workspace = workspace.in_mode(true);
-    let request = Request { deps: None, removes_stale: false, ..*request };
-    let emission = request.run(&mut Session::new(&workspace));
-    let delivered = emission.map(|emission| emission.delivered).unwrap_or_default();
-    let files = delivered.into_iter().flat_map(|delivered| delivered.files);
-    files.filter(|(_, state)| matches!(state, State::Current)).map(|(file, _)| file).collect()
 }

@@ -16,11 +16,12 @@ mod stale;
 
 use std::collections::HashMap;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Target;
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Diagnostic;
 
+use crate::Inputs;
 use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, ExtraInput, Memo, is_transient};
@@ -30,7 +31,7 @@ use crate::workspace::Workspace;
 
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, writing};
-pub use outcome::{Emission, ProgramOutcome, Request, State, Task};
+pub use outcome::{ProgramOutcome, State, Task};
 pub use plan::FileOwners;
 use plan::{Job, JobBuilder, Plan, mark_clashes, plan};
 pub use select::TargetPatterns;
@@ -39,6 +40,36 @@ use settle::deliver;
 pub use sheet::sheet_bytes;
 pub use shown::{SceneReport, SheetOutcome, ShownText, sheet_of};
 use stale::StaleOutcome;
+
+/// A request to emit programs.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
+    pub inputs: &'a Inputs,
+    /// What to do with the generated files.
+    pub task: Task,
+    /// The post-processor to write programs through; `None` writes native programs.
+    pub post_processor: Option<&'a PostProcessor>,
+    /// Joins all paths, in the order of the inputs, into one program of this name.
+    pub join: Option<&'a str>,
+    /// Dependency file to write for `make` and `ninja`.
+    pub deps: Option<&'a Utf8Path>,
+    /// Whether to remove stale programs.
+    pub removes_stale: bool,
+}
+
+/// The outcome of `emit`.
+#[derive(Debug)]
+pub struct Emission {
+    /// The outcome of each program, in the order of the targets.
+    pub delivered: Vec<ProgramOutcome>,
+    /// Stale programs that were removed.
+    pub removed: Vec<Utf8PathBuf>,
+    /// Adjusted programs that no longer match their path's program.
+    pub outdated: Vec<Utf8PathBuf>,
+    /// All diagnostics, unsorted, with duplicates.
+    pub diagnostics: Vec<Diagnostic>,
+}
 
 impl Request<'_> {
     /// Opens a session that suits this request.
@@ -71,13 +102,18 @@ impl Request<'_> {
             session.with_stable_files(|session| self.perform(session, &memo, &matches))?;
         report_cached(session.workspace(), &selection, &plans);
         let workspace = session.workspace();
-        comparison::name_compatible(
-            workspace,
-            self,
-            plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()),
-        );
+        if self.task == (Task::Compare { moves_only: true }) {
+            let request = Request { deps: None, removes_stale: false, ..*self };
+            let emit = |workspace: &Workspace| {
+                let emission = request.run(&mut Session::new(workspace));
+                emission.map(|emission| emission.delivered).unwrap_or_default()
+            };
+            let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
+            comparison::name_compatible(workspace, jobs, emit);
+        }
+        let builder = self.builder(session);
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.clear_job()).collect();
-        let older = stale::older_programs(session, self, &selection.targets, &jobs, &mut diagnostics);
+        let older = stale::older_programs(&builder, self.task, &selection.targets, &jobs, &mut diagnostics);
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
         if let Some(file) = self.deps {
@@ -119,7 +155,7 @@ impl Request<'_> {
             );
             return Err(reason.to_owned());
         }
-        let mut plans = plan(session, self, memo, &selection.targets, &mut diagnostics)?;
+        let mut plans = plan(&self.builder(session), self.task, memo, &selection.targets, &mut diagnostics)?;
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         if is_printed && plans.iter().filter_map(|plan| plan.value.clear_job()).any(|job| job.files.len() > 1)
         {
@@ -132,6 +168,12 @@ impl Request<'_> {
         let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
         deliver(session, jobs, self.task, self.post_processor);
         Ok(Run { selection, plans, diagnostics })
+    }
+
+    /// Turns the checked paths of this request into jobs.
+    fn builder<'s>(&'s self, session: &'s Session<'s>) -> JobBuilder<'s> {
+        let sheet = self.task.sheets(&session.workspace().settings);
+        JobBuilder { session, post_processor: self.post_processor, join: self.join, sheet }
     }
 
     /// Everything that a program depends on besides drawings and settings.

@@ -7,42 +7,11 @@ use pathbuild_diagnostic::{Diagnostic, Note, Value};
 use pathbuild_gcode::provenance::{HEAD, Provenance, VERSION};
 use serde::{Deserialize, Serialize};
 
-use crate::Inputs;
 use crate::config::Settings;
 use crate::config::types::SheetFormat;
 use crate::memo::{GeneratedFile, OutputState};
-use crate::posting::{InsertedFile, PostProcessor};
+use crate::posting::InsertedFile;
 use crate::session::OutputKind;
-
-/// A request to emit programs.
-#[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
-    /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
-    pub inputs: &'a Inputs,
-    /// What to do with the generated files.
-    pub task: Task,
-    /// The post-processor to write programs through; `None` writes native programs.
-    pub post_processor: Option<&'a PostProcessor>,
-    /// Joins all paths, in the order of the inputs, into one program of this name.
-    pub join: Option<&'a str>,
-    /// Dependency file to write for `make` and `ninja`.
-    pub deps: Option<&'a Utf8Path>,
-    /// Whether to remove stale programs.
-    pub removes_stale: bool,
-}
-
-/// The outcome of `emit`.
-#[derive(Debug)]
-pub struct Emission {
-    /// The outcome of each program, in the order of the targets.
-    pub delivered: Vec<ProgramOutcome>,
-    /// Stale programs that were removed.
-    pub removed: Vec<Utf8PathBuf>,
-    /// Adjusted programs that no longer match their path's program.
-    pub outdated: Vec<Utf8PathBuf>,
-    /// All diagnostics, unsorted, with duplicates.
-    pub diagnostics: Vec<Diagnostic>,
-}
 
 /// What to do with the generated files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,7 +12,7 @@ use pathbuild_gcode::native;
 use serde::{Deserialize, Serialize};
 
 use super::options;
-use super::outcome::{ProgramOutcome, Request, Task, cannot_write, is_of_other_version};
+use super::outcome::{ProgramOutcome, Task, cannot_write, is_of_other_version};
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Inputs, Memo, OutputState};
 use crate::posting::PostProcessor;
@@ -119,29 +119,23 @@ impl Job {
 /// # Errors
 /// Which options are missing.
 pub(super) fn plan(
-    session: &Session<'_>,
-    request: &Request<'_>,
+    builder: &JobBuilder<'_>,
+    task: Task,
     memo: &Memo,
     targets: &[Target],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<Answer<Plan>>, String> {
+    let JobBuilder { session, join, .. } = *builder;
     let workspace = session.workspace();
-    let join = request.join;
     let programs: Vec<&[Target]> = match join {
         Some(_) => targets.chunks(targets.len().max(1)).collect(),
         None => targets.chunks(1).collect(),
-    };
-    let builder = JobBuilder {
-        session,
-        post_processor: request.post_processor,
-        join,
-        sheet: request.task.sheets(&workspace.settings),
     };
     let mut refusal = None;
     let mut check = |open: &[&&[Target]]| -> Vec<(Plan, Inputs)> {
         let targets: Vec<Target> = open.iter().flat_map(|targets| targets.iter().copied()).collect();
         let mut checked = &*session.check(&targets);
-        refusal = refusal.take().or_else(|| options::missing(workspace, request.task, checked));
+        refusal = refusal.take().or_else(|| options::missing(workspace, task, checked));
         let plan = |targets: &&&[Target]| {
             let (own, rest) = checked.split_at(targets.len());
             checked = rest;
@@ -150,7 +144,7 @@ pub(super) fn plan(
         open.iter().map(plan).collect()
     };
     let subject = |targets: &&[Target]| subject(session.db(), targets, join);
-    let accept = |subject: &str, plan: Plan| still_suffices(session, memo, request.task, subject, plan);
+    let accept = |subject: &str, plan: Plan| still_suffices(session, memo, task, subject, plan);
     let mut plans = memo.get_or(&programs, subject, accept, &mut check);
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         if let Some(job) = &mut answer.value.job {
@@ -161,7 +155,7 @@ pub(super) fn plan(
         }
     }
     // The cached moves may stem from a run that needed no times.
-    let is_timed = workspace.settings.general.rapid.value.is_some() || !request.task.writes_times();
+    let is_timed = workspace.settings.general.rapid.value.is_some() || !task.writes_times();
     let is_cached = |answer: &Answer<Plan>| answer.inputs.is_none() && answer.value.job.is_some();
     if !is_timed && plans.iter().any(is_cached) {
         return Err(options::missing_values(workspace, ["rapid"]));

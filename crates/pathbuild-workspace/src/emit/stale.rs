@@ -17,8 +17,8 @@ use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
-use super::outcome::{ProgramOutcome, Request, State, Task};
-use super::plan::{Job, output_directory, program_name};
+use super::outcome::{ProgramOutcome, State, Task};
+use super::plan::{Job, JobBuilder, output_directory, program_name};
 use super::select::TargetSelection;
 use crate::memo::{Answer, DrawingResult};
 use crate::posting::PostProcessor;
@@ -379,14 +379,15 @@ impl Writers {
 /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison counts
 /// it as out of date.
 pub(super) fn older_programs(
-    session: &Session<'_>,
-    request: &Request<'_>,
+    builder: &JobBuilder<'_>,
+    task: Task,
     targets: &[Target],
     jobs: &[&Job],
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<ProgramOutcome> {
     let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
-    match (request.task, request.join, request.post_processor) {
+    let session = builder.session;
+    match (task, builder.join, builder.post_processor) {
         (Task::Print, ..) => Vec::new(),
         (task, Some(name), Some(post_processor)) => {
             let joined = targets.first().filter(|_| !jobs.iter().any(|job| is_done(&job)));
