@@ -1,7 +1,5 @@
 //! A fast test of whether the BLOCKS section matters: it scans for layer names without parsing any block.
 
-use std::iter;
-
 use wide::u8x16;
 
 use crate::encoding::Decoder;
@@ -68,6 +66,10 @@ fn layer_before(bytes: &[u8], line_end: u8) -> Option<&[u8]> {
 
 /// Whether `is` holds for the position of any such digit that may be a group code.
 fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
+    // Positions ascend, since the caller counts lines on the way.
+    if bytes.first() == Some(&digit) && is(0) {
+        return true;
+    }
     let mut begin = 0;
     while let Some(window) = bytes.get(begin..).and_then(<[u8]>::first_chunk) {
         let mut places = digits(digit, window);
@@ -79,8 +81,7 @@ fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool
         }
         begin += VECTOR;
     }
-    let mut others = iter::once(0).chain(begin + 1..bytes.len());
-    others.any(|at| bytes.get(at) == Some(&digit) && is(at))
+    (begin + 1..bytes.len()).any(|at| bytes.get(at) == Some(&digit) && is(at))
 }
 
 /// Number of bytes compared at once.
@@ -121,4 +122,37 @@ fn is_begin_of_code(before: &[u8], line_end: u8) -> bool {
 
 fn line_from(bytes: &[u8], line_end: u8) -> &[u8] {
     without_cr(&bytes[..line_length(line_end, bytes)])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::iter;
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::header::Header;
+    use crate::layers::LayerTable;
+
+    /// The same by reading pair by pair.
+    fn holds_wanted(mut pairs: Pairs<'_>, is_wanted: impl Fn(&[u8]) -> bool) -> bool {
+        iter::from_fn(|| pairs.next().ok()).any(|pair| pair.code == 8 && is_wanted(pair.value))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Nothing wanted is missed, wherever its code lies within the bytes that are compared at once.
+        #[test]
+        fn what_reading_finds_the_prefilter_finds(
+            pairs in prop::collection::vec(("[ 0]{0,3}(8|18|80|1)", "[AB8 ]{0,9}"), 0..30), end in "\r?\n",
+        ) {
+            let text: String = pairs.iter().map(|(code, value)| format!("{code}{end}{value}{end}")).collect();
+            let mut decoder = Decoder::new(text.as_bytes(), &Header::default(), false);
+            let mut layers = Layers::new(&|layer| layer == "A", LayerTable::new(None));
+            let blocks = Pairs::new(text.as_bytes());
+            let found = may_hold_wanted(&blocks, &mut layers, &mut decoder);
+            prop_assert!(found || !holds_wanted(blocks, |layer| layer.trim_ascii() == b"A"), "{:?}", text);
+        }
+    }
 }

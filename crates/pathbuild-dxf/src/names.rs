@@ -131,6 +131,8 @@ mod tests {
     use super::*;
 
     proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
         /// The table finds what a plain hash table does, whatever the lengths and however many spellings there are.
         #[test]
         fn the_table_agrees_with_a_hash_table(spellings in prop::collection::vec("[AB]{0,3}|[0-9A-C. ]{0,20}", 0..60)) {

@@ -357,3 +357,13 @@ fn heights_of_blocks_add_up() {
     assert_eq!(z("10 0\n20 0\n30 0", "30 5\n43 2"), 7.0);
     assert_eq!(z("10 0\n20 0\n30 0", "43 0"), 0.0);
 }
+
+/// A broken BLOCKS section may begin with a layer. Its line is counted although others follow.
+#[test]
+fn a_section_of_blocks_may_begin_with_a_layer() {
+    let section = |name: &str, pairs: &str| format!("0\nSECTION\n2\n{name}\n{pairs}0\nENDSEC\n");
+    let blocks = "8\nX\n0\nBLOCK\n8\nY\n2\nB\n0\nLINE\n8\nZ\n0\nENDBLK\n";
+    let text = [section("BLOCKS", blocks), section("ENTITIES", "0\nINSERT\n8\nU\n2\nB\n"), "0\nEOF\n".into()];
+    let drawing = read(text.concat().as_bytes(), &Options { keep_layer: &|layer| layer == "A", ..options() });
+    assert!(drawing.entities.is_empty() && drawing.diagnostics.is_empty(), "{drawing:?}");
+}
