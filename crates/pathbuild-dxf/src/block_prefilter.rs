@@ -147,7 +147,8 @@ mod tests {
         fn what_reading_finds_the_prefilter_finds(
             pairs in prop::collection::vec(("[ 0]{0,3}(8|18|80|1)", "[AB8 ]{0,9}"), 0..30), end in "\r?\n",
         ) {
-            let text: String = pairs.iter().map(|(code, value)| format!("{code}{end}{value}{end}")).collect();
+            let lines: Vec<&str> = pairs.iter().flat_map(|(code, value)| [&**code, &*end, &**value, &*end]).collect();
+            let text = lines.concat();
             let mut decoder = Decoder::new(text.as_bytes(), &Header::default(), false);
             let mut layers = Layers::new(&|layer| layer == "A", LayerTable::new(None));
             let blocks = Pairs::new(text.as_bytes());
