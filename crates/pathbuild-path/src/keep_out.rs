@@ -1,0 +1,266 @@
+//! Clamps: the layers that hold them, their outlines and heights, and the search for those that the tool hits. (book: language/keep-outs)
+
+use std::fmt;
+
+use pathbuild_diagnostic::Diagnostic;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+use smol_str::SmolStr;
+
+use crate::approx::above;
+use crate::geometry::{Arc, Curve, Line, Placement, Xy};
+use crate::names::{LazyRegex, PatternError};
+
+/// The pattern for names of layers with clamps. It must match the whole name, ignoring case.
+#[derive(Clone)]
+pub struct KeepOutPattern {
+    source: Box<str>,
+    whole: LazyRegex,
+}
+
+/// A clamp.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeepOut {
+    /// Its layer.
+    pub layer: SmolStr,
+    /// The start of its outline; for a circle, the centre.
+    pub at: Xy,
+    /// Its height in mm, above the plate or above the level that its drawing is raised to.
+    pub height: f64,
+    /// Its outline: a closed sequence of curves. A circle is a single arc.
+    pub outline: Vec<Curve>,
+}
+
+/// The clamps of a drawing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct KeepOuts {
+    /// The valid clamps, layer by layer in file order.
+    pub all: Vec<KeepOut>,
+    /// Findings with their positions in the file. If any is an error, the clamps are not fully known.
+    pub problems: Vec<Diagnostic>,
+}
+
+impl KeepOutPattern {
+    /// Creates a pattern from the configuration.
+    ///
+    /// # Errors
+    /// If it is not a valid regular expression.
+    pub fn new(pattern: &str) -> Result<Self, PatternError> {
+        let whole = LazyRegex::new(format!("^(?:{pattern})$"));
+        whole.check()?;
+        Ok(Self { source: pattern.into(), whole })
+    }
+
+    /// Whether a layer holds clamps.
+    pub fn is_layer(&self, layer: &str) -> bool {
+        self.whole.get().is_match(layer)
+    }
+
+    /// The regular expression as given.
+    pub fn as_str(&self) -> &str {
+        &self.source
+    }
+}
+
+impl KeepOut {
+    /// The clamp after placing and raising its drawing.
+    pub fn placed(&self, placement: &Placement, raised: f64) -> Self {
+        Self {
+            layer: self.layer.clone(),
+            at: placement.place(self.at),
+            height: self.height + raised,
+            outline: self.outline.iter().map(|curve| placement.place_curve(curve)).collect(),
+        }
+    }
+}
+
+impl fmt::Debug for KeepOutPattern {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "/{}/", self.source)
+    }
+}
+
+/// The path of the tool tip in one move: along a curve in the plane, with a constant slope. A vertical move is a line without length.
+/// Lengths are in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Way {
+    pub curve: Curve,
+    pub from_z: f64,
+    pub to_z: f64,
+}
+
+/// A spatial index of clamps.
+#[derive(Clone, Debug)]
+pub struct KeepOutMap {
+    clamps: Vec<Clamp>,
+    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+}
+
+#[derive(Clone, Debug)]
+struct Clamp {
+    height: f64,
+    outline: Outline,
+}
+
+impl KeepOutMap {
+    /// Creates a map from the heights and outlines of clamps.
+    pub fn new<'k>(clamps: impl IntoIterator<Item = (f64, &'k [Curve])>) -> Self {
+        let clamp = |(height, outline)| Clamp { height, outline: Outline::new(outline) };
+        let clamps: Vec<Clamp> = clamps.into_iter().map(clamp).collect();
+        let boxes = clamps
+            .iter()
+            .zip(0..)
+            .map(|(clamp, number)| GeomWithData::new(Rectangle::from_aabb(clamp.outline.extent()), number));
+        Self { boxes: RTree::bulk_load(boxes.collect()), clamps }
+    }
+
+    /// Whether there are no clamps.
+    pub fn is_empty(&self) -> bool {
+        self.clamps.is_empty()
+    }
+
+    /// The numbers of the clamps that a tool of this radius hits on its way, in ascending order. `slack`: tolerance in mm for rounding
+    /// errors.
+    pub fn entered(&self, way: &Way, radius: f64, slack: f64) -> Vec<usize> {
+        let radius = (radius - slack).max(0.0);
+        let near = self.boxes.locate_in_envelope_intersecting(around(&way.curve, radius));
+        let is_entered = |number: &usize| {
+            let clamp = &self.clamps[*number];
+            let below = way.below(clamp.height - slack);
+            below.is_some_and(|curve| clamp.outline.is_entered(&curve, radius))
+        };
+        let mut entered: Vec<usize> = near.map(|clamp| clamp.data).filter(is_entered).collect();
+        entered.sort_unstable();
+        entered
+    }
+}
+
+impl Way {
+    /// The lowest height.
+    pub fn lowest(&self) -> f64 {
+        self.from_z.min(self.to_z)
+    }
+
+    /// The part of the way below a height.
+    pub(crate) fn below(&self, height: f64) -> Option<Curve> {
+        let (from, to) = (above(height, self.from_z), above(height, self.to_z));
+        let length = self.curve.length();
+        if from == to || length == 0.0 {
+            return (from || to).then_some(self.curve);
+        }
+        let cut = length * ((height - self.from_z) / (self.to_z - self.from_z)).clamp(0.0, 1.0);
+        let (begin, end) = if from { (0.0, cut) } else { (cut, length) };
+        Some(self.curve.section(begin, end))
+    }
+}
+
+/// A closed outline, prepared for queries.
+#[derive(Clone, Debug)]
+pub(crate) struct Outline {
+    pieces: RTree<Boxed>,
+}
+
+type Boxed = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
+
+/// A part of the outline that rises or falls monotonically.
+#[derive(Clone, Copy, Debug)]
+struct OutlinePiece {
+    curve: Curve,
+    /// The range of Y in which it counts as a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
+    /// leave.
+    from: f64,
+    to: f64,
+}
+
+/// Margin in mm around bounding boxes, larger than the gap between ends that meet.
+const SLACK: f64 = 1e-4;
+
+impl Outline {
+    /// Creates an outline from a closed, non-empty sequence of curves.
+    pub(crate) fn new(curves: &[Curve]) -> Self {
+        let monotone: Vec<Curve> = curves.iter().flat_map(monotone).collect();
+        let mut from = monotone.last().map_or(0.0, |last| last.end().y);
+        let pieces = monotone.into_iter().map(|curve| {
+            let piece = OutlinePiece { curve, from, to: curve.end().y };
+            from = piece.to;
+            GeomWithData::new(Rectangle::from_aabb(around(&curve, SLACK)), piece)
+        });
+        Self { pieces: RTree::bulk_load(pieces.collect()) }
+    }
+
+    /// Its bounding box.
+    pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
+        self.pieces.root().envelope()
+    }
+
+    /// Whether any part of a disc enters the outline while its centre moves along a curve. Touching the outline is not entering. The radius
+    /// is in mm.
+    fn is_entered(&self, way: &Curve, radius: f64) -> bool {
+        let mut near = self.pieces.locate_in_envelope_intersecting(around(way, radius + SLACK));
+        near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
+    }
+
+    /// Whether a point that is not on the outline is inside: whether the upward and downward crossings of a ray to the right do not cancel
+    /// out.
+    pub(crate) fn contains(&self, point: Xy) -> bool {
+        let [right, _] = self.extent().upper();
+        let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);
+        let crossings = self.pieces.locate_in_envelope_intersecting(ray);
+        crossings.map(|piece| piece.data.crossing(point)).sum::<i32>() != 0
+    }
+}
+
+impl OutlinePiece {
+    /// 1 if it crosses the ray to the right of a point upwards, -1 if downwards, 0 if not at all.
+    fn crossing(&self, point: Xy) -> i32 {
+        let up = self.from <= point.y && point.y < self.to;
+        let down = self.to <= point.y && point.y < self.from;
+        if (up || down) && self.x_at(point.y) > point.x { i32::from(up) - i32::from(down) } else { 0 }
+    }
+
+    fn x_at(&self, y: f64) -> f64 {
+        match &self.curve {
+            Curve::Line(Line { start, end }) => {
+                let share = ((y - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+                start.x + (end.x - start.x) * share
+            }
+            Curve::Arc(Arc { centre, radius, start, end, clockwise, .. }) => {
+                let up = y - centre.y;
+                let out = libm::sqrt((radius * radius - up * up).max(0.0));
+                // The right half of a circle runs downwards when clockwise.
+                if (start.y > end.y) == *clockwise { centre.x + out } else { centre.x - out }
+            }
+        }
+    }
+}
+
+/// The monotone pieces of a curve: arcs are split at their highest and lowest points.
+fn monotone(curve: &Curve) -> Vec<Curve> {
+    let Curve::Arc(arc) = curve else { return vec![*curve] };
+    let out = arc.start - arc.centre;
+    let start = libm::atan2(out.y, out.x).to_degrees();
+    let ahead = |angle: f64| {
+        let ahead = if arc.clockwise { start - angle } else { angle - start };
+        ahead - 360.0 * (ahead / 360.0).floor()
+    };
+    let mut cuts = vec![0.0];
+    cuts.extend([90.0, 270.0].map(ahead).into_iter().filter(|angle| 0.0 < *angle && *angle < arc.degrees));
+    cuts.push(arc.degrees);
+    cuts.sort_by(f64::total_cmp);
+    let along = |degrees: f64| degrees.to_radians() * arc.radius;
+    cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
+}
+
+/// The bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
+pub(crate) fn around(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
+    let (a, b) = match curve {
+        Curve::Line(line) => (line.start, line.end),
+        Curve::Arc(arc) => {
+            let out = nalgebra::Vector2::new(arc.radius, arc.radius);
+            (arc.centre - out, arc.centre + out)
+        }
+    };
+    let low = [a.x.min(b.x) - near, a.y.min(b.y) - near];
+    AABB::from_corners(low, [a.x.max(b.x) + near, a.y.max(b.y) + near])
+}
