@@ -204,7 +204,7 @@ impl Room {
 
     /// Occupies a rectangle.
     pub(super) fn take(&mut self, rectangle: Rectangle) {
-        self.taken.extend(cells(rectangle));
+        self.taken.extend(self.cells(rectangle));
     }
 
     /// Occupies the first of the rectangles that is free, and returns its index.
@@ -255,8 +255,18 @@ impl Room {
         let [[left, top], [right, bottom]] = rectangle;
         let [[leftmost, topmost], [rightmost, lowest]] = self.area;
         let is_outside = left < leftmost || top < topmost || right > rightmost || bottom > lowest;
-        let taken = cells(rectangle).filter(|cell| self.taken.contains(cell)).count();
+        let taken = self.cells(rectangle).filter(|cell| self.taken.contains(cell)).count();
         if is_outside { taken + OUTSIDE } else { taken }
+    }
+
+    /// The cells of a rectangle that lie in the picture. A text of another layer may be a thousand times as large.
+    #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
+    fn cells(&self, [low, high]: Rectangle) -> impl Iterator<Item = (i64, i64)> + use<> {
+        let [lowest, highest] = self.area;
+        let cell = |at: f64| (at / CELL).floor() as i64;
+        let range = |axis: usize| cell(low[axis].max(lowest[axis]))..=cell(high[axis].min(highest[axis]));
+        let (columns, rows) = (range(0), range(1));
+        columns.flat_map(move |column| rows.clone().map(move |row| (column, row)))
     }
 }
 
@@ -296,11 +306,4 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 /// The square around a point with this half width in px.
 pub(super) fn around([x, y]: Point, half: f64) -> Rectangle {
     [[x - half, y - half], [x + half, y + half]]
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "px of a page")]
-fn cells([low, high]: Rectangle) -> impl Iterator<Item = (i64, i64)> {
-    let cell = |at: f64| (at / CELL).floor() as i64;
-    let (columns, rows) = (cell(low[0])..=cell(high[0]), cell(low[1])..=cell(high[1]));
-    columns.flat_map(move |column| rows.clone().map(move |row| (column, row)))
 }
