@@ -129,9 +129,85 @@ fn a_pdf_has_all_pages_with_letters_and_the_same_bytes_each_time() {
     });
     assert!(made[0] == made[1], "not the same bytes");
     let text = String::from_utf8_lossy(&made[0]);
-    assert_eq!(text.matches("/MediaBox [0 0 595.276 841.89]").count(), 2, "pages");
+    assert_eq!(text.matches("/MediaBox [0 0 595.27563 841.8898]").count(), 2, "pages");
+    assert_eq!(text.matches("/FontFile2").count(), 1, "fonts");
     assert!(text.contains("DejaVuSans") && text.contains("/ToUnicode"));
     assert!(text.contains("\nPath 8003.1P, drawing 8003.1P.dxf\n"));
+}
+
+/// The circle that the axis of the cutter describes inside a drawn circle of 52 mm, and the ruler at the foot of the page.
+#[test]
+#[cfg(feature = "pictures")]
+fn a_pdf_is_true_to_scale() {
+    let drawing = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 A60\"\nsweep 0,0 30,30\nmill circle 30,30 d 52\nsweep 30,30 60,0\nend 60,0\n";
+    let place = Place::new().file("pathbuild.toml", OPTIONS).file("1234.1P.dxf", dxf(drawing));
+    let run = place.run("sheet 1234.1P -o sheet.pdf");
+    assert_eq!(run.status, Some(0), "{run}");
+    let extents = drawn_extents(&fs::read(place.path().join("sheet.pdf")).unwrap());
+    let has = |size: [f64; 2]| {
+        extents.iter().any(|extent| (0..2).all(|axis| (extent[axis] - size[axis]).abs() < 0.01))
+    };
+    assert!(has([25.0, 50.0]), "no half of the circle in {extents:?}");
+    assert!(has([52.0, 52.0]), "no rectangle around the removed material in {extents:?}");
+    assert!(has([50.0, 8.0 / 3.0]), "no ruler in {extents:?}");
+}
+
+/// Width and height in mm of every path that the first page of a PDF draws, by the ends of its segments.
+#[cfg(feature = "pictures")]
+fn drawn_extents(pdf: &[u8]) -> Vec<[f64; 2]> {
+    const MM_PER_POINT: f64 = 25.4 / 72.0;
+    let (mut transforms, mut transform) = (Vec::new(), [1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    let (mut numbers, mut points, mut extents) = (Vec::new(), Vec::new(), Vec::new());
+    for word in first_content(pdf).split_ascii_whitespace() {
+        match word {
+            "q" => transforms.push(transform),
+            "Q" => transform = transforms.pop().expect("q and Q match"),
+            "cm" => transform = product(numbers[..6].try_into().unwrap(), transform),
+            "m" | "l" | "c" => {
+                let [x, y]: [f64; 2] = numbers[numbers.len() - 2..].try_into().unwrap();
+                let [a, b, c, d, e, f] = transform;
+                points.push([a * x + c * y + e, b * x + d * y + f].map(|points| points * MM_PER_POINT));
+            }
+            "S" | "f" | "n" => {
+                let extent = |axis: usize| {
+                    let values = points.iter().map(|point: &[f64; 2]| point[axis]);
+                    values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
+                };
+                extents.push([extent(0), extent(1)]);
+                points.clear();
+            }
+            _ => {}
+        }
+        match word.parse::<f64>() {
+            Ok(number) => numbers.push(number),
+            Err(_) => numbers.clear(),
+        }
+    }
+    extents
+}
+
+/// The drawing instructions of the first page: the first stream that begins with a transform.
+#[cfg(feature = "pictures")]
+fn first_content(pdf: &[u8]) -> String {
+    use std::io::Read;
+
+    let starts =
+        pdf.windows(8).enumerate().filter(|(_, window)| window == b"\nstream\n").map(|(at, _)| at + 8);
+    let inflated = |at: usize| {
+        let mut text = String::new();
+        flate2::read::ZlibDecoder::new(&pdf[at..]).read_to_string(&mut text).ok().map(|_| text)
+    };
+    starts
+        .filter_map(inflated)
+        .find(|text| text.lines().next().is_some_and(|line| line.ends_with(" cm")))
+        .unwrap()
+}
+
+/// The transform that applies `first` and then `second`.
+#[cfg(feature = "pictures")]
+fn product(first: [f64; 6], second: [f64; 6]) -> [f64; 6] {
+    let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (first, second);
+    [a * g + b * i, a * h + b * j, c * g + d * i, c * h + d * j, e * g + f * i + k, e * h + f * j + l]
 }
 
 #[test]

@@ -8,6 +8,8 @@ mod changes;
 #[cfg(feature = "pictures")]
 mod page;
 #[cfg(feature = "pictures")]
+mod pdf;
+#[cfg(feature = "pictures")]
 mod raster;
 mod scene;
 mod svg;

@@ -16,7 +16,7 @@ pub use pathbuild_testkit::{project, shared};
 use regex::Regex;
 pub use said::Said;
 use tempfile::TempDir;
-use wait4::Wait4 as _;
+use wait4::{ResourceUsage, Wait4 as _};
 
 /// A directory with files, in which the program runs.
 pub struct Place {
@@ -100,6 +100,12 @@ impl Place {
 
     /// Runs `pathbuild` with arguments separated by spaces. Also returns the processor time of that run alone.
     pub fn run_timed(&self, arguments: &str) -> (Run, Duration) {
+        let (run, used) = self.run_measured(arguments);
+        (run, used.utime + used.stime)
+    }
+
+    /// Runs `pathbuild` with arguments separated by spaces. Also returns the resources that this run alone used.
+    pub fn run_measured(&self, arguments: &str) -> (Run, ResourceUsage) {
         let arguments: Vec<&str> = arguments.split_whitespace().collect();
         // Files instead of pipes, which would have to be read while waiting for the end.
         let [mut stdout, mut stderr] = [(); 2].map(|()| tempfile::tempfile().unwrap());
@@ -113,7 +119,7 @@ impl Place {
             bytes
         });
         let output = Output { status: used.status, stdout, stderr };
-        (self.said(&arguments, output), used.rusage.utime + used.rusage.stime)
+        (self.said(&arguments, output), used.rusage)
     }
 
     fn command(&self, directory: &str, arguments: &[&str]) -> Command {
