@@ -1,8 +1,12 @@
 //! Every dependency has a licence compatible with MIT OR Apache-2.0 distribution, and none brings in unused heavy dependencies.
 
+use std::collections::BTreeSet;
+use std::fs;
 use std::process::Command;
 
 use serde_json::Value;
+
+use crate::support;
 
 /// Licences that only require their text to be included. A crate with a choice needs one of them; one with several (`AND`) needs all.
 const ALLOWED: [&str; 13] = [
@@ -43,6 +47,22 @@ fn every_dependency_has_an_allowed_licence() {
         .map(|package| format!("{} {}: {}", package["name"], package["version"], package["license"]))
         .collect();
     assert!(refused.is_empty(), "not on the list in this test:\n{}", refused.join("\n"));
+}
+
+/// `packaging/dependencies.md` has a row for each crate in the workspace's table of dependencies, and for nothing else.
+#[test]
+fn every_dependency_says_what_it_is_for() {
+    let project = support::project();
+    let manifest: toml::Table = fs::read_to_string(project.join("Cargo.toml")).unwrap().parse().unwrap();
+    let table = manifest["workspace"]["dependencies"].as_table().unwrap();
+    let used: BTreeSet<&str> =
+        table.keys().map(String::as_str).filter(|name| !name.starts_with("pathbuild")).collect();
+    let page = fs::read_to_string(project.join("packaging/dependencies.md")).unwrap();
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| ")?.split_once(" |"));
+    let listed: Vec<&str> =
+        rows.map(|(name, _)| name).filter(|name| !["crate", "---"].contains(name)).collect();
+    assert_eq!(listed.iter().copied().collect::<BTreeSet<_>>(), used);
+    assert_eq!(listed.len(), used.len(), "a crate has two rows");
 }
 
 /// Later versions of `image` bring them in; Cargo.lock pins an earlier one, which `cargo update` would undo.
