@@ -104,7 +104,7 @@ impl Session<'_> {
     fn typed(&mut self, line: &str) -> String {
         let page = self.page.file.display().to_string();
         let command = line.strip_prefix("$ ").unwrap_or_else(|| panic!("{page}: a block begins with {line}"));
-        let command = command.replace("cargo run --release -- ", "pathbuild ");
+        let command = command.replace("cargo run --release --locked -- ", "pathbuild ");
         let directory = self.directory.clone();
         let words: Vec<&str> = command.split_whitespace().collect();
         match &words[..] {
