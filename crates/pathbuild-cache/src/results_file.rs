@@ -14,7 +14,7 @@ pub struct Key {
 /// Why a results file is not used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CacheFault {
-    /// Not a results file, or incomplete.
+    /// The file is incomplete or something else.
     Damaged,
     /// Written by another build of the program, or for another query.
     Foreign,

@@ -34,7 +34,7 @@ struct Shared {
     system: Arc<dyn System>,
     inputs: Mutex<Inputs>,
     listings: Listings,
-    /// Drawings whose bytes no longer match their indexes; may contain duplicates.
+    /// Drawings that no longer match their indexes; may contain duplicates.
     changed: Mutex<Vec<SourceFile>>,
     /// All drawings that ever changed during the run.
     drifted: Mutex<FxHashSet<SourceFile>>,
@@ -112,7 +112,7 @@ impl Database {
         directory.set_revision(self).to(next);
     }
 
-    /// Starts a new revision for drawings whose bytes no longer match their indexes. Returns whether there were any; if so, the results
+    /// Starts a new revision for drawings that no longer match their indexes. Returns whether there were any; if so, the results
     /// since must be queried again.
     pub fn apply_noted_changes(&mut self) -> bool {
         let changed = std::mem::take(&mut *lock(&self.shared.changed));
@@ -231,7 +231,7 @@ impl WorkInProgress {
 }
 
 impl Database {
-    /// Clears a cancellation whose work has ended, so that it does not cancel the next query.
+    /// Clears a cancellation after its work has ended, so that it does not cancel the next query.
     pub fn clear_cancellation(&self) {
         // Salsa clears it at the end of every query that was not called by another.
         self.attach(|_| ());

@@ -20,7 +20,7 @@ pub struct SourceFile {
     pub revision: u64,
 }
 
-/// A directory, whose file names determine where paths are defined.
+/// A directory. Its file names determine where paths are defined.
 #[salsa::input(debug)]
 pub struct Directory {
     /// The normalised path.

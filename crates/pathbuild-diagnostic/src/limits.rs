@@ -12,11 +12,11 @@ words! {
     ENTITIES: "the number of entities", "die Zahl der Elemente";
     /// `text-length`, of a text as it is drawn.
     TEXT_LENGTH: "the length of a text in bytes", "die Länge eines Textes in Bytes";
-    /// `text-length`, of a text whose variables have their values.
+    /// `text-length`, of a text with its variables replaced.
     TEXT_WITH_VALUES: "a text with its variables' values", "ein Text mit den Werten seiner Variablen";
     /// `seconds-per-path`.
     TIME_OF_PATH: "the time that this path takes", "die Zeit, die dieser Pfad braucht";
-    /// `embedding-moves`, of a program whose moves `z-split` cuts.
+    /// `embedding-moves`, of a program that `z-split` cuts.
     MOVES_CUT: "the number of moves, cut by z-split ({moves}),", "die Zahl der Bewegungen, die z-split teilt ({moves}),";
     /// `file-size` and the like.
     FILE_SIZE: "the file's size of {size} bytes", "die Dateigröße von {size} Bytes";

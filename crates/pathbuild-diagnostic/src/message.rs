@@ -17,7 +17,7 @@ pub struct Sentence {
 }
 
 impl Sentence {
-    /// A sentence whose arguments have no values yet.
+    /// A sentence with arguments that have no values yet.
     pub fn new(text: &'static Text) -> Self {
         Self { text, arguments: Vec::new() }
     }

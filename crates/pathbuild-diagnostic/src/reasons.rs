@@ -65,7 +65,7 @@ words! {
     PICTURE_TOO_LARGE: "the picture is too large", "das Bild ist zu groß";
     /// Programs without pictures.
     WITHOUT_PICTURES: "this pathbuild was built without the feature `pictures`: .html and .svg are left", "dieses pathbuild wurde ohne das Feature `pictures` gebaut: es bleiben .html und .svg";
-    /// As systems say it.
+    /// In the words of operating systems.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
     /// Error of the operating system.
     EXISTS: "file exists", "es gibt sie schon";

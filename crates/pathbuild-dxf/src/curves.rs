@@ -83,7 +83,7 @@ fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
     let bend = from.direction.minus(to.direction).times(reach);
     let joint = from.point.plus(to.point).plus(bend).times(0.5);
     let first = piece(from.point, joint, from.direction);
-    // Constructed backwards from the end, whose direction is known.
+    // Constructed backwards from the end, since its direction is known.
     let second = piece(to.point, joint, to.direction.times(-1.0)).reversed();
     Some([first, second])
 }

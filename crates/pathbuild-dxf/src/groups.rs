@@ -187,7 +187,7 @@ fn shown(line: u64) -> u32 {
 /// The pairs in a stretch of bytes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch<'a> {
-    /// The bytes whose line ends are known, and room for one more code.
+    /// The bytes with known line ends, and room for one more code.
     bytes: &'a [u8; KNOWN + CODE],
     /// Offset of the next pair.
     at: usize,
@@ -213,7 +213,7 @@ impl<'a> Stretch<'a> {
         (without_first(ends) != 0).then_some(Self { bytes, at: 0, ends })
     }
 
-    /// Number of bytes consumed so far.
+    /// Number of bytes consumed.
     #[inline]
     pub(crate) fn consumed(&self) -> usize {
         self.at

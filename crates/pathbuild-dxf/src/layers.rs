@@ -20,7 +20,7 @@ use crate::pairs::{LAYER, Pair, Pairs, Stop};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct LayerId(u32);
 
-/// The layers that entities have used so far.
+/// The layers of the entities before.
 pub(crate) struct Layers<'a, 'o> {
     /// The LAYER table of the drawing.
     table: LayerTable<'a>,
@@ -158,7 +158,7 @@ impl UsedLayer {
 pub(crate) struct LayerTable<'a> {
     /// The TABLES section.
     tables: Option<Pairs<'a>>,
-    /// Number of lookups so far.
+    /// Number of lookups.
     lookups: usize,
     /// All layers, read after many lookups.
     all: Option<KnownLayers<'a>>,
@@ -326,7 +326,7 @@ impl<'a> Reading<'_, 'a, '_> {
     }
 }
 
-/// Whether the table ends here. A record whose start is damaged does not end the table, so that the damage is reported.
+/// Whether the table ends here. A record with a damaged start does not end the table, so that the damage is reported.
 fn is_end_of_table(head: &Pair<'_>) -> bool {
     ["ENDTAB", "TABLE", "ENDSEC"].iter().any(|keyword| head.is(keyword))
 }

@@ -277,7 +277,7 @@ fn record_debris(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
     listed().entry(directory.to_owned()).or_insert(temporary);
 }
 
-/// Removes temporary files whose process no longer runs.
+/// Removes temporary files of processes that no longer run.
 fn remove_debris(directory: &Utf8Path) {
     if !listed().contains_key(directory) {
         // Nothing can be removed from a directory that cannot be listed.

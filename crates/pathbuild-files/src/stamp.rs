@@ -25,7 +25,7 @@ pub struct Stamp([u64; 6]);
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(SystemTime);
 
-/// Name of the temporary file whose modification time is read.
+/// Name of the temporary file that shows the time of the file system.
 pub const CLOCK: &str = "clock";
 
 /// Coarsest time resolution of a file system in use (FAT).

@@ -162,7 +162,7 @@ fn corner_square(before: &Way, behind: &Way, kinematics: &Kinematics) -> f64 {
     square.min(slower * slower)
 }
 
-/// Time in seconds for a move whose speeds at both ends are given as squares.
+/// Time in seconds for a move, given the squares of the speeds at both ends.
 fn duration(way: &Way, from: f64, to: f64) -> f64 {
     let (speed, acceleration) = (way.speed, way.acceleration);
     // Square of the speed that would be reached if only the length limited it.

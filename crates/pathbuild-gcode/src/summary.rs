@@ -66,7 +66,7 @@ impl Summary {
 
 struct Collector {
     summary: Summary,
-    /// The tools used so far, with what has been recorded for each.
+    /// The tools in order of use, with what has been recorded for each.
     known: HashMap<Option<u32>, KnownTool>,
     /// Whether M6 changes tools; in programs without it, T does.
     has_changes: bool,
@@ -76,7 +76,7 @@ struct Collector {
     counting: Counting,
 }
 
-/// A tool used so far.
+/// A tool that was used.
 struct KnownTool {
     /// Index among the tools used.
     index: usize,

@@ -13,7 +13,7 @@ pub struct Step {
     /// Line number, counted from 1, or the step number for a program that does not exist as text.
     pub line: u32,
     pub action: Action,
-    /// The axes whose position has been specified since the last tool change, during which the machine may have moved the tool.
+    /// The axes with a position specified since the last tool change, during which the machine may have moved the tool.
     pub stated: Axes,
 }
 
@@ -88,7 +88,7 @@ pub enum WordEffect {
     System,
     /// It goes to a machine position or refers to machine zero, which no program contains.
     Place,
-    /// It runs a subprogram of the file, whose steps come next.
+    /// It runs a subprogram of the file; the subprogram's steps come next.
     Call,
     /// It is not followed.
     NotFollowed,

@@ -160,7 +160,7 @@ impl PathNumbers {
     }
 }
 
-/// The use of a letter on an element. Elements whose text is ignored are swept at the path's height.
+/// The use of a letter on an element. Elements with an ignored text are swept at the path's height.
 fn use_of(class: ElementClass, letter: Letter) -> Use {
     match (class, letter) {
         (ElementClass::Unread, Letter::S) => Use::PathOnly,

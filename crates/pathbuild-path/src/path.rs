@@ -211,7 +211,7 @@ pub struct Subpath {
     pub thickness: f64,
     /// O.
     pub tool: f64,
-    /// Letters whose values are hidden by errors.
+    /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
     /// M.
     pub material: Option<SmolStr>,
@@ -265,7 +265,7 @@ impl Path {
         self.unknown_letters().contains(letter)
     }
 
-    /// The letters whose values are hidden by errors.
+    /// The letters with values that are hidden by errors.
     pub(crate) fn unknown_letters(&self) -> Letters {
         self.faults.as_ref().map_or_else(Letters::default, |faults| faults.letters)
     }

@@ -188,7 +188,7 @@ pub(crate) struct DrawingFaults {
 /// What is unknown about a path with errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Faults {
-    /// Letters whose values are unknown.
+    /// Letters with unknown values.
     pub(crate) letters: Letters,
     /// Whether an error may hide I of a segment.
     pub(crate) is_infeed_unknown: bool,

@@ -82,7 +82,7 @@ impl ParameterTexts {
         if is_plain { self.push(text) } else { self.push(&joined(&without_percent_codes(text))) }
     }
 
-    /// Adds a text whose lines are joined and whose codes are replaced.
+    /// Adds a text with its lines joined and its codes replaced.
     pub(crate) fn push(&mut self, text: &str) -> TextId {
         let (start, first) = (self.string.len(), self.pieces.len());
         self.string.push_str(text);
@@ -136,7 +136,7 @@ fn range(numbers: &Range<u32>) -> Range<usize> {
 }
 
 impl From<&str> for ParameterTexts {
-    /// Creates a single text whose `%%` codes are already replaced.
+    /// Creates a single text with its `%%` codes already replaced.
     fn from(text: &str) -> Self {
         let mut texts = Self::default();
         texts.push(&joined(text));

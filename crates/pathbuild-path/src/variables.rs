@@ -20,7 +20,7 @@ pub struct Bindings(Vec<(char, SmolStr)>);
 pub(crate) struct Interpolation<'a> {
     pub(crate) bindings: &'a Bindings,
     pub(crate) limit: usize,
-    /// Variables with erroneous definitions, whose values are unknown.
+    /// Variables with erroneous definitions, and therefore unknown values.
     pub(crate) unknown: &'a [char],
 }
 
@@ -91,7 +91,7 @@ impl Interpolation<'_> {
         }
     }
 
-    /// PB305 for the variable whose value still contains references.
+    /// PB305 for the variable with references left in its value.
     fn endless(&self, name: String) -> Box<Diagnostic> {
         let problem = if self.bindings.0.len() > MOST_LEVELS {
             Diagnostic::new(&messages::TOO_DEEP).with("limit", MOST_LEVELS)

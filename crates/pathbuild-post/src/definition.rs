@@ -219,7 +219,7 @@ impl Post {
         }
     }
 
-    /// Checks that a spindle switched by the definition, and by nobody else, has a speed wherever something is cut.
+    /// Checks that a spindle switched by the definition alone has a speed wherever something is cut.
     fn check_spindle(&self, job: &Job, options: &PostOptions<'_>) -> Result<(), Box<Diagnostic>> {
         let is_switched = match &self.engine {
             Engine::CamBam(definition) => definition.switches_spindle(),

@@ -146,7 +146,7 @@ impl<'a> Builder<'a> {
         Some(rest)
     }
 
-    /// Adds a move whose length is given in mm.
+    /// Adds a move with its length in mm.
     fn go(&mut self, to: &PlannedMove, length: f64) {
         let mut movement = self.tool.go(to, length);
         if length < SHORTEST_ARC {
@@ -321,7 +321,7 @@ impl<'a> Fitter<'a> {
         tool
     }
 
-    /// The smallest number used neither by the table nor by a cutter so far.
+    /// The smallest number used neither by the table nor by a cutter before.
     fn free_index(&self) -> u32 {
         let is_free = |index: &u32| {
             self.table.entries.iter().all(|entry| entry.index != Some(*index))

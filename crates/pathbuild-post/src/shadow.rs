@@ -28,7 +28,7 @@ pub struct TranslatedText {
     pub disputed: Option<(u32, Vec<String>)>,
 }
 
-/// A word whose effect the shadow does not have.
+/// A word with an effect that the shadow lacks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DoubtfulWord {
     /// From 1.

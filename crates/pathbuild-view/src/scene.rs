@@ -247,7 +247,7 @@ pub struct Bar {
     pub top: f64,
 }
 
-/// A point whose height is measured before milling.
+/// A point that is measured before milling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProbeMark {
     /// The parameter that holds its height: 51 for #51.

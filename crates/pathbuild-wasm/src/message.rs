@@ -82,10 +82,10 @@ pub enum Language {
 /// A path or drawing that ended the compiler.
 #[derive(Clone, Debug, Deserialize)]
 pub struct LostPath {
-    /// Which one.
+    /// The path.
     #[serde(flatten)]
     pub place: Place,
-    /// Why.
+    /// Why it is lost.
     #[serde(flatten)]
     pub why: LossReason,
 }

@@ -146,7 +146,7 @@ struct Walk<'db> {
     limits: Limits,
     reached: Vec<ReachedPath<'db>>,
     diagnostics: Vec<Diagnostic>,
-    /// Indices of the diagnostics reported so far, by hash of their identity.
+    /// Indices of the reported diagnostics, by hash of their identity.
     known: FxHashMap<u64, Vec<usize>>,
     moves: u64,
     /// Whether a path at a depth has errors, in itself or below. The depth is part of the key because embedding may be too deep only there.

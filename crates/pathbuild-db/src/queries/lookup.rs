@@ -97,7 +97,7 @@ fn is_drawing(name: &str) -> bool {
 pub struct ResolvedPath {
     /// The files that define it. Exactly one is right; none and several are errors.
     pub files: Vec<SourceFile>,
-    /// The files whose names admit the path.
+    /// The files that may define the path, by their names.
     pub searched: Vec<SourceFile>,
     /// PB001 for directories that cannot be listed: the path may be defined there.
     pub unlisted: Vec<Diagnostic>,
@@ -115,7 +115,7 @@ pub(super) fn find_path<'db>(
     Some(resolve_path(db, own_directory(db, from), name))
 }
 
-/// Looks for a path that drawings in a directory refer to. Unaffected by files whose names do not admit it.
+/// Looks for a path that drawings in a directory refer to. Unaffected by files that cannot define it, by their names.
 #[salsa::tracked]
 pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'db>) -> ResolvedPath {
     let directories = search_path(db, directory);
@@ -151,12 +151,12 @@ pub fn holders(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<Source
     files.filter(|file| file_index(db, *file).path(name).is_some()).collect()
 }
 
-/// The files of a directory whose names admit a path. None is read.
+/// The files of a directory that may define a path, by their names. None is read.
 pub fn may_hold(db: &dyn Db, directory: Directory, name: &PathName) -> Vec<SourceFile> {
     files_for(db, directory, name.as_str())
 }
 
-/// The files of a directory whose names admit a path.
+/// The files of a directory that may define a path, by their names.
 fn files_for(db: &dyn Db, directory: Directory, name: &str) -> Vec<SourceFile> {
     let pattern = &Settings::get(db).language(db).path_pattern;
     let key = PathKey::new(name, pattern);

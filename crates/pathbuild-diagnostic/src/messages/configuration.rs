@@ -174,7 +174,7 @@ messages! {
         help_en: "`pathbuild explain` lists all of them",
         help_de: "`pathbuild explain` führt alle auf",
     }
-    /// A code whose severity cannot be lowered.
+    /// A code with a severity that cannot be lowered.
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",

@@ -168,7 +168,7 @@ messages! {
         help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
         help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
     }
-    /// A layer whose name resembles that of a path layer.
+    /// A layer with a name similar to that of a path layer.
     NEARLY_PATH_LAYER: NearlyPathLayer {
         en: "layer {layer} belongs to no path, but its name resembles that of path {path}: what is drawn on it has no effect ({elements})",
         de: "Layer {layer} gehört zu keinem Pfad, heißt aber fast wie der Pfad {path}: was darauf liegt, hat keine Wirkung ({elements})",

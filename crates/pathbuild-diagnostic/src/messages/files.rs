@@ -15,7 +15,7 @@ messages! {
         help_en: "give the user who runs pathbuild permission to read it; drawings in it may be missing here",
         help_de: "dem Benutzer, der pathbuild aufruft, das Leserecht geben; hier können Zeichnungen daraus fehlen",
     }
-    /// A drawing or directory whose name is not UTF-8.
+    /// A drawing or directory with a name that is not UTF-8.
     NAME_NOT_UTF_8: UnreadableFile {
         en: "the name {name} in this directory is not valid UTF-8; the file or directory is not read",
         de: "der Name {name} in diesem Verzeichnis ist kein gültiges UTF-8; die Datei oder das Verzeichnis wird nicht gelesen",

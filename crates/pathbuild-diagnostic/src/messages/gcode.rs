@@ -450,7 +450,7 @@ messages! {
         en: "this has no value: {reason}; the line is left out",
         de: "das hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
     }
-    /// A parameter whose value only the machine knows.
+    /// A parameter that only the machine knows the value of.
     MACHINE_VALUE: MachineValue {
         en: "only the machine knows #{parameter}; {value} is assumed",
         de: "nur die Maschine kennt #{parameter}; {value} wird angenommen",
@@ -464,7 +464,7 @@ messages! {
         help_en: "lengths and the box hold only within one system",
         help_de: "Längen und Größe gelten nur innerhalb eines Systems",
     }
-    /// G28, G30 or G53, whose target is unknown.
+    /// G28, G30 or G53 with an unknown target.
     POSITION_UNKNOWN: UnknownOffset {
         en: "the target of {word} is unknown, so the next move begins at an unknown position",
         de: "das Ziel von {word} ist unbekannt; die nächste Bewegung beginnt daher an unbekannter Stelle",

@@ -107,7 +107,7 @@ messages! {
         help_en: "do not run it: adjust again with the present probe values; emit --remove-stale removes it",
         help_de: "nicht laufen lassen: mit den jetzigen Messwerten neu korrigieren (adjust); emit --remove-stale entfernt es",
     }
-    /// A corrected program that was edited, or whose header lacks the measured heights.
+    /// A corrected program that was edited, or lacks the measured heights in its header.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
         de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} macht",
@@ -177,7 +177,7 @@ messages! {
         help_en: "draw it from the path's start to its end",
         help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
     }
-    /// A Q-project that needs several paths, but whose name allows no further names.
+    /// A Q-project that needs several paths, with a name that allows no further names.
     NO_NAME_FOR_CUTTER: CannotWrite {
         en: "the drawing's paths have several O, and a Q-project has a path for each: no name follows {name}",
         de: "die Pfade der Zeichnung haben mehrere O, und ein Q-Projekt hat für jedes einen Pfad: auf {name} folgt kein Name",

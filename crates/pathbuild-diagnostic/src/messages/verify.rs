@@ -85,14 +85,14 @@ messages! {
         help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
     }
-    /// `verify --against`, of a program whose definition writes words that are not followed.
+    /// `verify --against`, of a definition that writes words that are not followed.
     LINE_NOT_WRITTEN: MovesDiffer {
         en: "the definition writes \"{expected}\" here, and not all of its words are followed",
         de: "die Definition schreibt hier \"{expected}\", und nicht alle ihre Wörter werden verfolgt",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`, of a program whose definition is unchecked.
+    /// `verify --against`, with an unchecked definition.
     MOVES_NOT_COMPARED: DoubtfulPost {
         en: "the moves were not compared with path {path}: with unchecked = true, nothing tells whether what {post} writes mills the drawing",
         de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true sagt nichts, ob das, was {post} schreibt, die Zeichnung fräst",

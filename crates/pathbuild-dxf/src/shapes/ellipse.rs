@@ -24,7 +24,7 @@ pub(crate) struct Ellipse {
 }
 
 impl Ellipse {
-    /// Reads an ELLIPSE, whose points are in world coordinates.
+    /// Reads an ELLIPSE. Its points are in world coordinates.
     pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         let major = fields.point(11)?;
         let ratio = fields.length(40)?;

@@ -41,7 +41,7 @@ const CUBIC: i64 = 3;
 const HIGHEST_DEGREE: usize = 15;
 
 impl Spline {
-    /// Reads a SPLINE, whose points are in world coordinates. One defined by fit points only is left out.
+    /// Reads a SPLINE. Its points are in world coordinates. One defined by fit points only is left out.
     pub(crate) fn read<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         is_mirrored(fields)?;
         let groups = Groups::of(fields)?;

@@ -38,7 +38,7 @@ pub(crate) fn text<'a>(
     from_object_coordinates(Geometry::Text(text), fields)
 }
 
-/// Reads an MTEXT, whose point and direction are in world coordinates.
+/// Reads an MTEXT. Its point and direction are in world coordinates.
 pub(crate) fn mtext<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,

@@ -7,7 +7,7 @@ pub struct Words {
     pub letters: Letters,
     /// Accepted G codes, in ascending order.
     pub g: &'static [u16],
-    /// Accepted G codes whose meaning differs from RS274; they are not followed.
+    /// Accepted G codes with another meaning than in RS274; they are not followed.
     pub g_own: &'static [u16],
     /// G codes that are ignored.
     pub g_ignored: &'static [u16],

@@ -30,7 +30,7 @@ enum Outcome {
     Repeated,
     /// There are no more lines.
     NoLines,
-    /// The program has ended, or nobody wants more steps, or too much has been executed.
+    /// The program has ended, or the caller wants no more steps, or too much has been executed.
     Ended,
 }
 

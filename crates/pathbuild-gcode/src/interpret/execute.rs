@@ -93,7 +93,7 @@ impl<'i> Interpreter<'i> {
         self.report_unused(block);
     }
 
-    /// Reports a comment whose beginning the control obeys.
+    /// Reports a comment that the control obeys because of its beginning.
     fn check_active(&mut self, block: &Block<'_>, text: Span) {
         if let Some(word) = beginning_of(&block.text_of(text), self.rules.spelling.active_comments) {
             self.report(block, &say::ACTIVE_COMMENT, text, |d| d.quoting("word", word.trim_end_matches(',')));

@@ -82,7 +82,7 @@ pub fn interpret_until(
     if is_other { vec![no_g_code(text)] } else { problems }
 }
 
-/// A program whose steps can be iterated repeatedly, so that they need not be stored.
+/// A program that gives its steps repeatedly, so that they need not be stored.
 pub trait Program {
     /// Passes on all steps, in order.
     fn each(&self, take: &mut dyn FnMut(&Step));

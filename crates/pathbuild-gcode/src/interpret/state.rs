@@ -12,7 +12,7 @@ pub(super) const INCH: f64 = 25.4;
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) position: Position,
-    /// The axes whose position has been specified since the last tool change; all of them before the first one.
+    /// The axes with a position specified since the last tool change; all of them before the first one.
     pub(super) stated_axes: Axes,
     /// Line and code (times ten) of a move to a machine position, which is unknown.
     pub(super) lost: Option<(u32, u16)>,

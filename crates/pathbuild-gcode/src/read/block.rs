@@ -204,7 +204,7 @@ pub enum Op {
     Number(f64),
     /// Replaces a number by the value of the parameter with that number.
     Parameter,
-    /// Pushes the value of a named parameter, whose name is this part of the line.
+    /// Pushes the value of the parameter with this part of the line as its name.
     Named(Span),
     /// Pushes 1 if there is a parameter with this name, otherwise 0.
     Exists(Span),

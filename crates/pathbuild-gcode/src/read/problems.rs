@@ -57,7 +57,7 @@ impl Problems {
         self.push(message, || at.place(values(Diagnostic::new(message))));
     }
 
-    /// Adds a problem whose position is only known by line.
+    /// Adds a problem with a position that is only known by line.
     pub fn add_at_line(
         &mut self,
         message: &'static Message,

@@ -49,7 +49,7 @@ pub(crate) struct Place {
 /// The progress within the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// There have been only comments so far.
+    /// All lines before were comments.
     Leader,
     Program,
     /// The program ended in this line.
@@ -149,7 +149,7 @@ impl<'t> BlockReader<'t> {
         self.line
     }
 
-    /// Returns the problems in the lines read so far.
+    /// Returns the problems in the lines that were read.
     pub fn into_problems(self) -> Problems {
         self.problems
     }

@@ -139,12 +139,12 @@ impl HeightMap {
         !self.is_exhausted()
     }
 
-    /// The first and last column of a row whose cell centres are within the shape.
+    /// The first and last column of a row with cell centres inside the shape.
     fn columns(&self, shape: &impl Shape, row: i32) -> Option<(i32, i32)> {
         shape.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
     }
 
-    /// The first and last index of cells whose centres are between two coordinates. If the last is less than the first, there are none.
+    /// The first and last index of cells with centres between two coordinates. If the last is less than the first, there are none.
     fn centres_within(&self, (low, high): (f64, f64)) -> (i32, i32) {
         let index = |coordinate: f64| coordinate / self.resolution - 0.5;
         (whole(index(low).ceil()), whole(index(high).floor()))

@@ -84,7 +84,7 @@ impl<'m> Limits<'m> {
     }
 }
 
-/// The extent of the program so far, and which ends of axes have been reported as exceeded.
+/// The extent of the moves before, and the ends of axes that have been reported as exceeded.
 #[derive(Debug, Default)]
 struct Reach {
     extent: [Option<(f64, f64)>; 3],
@@ -136,7 +136,7 @@ impl Reach {
     }
 }
 
-/// Reports a feed whose component along an axis is too high; once until the feed changes.
+/// Reports a feed with a component along an axis that is too high; once until the feed changes.
 fn check_feed(
     line: u32,
     movement: &Move,

@@ -42,10 +42,10 @@ pub struct PostWords {
 /// How far a program has progressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Progress {
-    /// Nothing has moved yet.
+    /// Before the first move.
     #[default]
     Head,
-    /// Nothing has been cut yet.
+    /// Before the first cut.
     Approach,
     Cutting,
 }
@@ -124,7 +124,7 @@ impl PostWords {
         self.others.contains(word)
     }
 
-    /// What is said of a word that is not known.
+    /// The message about an unknown word.
     fn foreign(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
         let severity = if is_strict { Severity::Error } else { Severity::Warning };
         let found = match &self.definition {

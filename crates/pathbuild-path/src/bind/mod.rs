@@ -486,7 +486,7 @@ fn has_unread(values: &Values<'_>) -> bool {
     values.unread != Letters::default()
 }
 
-/// The element whose values are looked up.
+/// The element that values are looked up for.
 struct Scope<'a> {
     at: FaultSite<'a>,
     class: ElementClass,

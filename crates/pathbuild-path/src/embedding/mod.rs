@@ -58,7 +58,7 @@ pub struct PathSignature {
     pub has_probes: bool,
     /// The probes raised by H.
     pub raised_probes: Vec<ProbeTop>,
-    /// Letters whose values are hidden by errors.
+    /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
     /// Its subpath segments in order.
     pub subpaths: Box<[SubpathCall]>,

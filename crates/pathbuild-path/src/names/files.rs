@@ -237,7 +237,7 @@ impl RangeTable {
         files
     }
 
-    /// The entries whose ranges contain a first group.
+    /// The entries with a range that contains a first group.
     fn around(&self, first: &FirstGroup) -> impl Iterator<Item = &Entry> {
         let begun = self.sorted.partition_point(|entry| entry.from <= *first);
         let reaching = self.sorted[..begun].iter().rev().take_while(move |entry| entry.latest >= *first);

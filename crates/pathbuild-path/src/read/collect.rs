@@ -23,7 +23,7 @@ use crate::read::parameters::{PathCheck, Starts};
 use crate::read::texts::Texts;
 use crate::text::ParameterTexts;
 
-/// A path whose entities are being collected.
+/// A path for which entities are being collected.
 pub(crate) struct PathCollector<'d> {
     pub(crate) name: PathName,
     pub(crate) start: Option<Marker>,

@@ -229,7 +229,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// The passage along a segment whose end is near the current point. Holes, circles and arcs stay in place.
+    /// The passage along a segment that ends near the current point. Holes, circles and arcs stay in place.
     fn as_joined_here(&self, number: usize, passage: Passage, is_return: bool) -> Passage {
         let segment = &self.path.segments[number];
         let is_nearer_at_end = (passage.end - self.at).norm() < (passage.start - self.at).norm();

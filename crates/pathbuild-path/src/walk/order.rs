@@ -33,7 +33,7 @@ pub(super) fn length(ends: &Ends, segment: usize) -> f64 {
     (end - start).norm()
 }
 
-/// The crowded points visited so far.
+/// The crowded points that were visited.
 #[derive(Default)]
 pub(super) struct Stars(BTreeMap<Squares, Star>);
 

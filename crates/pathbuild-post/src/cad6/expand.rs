@@ -17,7 +17,7 @@ const MOST_VARIABLES: usize = 10_000;
 /// Maximum length in bytes of the text produced by one call; no line of a program is as long.
 const LONGEST: usize = 1 << 16;
 
-/// A control text whose variables have been replaced.
+/// A control text with its variables replaced.
 #[derive(Debug, Default)]
 pub(super) struct Expanded {
     pub(super) text: String,

@@ -77,7 +77,7 @@ pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
     }
 }
 
-/// Returns the files that control texts insert in every program: those whose names consist only of literal text and the user's macros.
+/// Returns the files that control texts insert in every program: those with names of literal text and the user's macros only.
 pub(crate) fn foreseen(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
     let mut variables = Variables::new(definition.aliases.iter().map(|(other, own)| (&**other, &**own)));
     assign_macros(&mut variables, macros);

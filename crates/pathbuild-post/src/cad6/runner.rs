@@ -44,7 +44,7 @@ pub(super) struct Runner<'a> {
     /// Number of bytes that texts may still produce, not counting inserted files.
     fuel: usize,
     pub(super) warnings: Vec<Diagnostic>,
-    /// The texts called so far.
+    /// The texts that were called.
     called: Vec<ControlTextKind>,
     /// For each line.
     origins: Vec<LineOrigin>,
@@ -206,7 +206,7 @@ impl<'a> Runner<'a> {
         Box::new(locate(diagnostic, kind, text, span, self.file))
     }
 
-    /// The distinct texts called so far.
+    /// The distinct texts that were called.
     pub(super) fn called(&self) -> &[ControlTextKind] {
         &self.called
     }

@@ -356,7 +356,7 @@ pub(super) struct Fault {
 pub(super) type Evaluated<T> = Result<T, Box<Fault>>;
 
 impl Fault {
-    /// Creates a fault whose message has no arguments yet.
+    /// Creates a fault with a message that has no arguments yet.
     pub(super) fn new(message: &'static Message, span: Range<usize>) -> Box<Self> {
         Box::new(Self { span, diagnostic: Diagnostic::new(message) })
     }

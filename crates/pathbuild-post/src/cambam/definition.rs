@@ -336,7 +336,7 @@ fn user_macro(line: &str) -> Option<(&str, &str)> {
     (!name.is_empty() && !name.contains(['{', '}', '(', ')', '$'])).then_some((name, value.trim()))
 }
 
-/// Whether a macro with this name is built in, so that nobody can redefine it.
+/// Whether a macro with this name is built in, so that it cannot be redefined.
 fn is_built_in(name: &str) -> bool {
     match Macro::parse(name) {
         Ok(Macro::User(_)) => false,

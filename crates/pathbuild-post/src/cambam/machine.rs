@@ -158,7 +158,7 @@ fn tenths(word: &Word) -> Option<u32> {
 
 // Registers and motion codes, the modal state of the machine.
 
-/// Letters with a number whose last value is remembered.
+/// Letters with a number that is remembered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Register {
     X,

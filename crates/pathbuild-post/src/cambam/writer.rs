@@ -496,7 +496,7 @@ fn collapse(text: &str) -> String {
 
 // The lines of the output with their numbers and line ends.
 
-/// The text written so far.
+/// The text that was written.
 #[derive(Debug)]
 pub(super) struct Lines<'a> {
     options: &'a Options,
@@ -530,7 +530,7 @@ impl<'a> Lines<'a> {
         self.next_number += u64::from(numbering.increment);
     }
 
-    /// Length so far, in bytes.
+    /// Length in bytes.
     pub(super) fn length(&self) -> usize {
         self.text.len()
     }

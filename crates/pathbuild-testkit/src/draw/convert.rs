@@ -177,7 +177,7 @@ fn entity_type(
         Shape::MText(shape) => EntityType::MText(mtext(shape, entity, tickets)),
         Shape::Solid(corners) => EntityType::Solid(solid(corners, plane)),
         Shape::Dimension(shape) => EntityType::RotatedDimension(dimension(shape, tickets)),
-        // Only a placeholder: its pairs are replaced.
+        // A placeholder: its pairs are replaced.
         Shape::Raw(_) => EntityType::ModelPoint(ModelPoint::default()),
     }
 }

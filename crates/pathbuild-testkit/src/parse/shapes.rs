@@ -46,7 +46,7 @@ fn typed(mut drawn: ParsedEntities, line_type: &str) -> ParsedEntities {
     drawn
 }
 
-/// A shape whose line type follows from the verb. The default shape is a line.
+/// A shape with the line type of the verb. The default shape is a line.
 fn verb(cursor: &mut Cursor, line_type: &str) -> Parsed<ParsedEntities> {
     let shape =
         ["line", "arc", "circle", "polyline", "ellipse", "spline"].into_iter().find(|word| cursor.take(word));

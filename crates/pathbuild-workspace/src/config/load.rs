@@ -195,7 +195,7 @@ impl Discovery<'_> {
         files.find(is_one)
     }
 
-    /// Diagnostics for arguments whose configuration is not the one of the run.
+    /// Diagnostics for arguments with another configuration than that of the run.
     pub(super) fn misplaced_inputs(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),

@@ -24,7 +24,7 @@ pub(super) struct TomlReader<'a> {
     key_index: Option<LazyKeyIndex>,
     key: String,
     diagnostics: Vec<Diagnostic>,
-    /// Number of regular expressions and globs read so far.
+    /// Number of regular expressions and globs that were read.
     counts: [u64; 2],
 }
 

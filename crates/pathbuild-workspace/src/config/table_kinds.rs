@@ -214,7 +214,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     Some((code, level))
 }
 
-/// The code whose number or name is most similar; the first if several are equally similar.
+/// The code with the most similar number or name; the first if several are equally similar.
 pub fn nearest_code(name: &str) -> Option<String> {
     static CODES: LazyLock<Vec<(String, &str)>> =
         LazyLock::new(|| Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect());

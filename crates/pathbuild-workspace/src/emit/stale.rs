@@ -418,7 +418,7 @@ struct Listings {
 }
 
 impl Listings {
-    /// Programs in a directory whose names begin with `stem`, ignoring case.
+    /// Programs in a directory with names that begin with `stem`, ignoring case.
     fn beginning(
         &mut self,
         (session, post_processor): (&Session<'_>, Option<&PostProcessor>),

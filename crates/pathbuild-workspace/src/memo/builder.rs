@@ -30,7 +30,7 @@ impl Store {
         for fresh in fresh {
             builder.add_fresh(fresh);
         }
-        // Without write access, the results are not cached.
+        // Results are not cached without write access.
         _ = self.place.store(&self.key, builder.finish());
     }
 }

@@ -248,7 +248,7 @@ fn node(db: &Database, instance: Instance<'_>) -> Node {
 struct GraphBuilder {
     graph: Graph,
     nodes: HashMap<(PathName, Utf8PathBuf, Bindings), usize>,
-    /// Nodes whose embeddings are complete. They are the same for every target that reaches the node.
+    /// Nodes with complete embeddings. They are the same for every target that reaches the node.
     complete: HashSet<usize>,
 }
 

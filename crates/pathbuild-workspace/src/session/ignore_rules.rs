@@ -28,7 +28,7 @@ pub(super) struct Rules {
 pub(super) struct Budget {
     /// Upper bound on a file's size in bytes.
     each: u64,
-    /// Total size of the files read so far, in bytes.
+    /// Total size in bytes of the files that were read.
     read: AtomicU64,
 }
 

@@ -129,7 +129,7 @@ struct Directory {
     drawings: Vec<Utf8PathBuf>,
     directories: Vec<Utf8PathBuf>,
     listing: Listing,
-    /// Entries whose names are not UTF-8: nothing can be opened under their lossy spellings.
+    /// Entries with names that are not UTF-8: nothing can be opened under their lossy spellings.
     inexact: Listing,
     /// Ignore rules that apply here and below, if there are any.
     rules: Option<Arc<Rules>>,

@@ -117,7 +117,7 @@ impl<'a> Session<'a> {
         &self.db
     }
 
-    /// Time spent so far, by phase.
+    /// Time spent, by phase.
     pub fn timings(&self) -> &Timings {
         &self.timings
     }

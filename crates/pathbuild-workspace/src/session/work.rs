@@ -264,7 +264,7 @@ impl Checker<'_> {
     }
 }
 
-/// The outcome of a target whose check was aborted.
+/// The outcome of a target after its check was aborted.
 fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,

@@ -193,7 +193,7 @@ impl WatchedDirectories {
         if own.is_empty() { vec![path.reported.clone()] } else { own.into_iter().collect() }
     }
 
-    /// Names of linked drawings whose content may differ after a change of this path.
+    /// Names of linked drawings that may differ after a change of this path.
     pub(super) fn linked_drawings(&self, path: &EventPath, system: &dyn System) -> BTreeSet<Utf8PathBuf> {
         let mut drawings = self.links.drawings_at(system, &path.reported);
         drawings.extend(self.links.drawings_at(system, &path.resolved));
@@ -376,7 +376,7 @@ impl Links {
         to_watch
     }
 
-    /// Linked drawings whose content may differ after a change at this path.
+    /// Linked drawings that may differ after a change at this path.
     pub(super) fn drawings_at(&self, system: &dyn System, place: &Utf8Path) -> BTreeSet<Utf8PathBuf> {
         let mut drawings = self.by_place.get(place).cloned().unwrap_or_default();
         if !drawings.is_empty()

@@ -61,7 +61,7 @@ impl ReverseIndex {
         self.by_file.get(&file).into_iter().flatten().copied()
     }
 
-    /// The drawings whose lookups in a directory may be answered by files of these names.
+    /// The drawings with lookups in a directory that files of these names may answer.
     pub(super) fn of_names<'n>(
         &self,
         directory: &Utf8Path,

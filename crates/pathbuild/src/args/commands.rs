@@ -227,7 +227,7 @@ pub struct VerifyArgs {
 }
 
 impl VerifyArgs {
-    /// The programs, followed by the path, whose configuration applies to programs outside its tree.
+    /// The programs, followed by the path. The path's configuration applies to programs outside its tree.
     pub(super) fn inputs(&self) -> Inputs {
         let mut inputs = Inputs::places(&self.files);
         inputs.inputs.extend(self.against.clone());
@@ -284,7 +284,7 @@ pub enum PostCommand {
 /// `pathbuild texts`
 #[derive(Clone, Debug, Default, Args)]
 pub struct TextsArgs {
-    /// Drawings whose texts are listed.
+    /// Drawings with the texts to list.
     #[command(flatten)]
     pub inputs: InputArgs,
     /// Show only texts that match

@@ -80,7 +80,7 @@ pub(super) const CLEAN: &str = "_Clean.gcode";
 pub(super) const VALUES: &str = "_Z.txt";
 
 impl Job {
-    /// The programs that an argument refers to: a file of a program, or a drawing, whose programs are where `emit` writes them. Their names
+    /// The programs that an argument refers to: a file of a program, or a drawing with programs where `emit` writes them. Their names
     /// may contain more than the drawing's name (R, or the path in a drawing with several); then their headers identify the drawing.
     ///
     /// # Errors

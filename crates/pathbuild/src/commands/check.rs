@@ -150,7 +150,7 @@ impl<'a> RevisionFiles<'a> {
         false
     }
 
-    /// A symbolic link whose target has changed.
+    /// A symbolic link with a new target.
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
         // Unknown targets count as changed.

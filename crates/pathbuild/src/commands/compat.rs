@@ -22,7 +22,7 @@ use super::adjust;
 use crate::environment::named_lang;
 use crate::german;
 
-/// Options whose value is passed on.
+/// Options that are passed on with their value.
 const VALUES: &[(char, &str)] = &[
     ('f', "--feed"),
     ('v', "--rapid"),

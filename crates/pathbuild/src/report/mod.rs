@@ -78,7 +78,7 @@ fn deliver(context: &Context, args: &CheckArgs, compared: &BaselineComparison, t
     if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Number of findings beyond which they are counted by code, because nobody reads them all.
+/// Number of findings beyond which they are counted by code, because nobody reads that many.
 const MANY: usize = 100;
 
 /// Shows findings. Text output stops after `most` errors.

@@ -37,7 +37,7 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     /// Whether the control takes helices; otherwise chords replace them.
     takes_helices: bool,
     difference: Option<Difference>,
-    /// Number of expected moves found so far.
+    /// Number of expected moves that were found.
     equal: usize,
     /// Whether lines may be split, as those corrected by probes are.
     may_split: bool,

@@ -70,7 +70,7 @@ pub struct Against<'w, M: Iterator<Item = (u32, Move)>> {
 }
 
 impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
-    /// Starts a comparison for a program in this dialect, whose post writes these words.
+    /// Starts a comparison for a program in this dialect, written by a post with these words.
     pub fn new(drawn: Drawn<M>, dialect: Dialect, words: &'w PostWords) -> Self {
         Self {
             setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
