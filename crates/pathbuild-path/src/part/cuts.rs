@@ -322,7 +322,10 @@ pub(crate) struct IndexedCuts<'c> {
 
 impl<'c> IndexedCuts<'c> {
     pub(crate) fn new(path: &'c PathCuts) -> Self {
-        Self { boxes: index(path.cuts.iter().map(|cut| around(&cut.way.curve, 2.0 * cut.radius))), path }
+        Self {
+            boxes: index(path.cuts.iter().map(|cut| around(&cut.way.curve, 2.0 * cut.radius + GAP))),
+            path,
+        }
     }
 
     /// The cuts whose cutter may come within its diameter of a curve.

@@ -275,8 +275,9 @@ impl<'s> LeftoverSearch<'s> {
         if length <= 2.0 * nearest.cut.radius && (is_end(from) || is_end(to)) {
             return None;
         }
-        let samples =
-            (0..=SAMPLES).map(|number| place(from + length * f64::from(number) / f64::from(SAMPLES)));
+        // Not at the ends, which may lie beside the end of the cut, where its edge is as far away as it can be.
+        let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
+        let samples = (0..SAMPLES).map(sample);
         let thickness = samples.map(|at| self.distance(at)).fold(0.0, f64::max);
         let is_through = nearest.cut.way.below(THROUGH).is_some();
         Some(Leftover {
