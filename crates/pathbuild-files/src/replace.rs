@@ -29,6 +29,7 @@ pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Resu
 ///
 /// # Errors
 /// If it cannot be created.
+#[cfg_attr(not(unix), expect(unused_variables, reason = "elsewhere the directory decides who has access"))]
 pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8PathBuf, File)> {
     let name = path.file_name().unwrap_or("output");
     let mut options = OpenOptions::new();
