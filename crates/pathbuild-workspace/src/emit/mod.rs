@@ -1,6 +1,6 @@
 //! `emit`: generates the programs of paths, and writes, compares or prints them. (book: reference/commands, `emit`; book: program/gcode)
 //!
-//! One flow: [`select`] the paths, [`plan`] their programs, [`build`] what no earlier run knows, [`settle`] the files.
+//! One flow: `select` the paths, `plan` their programs, `build` what no earlier run knows, `settle` the files.
 
 mod build;
 mod comparison;
