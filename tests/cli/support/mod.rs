@@ -16,7 +16,7 @@ pub use pathbuild_testkit::{project, shared};
 use regex::Regex;
 pub use said::Said;
 use tempfile::TempDir;
-use wait4::{ResourceUsage, Wait4 as _};
+use wait4::Wait4 as _;
 
 /// A directory with files, in which the program runs.
 pub struct Place {
@@ -100,12 +100,6 @@ impl Place {
 
     /// Runs `pathbuild` with arguments separated by spaces. Also returns the processor time of that run alone.
     pub fn run_timed(&self, arguments: &str) -> (Run, Duration) {
-        let (run, used) = self.run_measured(arguments);
-        (run, used.utime + used.stime)
-    }
-
-    /// Runs `pathbuild` with arguments separated by spaces. Also returns the resources that this run alone used.
-    pub fn run_measured(&self, arguments: &str) -> (Run, ResourceUsage) {
         let arguments: Vec<&str> = arguments.split_whitespace().collect();
         // Files instead of pipes, which would have to be read while waiting for the end.
         let [mut stdout, mut stderr] = [(); 2].map(|()| tempfile::tempfile().unwrap());
@@ -119,7 +113,27 @@ impl Place {
             bytes
         });
         let output = Output { status: used.status, stdout, stderr };
-        (self.said(&arguments, output), used.rusage)
+        (self.said(&arguments, output), used.rusage.utime + used.rusage.stime)
+    }
+
+    /// Runs `pathbuild` and returns whether it succeeded, and its peak memory in bytes. The memory in its resource usage is no less than
+    /// that of the process which starts it.
+    #[cfg(target_os = "linux")]
+    pub fn peak_memory(&self, arguments: &str) -> (bool, u64) {
+        let mut command = self.command(".", &arguments.split_whitespace().collect::<Vec<_>>());
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let status = format!("/proc/{}/status", child.id());
+        let mut peak = 0;
+        loop {
+            let text = fs::read_to_string(&status).unwrap_or_default();
+            let kilobytes =
+                text.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next());
+            peak = peak.max(kilobytes.map_or(0, |number| number.parse::<u64>().unwrap()) << 10);
+            if let Some(status) = child.try_wait().unwrap() {
+                return (status.success(), peak);
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
     }
 
     fn command(&self, directory: &str, arguments: &[&str]) -> Command {
