@@ -64,10 +64,30 @@ pub enum EntityKind {
     Ellipse,
     Spline,
     Insert,
+    Attrib,
+    Body,
+    Face,
+    Helix,
+    MLine,
+    Mesh,
+    Proxy,
+    Ray,
+    Region,
+    Shape,
+    Solid,
+    Solid3D,
+    Surface,
+    Trace,
+    XLine,
     Other,
 }
 
 impl EntityKind {
+    /// The kind of an entity that no path consists of, by its name in upper case.
+    pub fn foreign(name: &[u8]) -> Self {
+        FOREIGN.into_iter().find(|kind| kind.name().as_bytes() == name).unwrap_or(Self::Other)
+    }
+
     /// The name in DXF files, known to users of CAD programs.
     pub fn name(self) -> &'static str {
         match self {
@@ -81,10 +101,44 @@ impl EntityKind {
             Self::Ellipse => "ELLIPSE",
             Self::Spline => "SPLINE",
             Self::Insert => "INSERT",
+            Self::Attrib => "ATTRIB",
+            Self::Body => "BODY",
+            Self::Face => "3DFACE",
+            Self::Helix => "HELIX",
+            Self::MLine => "MLINE",
+            Self::Mesh => "MESH",
+            Self::Proxy => "ACAD_PROXY_ENTITY",
+            Self::Ray => "RAY",
+            Self::Region => "REGION",
+            Self::Shape => "SHAPE",
+            Self::Solid => "SOLID",
+            Self::Solid3D => "3DSOLID",
+            Self::Surface => "SURFACE",
+            Self::Trace => "TRACE",
+            Self::XLine => "XLINE",
             Self::Other => "entity",
         }
     }
 }
+
+/// The kinds that no path consists of.
+const FOREIGN: [EntityKind; 15] = [
+    EntityKind::Attrib,
+    EntityKind::Body,
+    EntityKind::Face,
+    EntityKind::Helix,
+    EntityKind::MLine,
+    EntityKind::Mesh,
+    EntityKind::Proxy,
+    EntityKind::Ray,
+    EntityKind::Region,
+    EntityKind::Shape,
+    EntityKind::Solid,
+    EntityKind::Solid3D,
+    EntityKind::Surface,
+    EntityKind::Trace,
+    EntityKind::XLine,
+];
 
 /// A place in a file. Each part may be unknown.
 ///

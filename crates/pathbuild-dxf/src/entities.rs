@@ -6,7 +6,7 @@
 )]
 
 use pathbuild_diagnostic::EntityKind;
-use pathbuild_diagnostic::messages::drawing::NOT_APPROXIMATED;
+use pathbuild_diagnostic::messages::drawing::{FOREIGN, NOT_APPROXIMATED};
 
 use crate::block_prefilter::{has_text, may_hold_wanted};
 use crate::encoding::Decoder;
@@ -248,6 +248,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
             RecordKind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
             RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
+            RecordKind::Foreign(_) => return Err(EntityError::left_out(&FOREIGN, fields)),
             _ => Shape::Parts(shapes::lightweight(fields)?),
         })
     }
@@ -290,9 +291,12 @@ fn want(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space)
 }
 
 /// Whether a record ends a section or block.
-pub(crate) fn is_end(head: &Pair<'_>) -> bool {
-    ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"].iter().any(|keyword| head.is(keyword))
+fn is_end(head: &Pair<'_>) -> bool {
+    ENDS.iter().any(|keyword| head.is(keyword))
 }
+
+/// Records that end a section or block.
+const ENDS: [&str; 5] = ["ENDSEC", "ENDBLK", "EOF", "SECTION", "BLOCK"];
 
 /// The type of a record in ENTITIES or in a block. VERTEX and SEQEND are records of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -309,16 +313,45 @@ pub(crate) enum RecordKind {
     Ellipse,
     Spline,
     Insert,
+    /// Nothing that a path consists of.
+    Foreign(EntityKind),
 }
 
+/// Records that say something about a drawing and are no part of what is made: they may lie on the layer of a path.
+const ANNOTATIONS: [&str; 20] = [
+    "ACAD_TABLE",
+    "ARC_DIMENSION",
+    "ATTDEF",
+    "DGNUNDERLAY",
+    "DIMENSION",
+    "DWFUNDERLAY",
+    "HATCH",
+    "IMAGE",
+    "LARGE_RADIAL_DIMENSION",
+    "LEADER",
+    "LIGHT",
+    "MULTILEADER",
+    "OLE2FRAME",
+    "OLEFRAME",
+    "PDFUNDERLAY",
+    "POINT",
+    "SECTIONOBJECT",
+    "TOLERANCE",
+    "VIEWPORT",
+    "WIPEOUT",
+];
+
 impl RecordKind {
-    /// The kind with this name in any case, or `None`. (`3DLINE` is the three-dimensional LINE of R10.)
+    /// The kind with this name in any case, or `None` for annotations and ends. (`3DLINE` is the three-dimensional LINE of R10.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
-        Self::upper_case(name).or_else(|| {
-            let is_unusual = !name.iter().all(u8::is_ascii_uppercase);
-            is_unusual.then(|| Self::upper_case(&name.trim_ascii().to_ascii_uppercase()))?
-        })
+        Self::upper_case(name).or_else(|| Self::unusual(&name.trim_ascii().to_ascii_uppercase()))
+    }
+
+    #[cold]
+    fn unusual(name: &[u8]) -> Option<Self> {
+        let is_known = ANNOTATIONS.iter().chain(&ENDS).any(|known| known.as_bytes() == name);
+        Self::upper_case(name).or_else(|| (!is_known).then(|| Self::Foreign(EntityKind::foreign(name))))
     }
 
     #[inline]
@@ -381,6 +414,7 @@ impl RecordKind {
             Self::Ellipse => EntityKind::Ellipse,
             Self::Spline => EntityKind::Spline,
             Self::Insert => EntityKind::Insert,
+            Self::Foreign(kind) => kind,
         }
     }
 }

@@ -399,6 +399,13 @@ messages! {
         help_en: "special characters of texts and layer names may be wrong; save the drawing as R2007 or later",
         help_de: "Sonderzeichen in Texten und Layernamen können falsch sein; die Zeichnung als R2007 oder neuer speichern",
     }
+    /// An entity of a kind that is not part of the drawing language and no annotation.
+    FOREIGN: UnsupportedCurve {
+        en: "{entity} is left out: a path consists of lines, arcs, circles, polylines and texts",
+        de: "{entity} wird ausgelassen: ein Pfad besteht aus Linien, Bögen, Kreisen, Polylinien und Texten",
+        help_en: "draw it with these (many CAD programs can explode it), or move it to a layer that is not a path",
+        help_de: "damit zeichnen (viele CAD-Programme können es auflösen) oder auf einen Layer legen, der kein Pfad ist",
+    }
     /// ELLIPSE or SPLINE without the setting for approximating them.
     NOT_APPROXIMATED: UnsupportedCurve {
         en: "{entity} is left out: only lines and arcs are milled",

@@ -1,8 +1,8 @@
 //! LINE, ARC and CIRCLE: correct and faulty entities. (book: reference/dxf)
 
 use crate::support::{entities, faults, file, only, only_geometry, options, read_all};
-use pathbuild_diagnostic::Handle;
-use pathbuild_dxf::{Arc, Circle, Geometry, Line, Origin, Point3};
+use pathbuild_diagnostic::{Code, EntityKind, Handle, Lang, Point};
+use pathbuild_dxf::{Arc, Circle, Geometry, Line, Options, Origin, Point3, read};
 
 fn point(x: f64, y: f64, z: f64) -> Point3 {
     Point3 { x, y, z }
@@ -119,4 +119,49 @@ fn line_types_are_resolved() {
     assert_eq!(&*line("PATH", "6 xref$0$center"), "CENTER");
     assert_eq!(&*line("PATH", "6 xref|Hidden"), "HIDDEN");
     assert_eq!(&*line("OTHER", ""), "CONTINUOUS");
+}
+
+#[test]
+fn what_no_path_consists_of_is_left_out_with_its_name() {
+    for (name, kind) in [
+        ("REGION", EntityKind::Region),
+        ("MLINE", EntityKind::MLine),
+        ("HELIX", EntityKind::Helix),
+        ("ray", EntityKind::Ray),
+        ("XLINE", EntityKind::XLine),
+        ("SOLID", EntityKind::Solid),
+        ("TRACE", EntityKind::Trace),
+        ("3DFACE", EntityKind::Face),
+        ("3DSOLID", EntityKind::Solid3D),
+        ("ATTRIB", EntityKind::Attrib),
+        ("ACAD_PROXY_ENTITY", EntityKind::Proxy),
+        ("NEW_IN_2040", EntityKind::Other),
+    ] {
+        let record = format!("0 {name}\n5 2F\n8 P\n10 7\n20 8\n");
+        let drawing = read_all(entities(&record));
+        let [left_out] = &drawing.left_out[..] else { panic!("{name}: {drawing:?}") };
+        assert_eq!((left_out.kind, left_out.point), (kind, Some(Point::new(7.0, 8.0))), "{name}");
+        assert_eq!(left_out.diagnostic.code(), Code::UnsupportedCurve);
+        let begin = format!("{} is left out: a path consists of lines", kind.name());
+        assert!(left_out.diagnostic.text(Lang::En).starts_with(&begin), "{name}");
+        assert_eq!(left_out.diagnostic.place.handle, Some(Handle(0x2F)));
+
+        let in_block = format!("0 BLOCK\n2 B\n10 1\n20 0\n{record}0 ENDBLK");
+        let drawing = read_all(file("", "", &in_block, "0 INSERT\n8 0\n2 B\n10 0\n20 0"));
+        assert_eq!(drawing.left_out[0].point, Some(Point::new(6.0, 8.0)), "{name} in a block");
+
+        let elsewhere = Options { keep_layer: &|layer| layer != "P", ..options() };
+        assert!(read(entities(&record).as_bytes(), &elsewhere).left_out.is_empty(), "{name} elsewhere");
+        assert!(read_all(entities(&(record + "67 1"))).left_out.is_empty(), "{name} in paper space");
+    }
+}
+
+#[test]
+fn annotations_are_passed_over() {
+    for name in
+        ["HATCH", "DIMENSION", "ARC_DIMENSION", "LEADER", "MULTILEADER", "point", "ATTDEF", "VIEWPORT"]
+    {
+        let drawing = read_all(entities(&format!("0 {name}\n8 P\n10 x\n1 y")));
+        assert_eq!(drawing, pathbuild_dxf::Drawing::default(), "{name}");
+    }
 }
