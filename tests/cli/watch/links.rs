@@ -84,6 +84,26 @@ fn every_link_on_the_way_is_watched() {
     assert!(said.last().unwrap().contains("library/parts/1001.dxf: changed"), "{said:#?}");
 }
 
+/// Rules of a team are often a link to a file that several libraries share.
+#[test]
+fn an_ignore_file_behind_a_link_is_watched() {
+    for name in [".gitignore", ".ignore"] {
+        let place = library().file("rules", "").file("old/1009.dxf", dxf("1009.1P", 5, &[]));
+        fs::rename(place.path().join("old"), place.path().join("library/old")).unwrap();
+        symlink("../rules", place.path().join("library").join(name)).unwrap();
+        let watch = Watch::begin(&place, "watch library --format concise");
+        watch.write("rules", "old/\n");
+        watch.until("library/old/1009.dxf: ");
+        watch.write("rules", "");
+        watch.until("library/old/1009.dxf: ");
+        // Nothing of the directory is drawn, so that no drawing leads there.
+        watch.write("rules", "*.dxf\n");
+        watch.until("library/old/1009.dxf: ");
+        watch.write("rules", "");
+        watch.until("library/old/1009.dxf: ");
+    }
+}
+
 /// A hard link is a second name of the same file: who writes it by either changes the drawing.
 #[cfg(target_os = "linux")]
 #[test]

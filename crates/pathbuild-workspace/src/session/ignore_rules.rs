@@ -68,9 +68,17 @@ impl Budget {
 /// Upper bound on the length of a line in bytes. Longer lines are not patterns of names, and nested patterns would need a deep stack.
 const LONGEST_LINE: usize = 4096;
 
+/// Names of files that contain ignore rules.
+pub(crate) const IGNORE_FILES: [&str; 2] = [".gitignore", ".ignore"];
+
+/// Whether files of this name contain ignore rules.
+pub(crate) fn is_ignore_file(name: &str) -> bool {
+    IGNORE_FILES.contains(&name)
+}
+
 /// Whether an entry of this name changes the rules: an ignore file, or a repository if there are rules already.
 pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
-    matches!(name, ".gitignore" | ".ignore") || are_some && name == ".git"
+    is_ignore_file(name) || are_some && name == ".git"
 }
 
 impl Rules {

@@ -29,6 +29,7 @@ use crate::workspace::{Advance, Workspace};
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 pub(crate) use hints::MOST_UNKNOWN;
+pub(crate) use ignore_rules::{IGNORE_FILES, is_ignore_file};
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};

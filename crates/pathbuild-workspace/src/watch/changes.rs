@@ -13,7 +13,7 @@ use pathbuild_db::System;
 use super::directories::{EventPath, WatchedDirectories, event_path};
 use super::events::{Bell, Changes, Request, Restart, Signal};
 use super::library::Library;
-use crate::session::Session;
+use crate::session::{Session, is_ignore_file};
 
 /// Watches the directories of a library.
 pub(super) struct Watcher {
@@ -297,7 +297,7 @@ fn may_affect_results(path: &Utf8Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("dxf") => true,
-        _ if matches!(name, "pathbuild.toml" | ".gitignore" | ".ignore") => true,
+        _ if name == "pathbuild.toml" || is_ignore_file(name) => true,
         Some("gcode" | "tmp" | "txt" | "results") => false,
         _ => !name.starts_with('.') && !path.components().any(|part| part.as_str() == ".pathbuild"),
     }

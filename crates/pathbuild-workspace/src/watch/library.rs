@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::FileKind;
+use pathbuild_db::system::{FileKind, join};
 use pathbuild_db::{Db, SourceFile, Trace};
 use pathbuild_diagnostic::Diagnostic;
 
@@ -12,7 +12,7 @@ use super::index::{NameSnapshots, ReverseIndex};
 use crate::Inputs;
 use crate::check::check_drawings;
 use crate::memo::{Coverage, DrawingResult, is_transient};
-use crate::session::{Pair, Session, q_project_pairs};
+use crate::session::{IGNORE_FILES, Pair, Selection, Session, is_ignore_file, q_project_pairs};
 
 /// The watched drawings with their results.
 pub(super) struct Library<'a> {
@@ -105,7 +105,7 @@ impl<'a> Library<'a> {
         self.session.parse_ahead(&drawings);
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
-        self.unfollowed.extend(self.open.keys().cloned());
+        self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&selection)));
         self.problems.clone_from(&selection.problems);
         Batch { now: selection.problems, ..Batch::default() }
     }
@@ -120,8 +120,7 @@ impl<'a> Library<'a> {
             concerned.extend(self.reverse.of_file(self.session.db().file(path)));
             self.session.touch_file(path);
         }
-        is_other_library |=
-            changes.paths.iter().any(|path| matches!(path.file_name(), Some(".gitignore" | ".ignore")));
+        is_other_library |= changes.paths.iter().any(|path| path.file_name().is_some_and(is_ignore_file));
         if is_other_library {
             self.find_drawings(&mut concerned, &mut update);
         }
@@ -271,6 +270,7 @@ impl<'a> Library<'a> {
     /// Searches for drawings again: new ones are to be checked, missing ones are dropped.
     fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
         let selection = self.session.select(self.inputs);
+        self.unfollowed.extend(ignore_files(&selection));
         let db = self.session.db();
         let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
         let named = named.map(|file| file.path(db));
@@ -373,4 +373,9 @@ fn searched(traces: &[Trace]) -> impl Iterator<Item = &Utf8PathBuf> {
 /// Directory of a file; the working directory is the empty path.
 fn parent(path: &Utf8Path) -> &Utf8Path {
     path.parent().unwrap_or(Utf8Path::new(""))
+}
+
+/// The ignore files that the searched directories may contain: they may be links.
+fn ignore_files(selection: &Selection) -> impl Iterator<Item = Utf8PathBuf> {
+    selection.below.iter().flat_map(|directory| IGNORE_FILES.map(|name| join(directory, name)))
 }
