@@ -47,8 +47,8 @@ pub use names::files::{
 };
 pub use names::{PathLayer, PathName, PathPattern, PatternError, SpeltName};
 pub use part::{
-    DrawnParts, Part, PartCut, PartFindings, PartPattern, PartRing, PartSettings, PathCuts, StandingBar,
-    check_parts, check_path, cuts_into,
+    CutElement, DrawnParts, Part, PartCut, PartFindings, PartPattern, PartRing, PartSettings, PathCuts,
+    StandingBar, check_parts, check_path, cuts_into,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

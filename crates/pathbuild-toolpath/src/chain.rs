@@ -38,9 +38,11 @@ pub(crate) struct Run {
 
 impl<P: Parts> Fold<'_, P> {
     pub(crate) fn chain(&mut self, place: &PlacedPath<'_>, chain: &Chain, members: &[ChainSegment]) {
-        let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
+        let lowest = members.iter().map(|member| member.cut(place.path).bottom).fold(f64::INFINITY, f64::min);
+        let infeed = self.infeed(chain.infeed, place.surface - place.raised - lowest);
+        let first = chain.first_depth.map_or(place.surface - infeed, |depth| place.raised + depth);
         let strands: Vec<Strand<'_>> =
-            members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
+            members.iter().map(|member| self.strand(place, member, first, infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
         self.along(strands[0].element);
         self.element(ElementKind::MillingChain, &members[0].origin(place.path), bottom, place, None);

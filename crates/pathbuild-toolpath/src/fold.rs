@@ -35,7 +35,7 @@ pub trait Parts {
 
 /// Computes the program of a path. `moves` is an estimate of the number of moves. None of the paths may have errors.
 pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: PathOptions, moves: u64) -> Program {
-    folded(parts, root, drawing, options, moves, None).0
+    folded(parts, root, drawing, options, (moves, false), None).0
 }
 
 /// Like [`fold`], but also returns the origin of each step.
@@ -45,7 +45,17 @@ pub fn fold_traced<P: Parts>(
     drawing: &str,
     options: PathOptions,
 ) -> (Program, Trace<P::Id>) {
-    let (program, trace) = folded(parts, root, drawing, options, 0, Some(Trace::default()));
+    let (program, trace) = folded(parts, root, drawing, options, (0, false), Some(Trace::default()));
+    (program, trace.unwrap_or_default())
+}
+
+/// Like [`fold_traced`], but as if every element were milled in a single pass: the same ways at their lowest heights.
+pub(crate) fn fold_in_one_pass<P: Parts>(
+    parts: &P,
+    root: P::Id,
+    options: PathOptions,
+) -> (Program, Trace<P::Id>) {
+    let (program, trace) = folded(parts, root, "", options, (0, true), Some(Trace::default()));
     (program, trace.unwrap_or_default())
 }
 
@@ -54,7 +64,7 @@ fn folded<P: Parts>(
     root: P::Id,
     drawing: &str,
     options: PathOptions,
-    moves: u64,
+    (moves, is_one_pass): (u64, bool),
     trace: Option<Trace<P::Id>>,
 ) -> (Program, Option<Trace<P::Id>>) {
     let path = parts.path(root);
@@ -74,6 +84,7 @@ fn folded<P: Parts>(
         feed: fallback(Letter::F, ElementClass::PathStart, path.numbers(), &options, PathRole::Emitted)
             .map_or(0.0, |(feed, _)| feed),
         compatible: options.compatible,
+        is_one_pass,
         options,
         clearance: sweep_height,
         last_feed: FIRST_FEED,
@@ -110,6 +121,8 @@ pub(crate) struct Fold<'a, P: Parts> {
     /// F for elements without a feed in paths without a feed.
     feed: f64,
     pub(crate) compatible: bool,
+    /// Whether I is ignored.
+    is_one_pass: bool,
     /// S of the emitted path, above which there are no obstacles.
     clearance: f64,
     /// F of the last move that had one.
@@ -212,6 +225,11 @@ impl<'a, P: Parts> Fold<'a, P> {
             self.here = StepOrigin { occurrence, element: None };
         }
         outside
+    }
+
+    /// The infeed where I is `drawn`, and something of this depth is to be milled.
+    pub(crate) fn infeed(&self, drawn: f64, depth: f64) -> f64 {
+        if self.is_one_pass { drawn.max(depth) } else { drawn }
     }
 
     /// Makes the given element of the path the current one.

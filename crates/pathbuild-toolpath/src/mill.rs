@@ -173,7 +173,8 @@ impl<P: Parts> Fold<'_, P> {
         self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
         self.question(helix.comment.as_deref());
         self.sweep(circle.low(), circle.radius);
-        let mut done = self.spiral(&circle, place.surface, helix.infeed, bottom);
+        let infeed = self.infeed(helix.infeed, place.surface - bottom);
+        let mut done = self.spiral(&circle, place.surface, infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
             done = self.circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
         }
@@ -227,6 +228,7 @@ impl<P: Parts> Fold<'_, P> {
         let length = 2.0 * PI * circle.radius;
         let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
         let (low, high) = (place.raised + depth, place.raised + bars.top);
+        let infeed = self.infeed(infeed, high - low);
         // The original tool continues from the end of its spiral, which may already be below B.
         let mut z = if self.compatible { done } else { high };
         while above(z, low) {

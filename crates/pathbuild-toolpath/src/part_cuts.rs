@@ -1,14 +1,14 @@
 //! The cuts of a single path, for the check of its part. (book: language/part)
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
 
 use pathbuild_motion::{Move, Pace};
 use pathbuild_path::{
-    Arc as CurveArc, Bars, Curve, Cut, Line, PartCut, Path, PathCuts, PathOptions, Role, SegmentKind, Shape,
-    StandingBar, WalkedPath, Way, Xy, approx,
+    Arc as CurveArc, Bars, Curve, Cut, CutElement, Line, PartCut, Path, PathCuts, PathOptions, Role,
+    SegmentKind, Shape, StandingBar, WalkedPath, Way, Xy, approx,
 };
 
-use crate::fold::{Parts, fold_traced};
+use crate::fold::{Parts, fold_in_one_pass};
 use crate::mill::BarPlan;
 use crate::moves::way;
 
@@ -20,20 +20,41 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_compatible: bool) -> PathC
         compatible: is_compatible,
         ..PathOptions::default()
     };
-    let (program, trace) = fold_traced(&LonePath { path, walked }, (), "", options);
-    let radius = path.tool / 2.0;
-    let cuts = program.moves().filter_map(|(number, movement)| {
-        let element = trace.steps.get(number as usize - 1)?.element?;
-        let way = cutting_way(&movement).filter(|way| approx::above(path.thickness, way.lowest()))?;
-        let curve = shifted(&way.curve, path.start);
-        Some(PartCut { way: Way { curve, ..way }, radius, element })
-    });
-    PathCuts {
+    let (program, trace) = fold_in_one_pass(&LonePath { path, walked }, (), options);
+    let mut found = PathCuts {
         name: path.name.clone(),
-        cuts: cuts.collect(),
+        radius: path.tool / 2.0,
+        elements: Vec::new(),
+        cuts: Vec::new(),
         bars: bars(path),
         has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
-        drawn: Arc::clone(&path.drawn),
+    };
+    let mut numbers = BTreeMap::new();
+    for (number, movement) in program.moves() {
+        let Some(drawn) = trace.steps.get(number as usize - 1).and_then(|step| step.element) else {
+            continue;
+        };
+        let way = cutting_way(&movement).filter(|way| approx::above(path.thickness, way.lowest()));
+        let Some(way) = way else { continue };
+        let element = *numbers.entry(drawn).or_insert_with(|| {
+            found.elements.push(cut_element(path, drawn));
+            found.elements.len() - 1
+        });
+        let lowest = &mut found.elements[element].lowest;
+        *lowest = lowest.min(way.lowest());
+        let element = u32::try_from(element).unwrap_or(u32::MAX);
+        found.cuts.push(PartCut { way: Way { curve: shifted(&way.curve, path.start), ..way }, element });
+    }
+    found
+}
+
+/// An element that has not cut anything yet.
+fn cut_element(path: &Path, number: u32) -> CutElement {
+    let element = &path.drawn.elements[number as usize];
+    CutElement {
+        origin: path.drawn.origin(element),
+        is_mark: element.role == Role::Cut(Cut::Mark),
+        lowest: f64::INFINITY,
     }
 }
 
@@ -89,7 +110,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                 else {
                     continue;
                 };
-                let of_segment = BarsAlong { bars, bottom: cut.bottom, curve, element: segment.element };
+                let of_segment = BarsAlong { bars, bottom: cut.bottom, curve };
                 halves.extend([curve.start(), curve.end()]);
                 all.extend(of_segment.places(path.tool));
             }
@@ -108,9 +129,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                     degrees: 360.0,
                 });
                 halves.extend([low, low]);
-                all.extend(
-                    BarsAlong { bars, bottom: *bottom, curve, element: segment.element }.places(path.tool),
-                );
+                all.extend(BarsAlong { bars, bottom: *bottom, curve }.places(path.tool));
             }
             SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}
         }
@@ -125,7 +144,6 @@ struct BarsAlong<'b> {
     bars: &'b Bars,
     bottom: f64,
     curve: Curve,
-    element: u32,
 }
 
 /// A bar, and its position along its segment in mm.
@@ -136,7 +154,6 @@ struct BarPlace {
     /// Length in mm of the slopes beside it, at most.
     slope: f64,
     top: f64,
-    element: u32,
 }
 
 impl BarsAlong<'_> {
@@ -150,7 +167,6 @@ impl BarsAlong<'_> {
             to,
             slope: self.bars.top - self.bottom,
             top: self.bars.top,
-            element: self.element,
         };
         spans.into_iter().map(place).collect()
     }
@@ -165,7 +181,7 @@ impl BarPlace {
         let to = if is_whole(length - self.to, self.curve.end()) { length } else { self.to - radius };
         let foot = self.curve.section((self.from - self.slope).max(0.0), (self.to + self.slope).min(length));
         let middle = (to - from > SHORTEST).then(|| self.curve.section(from, to));
-        StandingBar { middle, foot, top: self.top, element: self.element }
+        StandingBar { middle, foot, top: self.top }
     }
 }
 

@@ -17,7 +17,8 @@ pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<P
 /// Checks all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known.
 pub(super) fn judge(db: &dyn Db, drawn: &DrawnParts, cuts: &[PathCuts], is_complete: bool) -> PartFindings {
     let Some(settings) = &Settings::get(db).language(db).part else { return PartFindings::default() };
-    let mut findings = check_parts(drawn, cuts, is_complete, settings);
+    let cuts: Vec<&PathCuts> = cuts.iter().collect();
+    let mut findings = check_parts(drawn, &cuts, is_complete, settings);
     findings.of_file.extend(drawn.problems.iter().cloned());
     let of_paths = findings.of_paths.iter_mut().flatten();
     for problem in findings.of_file.iter_mut().chain(of_paths) {

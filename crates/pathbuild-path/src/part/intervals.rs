@@ -10,13 +10,17 @@ pub(crate) type Stretch = (f64, f64);
 /// Gap in mm below which two stretches are one.
 pub(crate) const GAP: f64 = 1e-9;
 
+/// Gap in mm between stretches of neighbouring curves.
+pub(crate) const BETWEEN_CURVES: f64 = 1e-6;
+
 /// Adds the stretches of `along` that are nearer to `other` than `reach` mm.
 ///
 /// Candidates for their ends are the places where `along` crosses the border of the shape that a disc sweeps along `other`. Between two
 /// neighbouring candidates the distance of the middle decides, so that curves that touch or coincide need no special case.
 pub(crate) fn within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<Stretch>) {
     let length = along.length();
-    let mut cuts = vec![0.0, length];
+    let mut cuts = Candidates::default();
+    cuts.extend([0.0, length]);
     cross_circle(along, other.start(), reach, &mut cuts);
     cross_circle(along, other.end(), reach, &mut cuts);
     match other {
@@ -32,13 +36,40 @@ pub(crate) fn within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<S
             cross_circle(along, *centre, (radius - reach).abs(), &mut cuts);
         }
     }
-    cuts.retain(|cut| (0.0..=length).contains(cut));
-    cuts.sort_by(f64::total_cmp);
-    for cut in cuts.windows(2) {
+    for cut in cuts.sorted(length).windows(2) {
         let (from, to) = (cut[0], cut[1]);
         if to > from && other.distance_to(at(along, f64::midpoint(from, to))) < reach {
             found.push((from, to));
         }
+    }
+}
+
+/// Places along a curve at which a stretch may begin or end: its ends, and two for each circle and line that borders a swept shape.
+#[derive(Default)]
+struct Candidates {
+    places: [f64; 10],
+    count: usize,
+}
+
+impl Candidates {
+    fn extend(&mut self, places: impl IntoIterator<Item = f64>) {
+        for place in places {
+            self.places[self.count] = place;
+            self.count += 1;
+        }
+    }
+
+    /// Those on the curve, in order.
+    fn sorted(&mut self, length: f64) -> &[f64] {
+        let mut kept = 0;
+        for number in 0..self.count {
+            if (0.0..=length).contains(&self.places[number]) {
+                self.places[kept] = self.places[number];
+                kept += 1;
+            }
+        }
+        self.places[..kept].sort_unstable_by(f64::total_cmp);
+        &self.places[..kept]
     }
 }
 
@@ -66,8 +97,8 @@ pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
     all
 }
 
-/// What joined stretches leave of the range from `start` to `end`.
-pub(crate) fn rest(stretches: &[Stretch], start: f64, end: f64) -> Vec<Stretch> {
+/// What joined stretches leave of a range.
+pub(crate) fn rest(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
     let mut at = start;
     let mut left = Vec::new();
     for (from, to) in stretches {
@@ -101,6 +132,44 @@ pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     all
 }
 
+/// Joined stretches within a range.
+pub(crate) fn clipped(stretches: &[Stretch], (from, to): Stretch) -> Vec<Stretch> {
+    let clip = stretches.iter().map(|stretch| (stretch.0.max(from), stretch.1.min(to)));
+    clip.filter(|(from, to)| to > from).collect()
+}
+
+/// Joins the last stretch of a ring with the first if they meet where it begins.
+pub(crate) fn closed(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch> {
+    let meets = |stretches: &[Stretch]| {
+        stretches.len() > 1
+            && stretches[0].0 < BETWEEN_CURVES
+            && stretches[stretches.len() - 1].1 > whole - BETWEEN_CURVES
+    };
+    if meets(&stretches)
+        && let Some(last) = stretches.pop()
+    {
+        stretches[0].0 = last.0 - whole;
+    }
+    stretches
+}
+
+/// A curve shifted to the right, out of the material, by `distance` mm. `None` for an inner arc with a smaller radius.
+pub(crate) fn beside(curve: &Curve, distance: f64) -> Option<Curve> {
+    match curve {
+        Curve::Line(Line { start, end }) => {
+            let way = (end - start).try_normalize(0.0)?;
+            let aside = Vector2::new(way.y, -way.x) * distance;
+            Some(Curve::Line(Line { start: start + aside, end: end + aside }))
+        }
+        Curve::Arc(arc) => {
+            let radius = if arc.clockwise { arc.radius - distance } else { arc.radius + distance };
+            let scaled = |at: Xy| arc.centre + (at - arc.centre) * (radius / arc.radius);
+            (radius > GAP)
+                .then(|| Curve::Arc(Arc { radius, start: scaled(arc.start), end: scaled(arc.end), ..*arc }))
+        }
+    }
+}
+
 /// Where an arc has the point of its circle in that direction from its centre, in mm along it.
 fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
     if !arc.spans(out) {
@@ -112,7 +181,7 @@ fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
     Some(arc.radius * if ahead < 0.0 { ahead + std::f64::consts::TAU } else { ahead })
 }
 
-fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut Vec<f64>) {
+fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut Candidates) {
     match along {
         Curve::Line(line) => cuts.extend(line_and_circle(line, centre, radius).into_iter().flatten()),
         Curve::Arc(arc) => {
@@ -149,14 +218,14 @@ fn line_and_circle(line: &Line, centre: Xy, radius: f64) -> Option<[f64; 2]> {
     Some([(foot - half) * length, (foot + half) * length])
 }
 
-fn cross_line(along: &Curve, line: &Line, cuts: &mut Vec<f64>) {
+fn cross_line(along: &Curve, line: &Line, cuts: &mut Candidates) {
     let way = line.end - line.start;
     match along {
         Curve::Line(own) => {
             let direction = own.end - own.start;
             let across = direction.perp(&way);
             if across != 0.0 {
-                cuts.push((line.start - own.start).perp(&way) / across * direction.norm());
+                cuts.extend([(line.start - own.start).perp(&way) / across * direction.norm()]);
             }
         }
         Curve::Arc(arc) => {

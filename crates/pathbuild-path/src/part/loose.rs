@@ -1,17 +1,18 @@
 //! Whether cuts close a ring round a part. (book: language/part)
 
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use nalgebra::Vector2;
-use rstar::RTree;
 
-use super::leftover::beside;
-use super::prepared::{Boxed, PreparedPart, index, near, square};
+use super::boxes::{BoxIndex, square};
+use super::cuts::StandingBar;
+use super::intervals::{at as at_along, beside};
+use super::prepared::PreparedPart;
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::around;
 
 /// Largest distance in mm between an arc and the chords that stand for it.
-const SAGITTA: f64 = 0.005;
+const SAGITTA: f64 = 0.02;
 
 /// A straight sweep of a cutter.
 #[derive(Clone, Copy)]
@@ -20,22 +21,62 @@ struct Sweep {
     radius: f64,
 }
 
-/// Whether through cuts, with their radii, close a ring round a part.
-///
-/// Sweeps that overlap are united, and each remembers the angle round a point of the part by which it is ahead of the first of its group.
-/// Two sweeps of a group that overlap with another angle than the remembered one close a ring.
-pub(super) fn is_cut_out(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> bool {
-    let boxes = index(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
-    let Some(centre) = point_in_material(part, cuts, &boxes) else { return false };
+/// Whether through cuts, with their radii, close a ring round a part. `bars`: those near the part, with half of O.
+pub(super) fn is_cut_out<'b>(
+    part: &PreparedPart<'_>,
+    cuts: &[(Curve, f64)],
+    bars: impl Iterator<Item = (&'b StandingBar, f64)>,
+) -> bool {
     let sweeps: Vec<Sweep> = cuts.iter().flat_map(|(curve, radius)| sweeps(curve, *radius)).collect();
-    let boxes = index(sweeps.iter().map(|sweep| around(&Curve::Line(sweep.line), sweep.radius)));
-    let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
-    let turn = |from: Xy, to: Xy| {
-        let (from, to) = (from - centre, to - centre);
-        libm::atan2(from.perp(&to), from.dot(&to))
+    if bars
+        .flat_map(|(bar, radius)| beside_bar(bar, radius))
+        .any(|at| part.is_material(at) && has_way_out(at, &sweeps))
+    {
+        return false;
+    }
+    let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
+    let Some(centre) = point_in_material(part, cuts, &boxes) else { return false };
+    !has_way_out(centre, &sweeps) && is_ring_closed(centre, &sweeps)
+}
+
+/// The points on both sides of a bar at which the part may begin.
+fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = Xy> {
+    let aside = bar.middle.into_iter().flat_map(move |middle| {
+        [radius, -radius].into_iter().filter_map(move |radius| beside(&middle, radius * BESIDE_BAR))
+    });
+    aside.map(|curve| at_along(&curve, curve.length() / 2.0))
+}
+
+/// How far beside a bar the part is, in cutter radii: just behind the edge of the cut that the bar interrupts.
+const BESIDE_BAR: f64 = 1.01;
+
+/// Whether a straight way leads from a point to the border of the plate without meeting a cut.
+fn has_way_out(at: Xy, sweeps: &[Sweep]) -> bool {
+    let Some(mut hidden) = sweeps.iter().map(|sweep| sweep.seen_from(at)).collect::<Option<Vec<_>>>() else {
+        return false;
     };
+    hidden.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+    let Some((first, _)) = hidden.first().copied() else { return true };
+    // Directions from -pi to pi; ranges may reach beyond pi, where the first ones begin again.
+    let mut end = f64::NEG_INFINITY;
+    for (from, to) in &hidden {
+        if *from > end && end > f64::NEG_INFINITY {
+            return true;
+        }
+        end = end.max(*to);
+    }
+    end < first + TAU
+}
+
+/// Whether sweeps close a ring round a point, which is under none of them.
+///
+/// Sweeps that overlap are united, and each remembers the angle round the point by which it is ahead of the first of its group. Two sweeps
+/// of a group that overlap with another angle than the remembered one close a ring.
+fn is_ring_closed(centre: Xy, sweeps: &[Sweep]) -> bool {
+    let boxes = BoxIndex::new(sweeps.iter().map(|sweep| around(&Curve::Line(sweep.line), sweep.radius)));
+    let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
     for (number, sweep) in sweeps.iter().enumerate() {
-        for other in near(&boxes, around(&Curve::Line(sweep.line), sweep.radius)) {
+        for other in boxes.near(around(&Curve::Line(sweep.line), sweep.radius)) {
             if other <= number {
                 continue;
             }
@@ -44,7 +85,8 @@ pub(super) fn is_cut_out(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> bool
             if (there - here).norm() > sweep.radius + met.radius - OVERLAP {
                 continue;
             }
-            let angle = turn(sweep.line.start, here) + turn(here, there) + turn(there, met.line.start);
+            let way = [sweep.line.start, here, there, met.line.start];
+            let angle = way.windows(2).map(|step| turn(centre, step[0], step[1])).sum();
             if groups.unite(number, other, angle) {
                 return true;
             }
@@ -55,6 +97,31 @@ pub(super) fn is_cut_out(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> bool
 
 /// Overlap in mm from which two sweeps are one opening.
 const OVERLAP: f64 = 1e-6;
+
+/// The angle from one point to another as seen from `centre`, from -pi to pi.
+fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
+    let (from, to) = (from - centre, to - centre);
+    libm::atan2(from.perp(&to), from.dot(&to))
+}
+
+impl Sweep {
+    /// The range of directions in which it is seen from a point, which begins between -pi and pi. It may be a little larger than needed.
+    /// `None` if the point is under it.
+    fn seen_from(&self, at: Xy) -> Option<(f64, f64)> {
+        let radius = self.radius + SAGITTA;
+        if Curve::Line(self.line).distance_to(at) <= radius {
+            return None;
+        }
+        let width = |end: Xy| libm::asin((radius / (end - at).norm()).min(1.0));
+        let (start, end) = (width(self.line.start), width(self.line.end));
+        let out = self.line.start - at;
+        let direction = libm::atan2(out.y, out.x);
+        let turn = turn(at, self.line.start, self.line.end);
+        let (from, to) = (direction + (-start).min(turn - end), direction + start.max(turn + end));
+        let whole = if from < -PI { TAU } else { 0.0 };
+        Some((from + whole, to + whole))
+    }
+}
 
 /// Sweeps that overlap, directly or through others.
 struct Groups {
@@ -94,11 +161,11 @@ impl Groups {
 }
 
 /// A point of the part that is under no cut, near its rim.
-fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &RTree<Boxed>) -> Option<Xy> {
+fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &BoxIndex) -> Option<Xy> {
     let mut curves: Vec<&Curve> = part.part.rings[0].curves.iter().collect();
     curves.sort_by(|one, other| other.length().total_cmp(&one.length()));
     let is_free = |at: Xy| {
-        let mut over = near(boxes, square(at, 0.0)).into_iter().map(|number| &cuts[number]);
+        let mut over = boxes.near(square(at, 0.0)).into_iter().map(|number| &cuts[number]);
         part.is_material(at) && !over.any(|(curve, radius)| curve.distance_to(at) < *radius)
     };
     let depths = [0.001, 0.05, 0.3, 1.0, 3.0];
@@ -119,7 +186,7 @@ fn sweeps(curve: &Curve, radius: f64) -> Vec<Sweep> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number from 1 up")]
     let count = (arc.degrees.to_radians() / step).ceil().max(1.0) as u32;
     let length = arc.length();
-    let place = |number: u32| curve.section(0.0, length * f64::from(number) / f64::from(count)).end();
+    let place = |number: u32| at_along(curve, length * f64::from(number) / f64::from(count));
     (0..count)
         .map(|number| Sweep { line: Line { start: place(number), end: place(number + 1) }, radius })
         .collect()

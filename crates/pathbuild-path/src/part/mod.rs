@@ -1,6 +1,10 @@
 //! Finished parts: their outlines, and the check that the cuts of a drawing leave them as drawn. (book: language/part)
 
+mod bars;
+mod boxes;
+mod check;
 mod cuts;
+mod gouge;
 mod intervals;
 mod leftover;
 mod loose;
@@ -14,7 +18,9 @@ use smol_str::SmolStr;
 use crate::geometry::{Curve, Placement};
 use crate::names::{LazyRegex, PathName, PatternError};
 
-pub use cuts::{PartCut, PartFindings, PathCuts, StandingBar, check_parts, check_path, cuts_into};
+pub use check::{PartFindings, check_parts, check_path};
+pub use cuts::{CutElement, PartCut, PathCuts, StandingBar};
+pub use gouge::cuts_into;
 
 /// The pattern for names of layers with finished parts. It must match the whole name, ignoring case.
 #[derive(Clone)]

@@ -1,24 +1,39 @@
 //! A part prepared for queries: where a point is, and how deep a cutter there goes into the part.
 
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
+use std::cell::OnceCell;
 
-use super::Part;
+use rstar::{AABB, Envelope as _};
+
+use super::boxes::{BoxIndex, square};
 use super::intervals::{GAP, Stretch, at as at_along, joined, within};
+use super::{Part, PartRing};
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::{Outline, around};
 
 /// A part with its rings indexed.
 pub(crate) struct PreparedPart<'p> {
     pub(crate) part: &'p Part,
-    outlines: Vec<Outline>,
-    ring_boxes: RTree<Boxed>,
+    rings: Vec<PreparedRing>,
     /// The curves of all rings, each with its ring.
     curves: Vec<(usize, Curve)>,
-    curve_boxes: RTree<Boxed>,
+    curve_boxes: BoxIndex,
 }
 
-pub(crate) type Boxed = GeomWithData<Rectangle<[f64; 2]>, usize>;
+/// A ring; its outline is needed only where the side of a point is not obvious.
+struct PreparedRing {
+    extent: AABB<[f64; 2]>,
+    outline: OnceCell<Outline>,
+}
+
+/// A way of a cutter beside a part or into it.
+pub(crate) struct Passage {
+    /// Where the middle of the way lies.
+    pub(crate) side: Side,
+    /// Whether the cutter touches no ring, so that all of the way lies there.
+    pub(crate) is_clear: bool,
+    /// The stretches on which the cutter goes into the part.
+    pub(crate) entered: Vec<Stretch>,
+}
 
 /// Where a point lies.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,61 +44,48 @@ pub(crate) enum Side {
     Openings(Vec<usize>),
 }
 
-/// Creates an index of boxes, which are numbered from 0.
-pub(crate) fn index(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> RTree<Boxed> {
-    let numbered = boxes.enumerate().map(|(n, extent)| Boxed::new(Rectangle::from_aabb(extent), n));
-    RTree::bulk_load(numbered.collect())
-}
-
-/// The numbers of the boxes that meet another one, in ascending order, so that no result depends on the shape of the tree.
-pub(crate) fn near(boxes: &RTree<Boxed>, extent: AABB<[f64; 2]>) -> Vec<usize> {
-    let mut found: Vec<usize> =
-        boxes.locate_in_envelope_intersecting(extent).map(|found| found.data).collect();
-    found.sort_unstable();
-    found
-}
-
-/// The square round a point.
-pub(crate) fn square(at: Xy, reach: f64) -> AABB<[f64; 2]> {
-    AABB::from_corners([at.x - reach, at.y - reach], [at.x + reach, at.y + reach])
-}
-
 impl<'p> PreparedPart<'p> {
     pub(crate) fn new(part: &'p Part) -> Self {
-        let outlines: Vec<Outline> = part.rings.iter().map(|ring| Outline::new(&ring.curves)).collect();
+        let ring = |ring: &PartRing| {
+            let boxes = ring.curves.iter().map(|curve| around(curve, SLACK));
+            let extent = boxes.reduce(|one, other| one.merged(&other)).unwrap_or_else(AABB::new_empty);
+            PreparedRing { extent, outline: OnceCell::new() }
+        };
         let numbered = (0..).zip(&part.rings);
         let curves: Vec<(usize, Curve)> =
             numbered.flat_map(|(ring, drawn)| drawn.curves.iter().map(move |curve| (ring, *curve))).collect();
         Self {
             part,
-            ring_boxes: index(outlines.iter().map(Outline::extent)),
-            outlines,
-            curve_boxes: index(curves.iter().map(|(_, curve)| around(curve, 1e-6))),
+            rings: part.rings.iter().map(ring).collect(),
+            curve_boxes: BoxIndex::new(curves.iter().map(|(_, curve)| around(curve, SLACK))),
             curves,
         }
     }
 
     /// The bounding box of the part.
     pub(crate) fn extent(&self) -> AABB<[f64; 2]> {
-        self.outlines[0].extent()
+        self.rings[0].extent
     }
 
     /// The curves near a box, with their rings.
     pub(crate) fn curves_near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
-        near(&self.curve_boxes, extent)
-            .into_iter()
-            .map(|number| (self.curves[number].0, &self.curves[number].1))
+        let near = self.curve_boxes.near(extent).into_iter();
+        near.map(|number| (self.curves[number].0, &self.curves[number].1))
     }
 
     pub(crate) fn side(&self, at: Xy) -> Side {
-        let around = near(&self.ring_boxes, AABB::from_point([at.x, at.y]));
-        let inside: Vec<usize> =
-            around.into_iter().filter(|ring| self.outlines[*ring].contains(at)).collect();
+        let inside: Vec<usize> = (0..self.rings.len()).filter(|ring| self.contains(*ring, at)).collect();
         match inside.split_first() {
             Some((0, [])) => Side::Material,
             Some((0, openings)) => Side::Openings(openings.to_vec()),
             _ => Side::Outside,
         }
+    }
+
+    fn contains(&self, ring: usize, at: Xy) -> bool {
+        let PreparedRing { extent, outline } = &self.rings[ring];
+        extent.contains_point(&[at.x, at.y])
+            && outline.get_or_init(|| Outline::new(&self.part.rings[ring].curves)).contains(at)
     }
 
     pub(crate) fn is_material(&self, at: Xy) -> bool {
@@ -119,9 +121,23 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
+    /// How a cutter of this radius passes the part: where it goes deeper than `tolerance` into it. `start`: the side of the way's start, if
+    /// it is known.
+    pub(crate) fn passage(&self, way: &Curve, radius: f64, tolerance: f64, start: Option<Side>) -> Passage {
+        let reach = (radius - tolerance).max(GAP);
+        let mut near = self.curves_near(around(way, radius));
+        if near.any(|(_, curve)| curve.distance(way) < reach) {
+            let side = self.side(at_along(way, way.length() / 2.0));
+            return Passage { side, is_clear: false, entered: self.entered(way, radius, tolerance) };
+        }
+        let side = start.unwrap_or_else(|| self.side(way.start()));
+        let entered = if side == Side::Material { vec![(0.0, way.length())] } else { Vec::new() };
+        Passage { side, is_clear: true, entered }
+    }
+
     /// The stretches of a way on which a cutter of this radius goes deeper than `tolerance` into the part. A way without length gives a
     /// stretch without length.
-    pub(crate) fn entered(&self, way: &Curve, radius: f64, tolerance: f64) -> Vec<Stretch> {
+    fn entered(&self, way: &Curve, radius: f64, tolerance: f64) -> Vec<Stretch> {
         let length = way.length();
         if length == 0.0 {
             let is_deep = self.depth(way.start(), radius) > tolerance;
@@ -162,6 +178,9 @@ impl<'p> PreparedPart<'p> {
         (place(best.1), best.0)
     }
 }
+
+/// Margin in mm round boxes, larger than the rounding of ends that meet.
+const SLACK: f64 = 1e-4;
 
 /// Upper bound on distances in mm: no part is larger.
 const FARTHEST: f64 = 1e7;

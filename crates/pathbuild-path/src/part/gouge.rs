@@ -1,0 +1,95 @@
+//! Cuts into a part. (book: language/part)
+
+use std::collections::BTreeMap;
+
+use super::Part;
+use super::cuts::{CutIndex, IndexedCut, THROUGH};
+use super::intervals::{GAP, Stretch};
+use super::prepared::{Passage, PreparedPart, Side};
+use crate::geometry::{Curve, Xy};
+use crate::keep_out::{Way, around};
+
+/// A cut that may go into the part, or that may shape its outline.
+pub(super) struct JudgedCut<'c> {
+    pub(super) cut: IndexedCut<'c>,
+    /// Its section through the plate; of a cut that ends above the plate, all of it.
+    pub(super) curve: Curve,
+    /// Where its middle lies.
+    pub(super) side: Side,
+    /// The stretches of the curve on which it goes into the part.
+    pub(super) entered: Vec<Stretch>,
+}
+
+/// A cut into a part by an element.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Gouge {
+    /// The centre of the cutter where it goes deepest into the part.
+    pub(super) at: Xy,
+    /// How deep, in mm.
+    pub(super) depth: f64,
+    /// Over what length, in mm along the way of the cutter.
+    pub(super) length: f64,
+}
+
+/// Judges cuts of a drawing, given by their numbers, against a part. Cuts above the plate count only as far as they may shape the outline.
+pub(super) fn judged<'c>(
+    part: &PreparedPart<'_>,
+    index: &CutIndex<'c>,
+    numbers: impl Iterator<Item = usize>,
+    tolerance: f64,
+) -> BTreeMap<usize, JudgedCut<'c>> {
+    let mut judged = BTreeMap::new();
+    // Most cuts begin where the one before ended, on the same side.
+    let mut last: Option<(Xy, Side)> = None;
+    for number in numbers {
+        let cut = index.cuts[number];
+        let element = cut.element(index);
+        let shapes = || cut.cut.way.lowest() <= element.lowest + GAP && !element.is_mark;
+        let Some(curve) = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve)) else { continue };
+        let known = last.take().filter(|(at, _)| *at == curve.start()).map(|(_, side)| side);
+        let Passage { side, is_clear, entered } = part.passage(&curve, cut.radius, tolerance, known);
+        last = is_clear.then(|| (curve.end(), side.clone()));
+        judged.insert(number, JudgedCut { cut, curve, side, entered });
+    }
+    judged
+}
+
+/// The cuts into a part, one for each path and element.
+pub(super) fn gouges<'j>(
+    part: &PreparedPart<'_>,
+    judged: impl Iterator<Item = &'j JudgedCut<'j>>,
+) -> BTreeMap<(usize, u32), Gouge> {
+    let mut found: BTreeMap<(usize, u32), Gouge> = BTreeMap::new();
+    for cut in judged.filter(|judged| judged.cut.through.is_some()) {
+        for stretch in &cut.entered {
+            let (at, depth) = part.deepest(&cut.curve, *stretch, cut.cut.radius);
+            let new = Gouge { at, depth, length: 0.0 };
+            let gouge = found.entry((cut.cut.path, cut.cut.cut.element)).or_insert(new);
+            if depth > gouge.depth {
+                (gouge.at, gouge.depth) = (at, depth);
+            }
+            gouge.length += stretch.1 - stretch.0;
+        }
+    }
+    found
+}
+
+/// The cuts into a placed part, by their numbers. `level`: the height in mm of the plate below the part.
+pub fn cuts_into(part: &Part, cuts: &[(Way, f64)], level: f64, tolerance: f64) -> Vec<(usize, Xy, f64, f64)> {
+    let prepared = PreparedPart::new(part);
+    let extent = prepared.extent();
+    let mut found = Vec::new();
+    for (number, (way, radius)) in cuts.iter().enumerate() {
+        let Some(curve) = way.below(level + THROUGH) else { continue };
+        if !rstar::Envelope::intersects(&around(&curve, *radius), &extent) {
+            continue;
+        }
+        let Passage { entered, .. } = prepared.passage(&curve, *radius, tolerance, None);
+        let deepest = entered.iter().map(|stretch| prepared.deepest(&curve, *stretch, *radius));
+        let deepest = deepest.reduce(|best, next| if next.1 > best.1 { next } else { best });
+        if let Some((at, depth)) = deepest {
+            found.push((number, at, depth, entered.iter().map(|(from, to)| to - from).sum()));
+        }
+    }
+    found
+}
