@@ -6,7 +6,7 @@ use std::path::Path;
 use insta::assert_snapshot;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret};
-use pathbuild_gcode::summary::Summary;
+use pathbuild_gcode::statistics::Summary;
 use pathbuild_testkit::sheet;
 use rayon::prelude::*;
 use serde_json::Value;

@@ -9,9 +9,6 @@ use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use salsa::Cancelled;
 
-use crate::db::Db;
-use crate::inputs::SourceFile;
-
 /// Panic payload of work that exceeded this time limit.
 pub(crate) struct TimeoutPanic(pub(crate) Duration);
 
@@ -44,13 +41,6 @@ pub fn bug(reason: &str) -> Diagnostic {
 
 /// Panic payload of a query that read other bytes than those the drawing was indexed by. No result may mix the two.
 pub(crate) struct DriftPanic;
-
-/// Records that a drawing has changed and abandons the query.
-pub(crate) fn abandon_query(db: &dyn Db, file: SourceFile) -> ! {
-    db.note_changed(file);
-    // Bypasses the panic hook: this is not a bug.
-    resume_unwind(Box::new(DriftPanic))
-}
 
 /// PB005 for work beyond this time limit, without a place.
 pub fn too_slow(limit: Duration) -> Diagnostic {

@@ -1,9 +1,11 @@
-//! The database: results of all queries, the system, and the inputs that stand for files. Work on one target is guarded by a time limit and a
-//! panic handler, so that one target cannot stop the others.
+//! The database: its interface for queries, the results of all queries, the system, the inputs that stand for files, directories that are
+//! listed ahead of their queries, and the scratch buffers for drawings. Work on one target is guarded by a time limit and a panic handler, so
+//! that one target cannot stop the others.
 
 use std::borrow::Cow;
 use std::fmt;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -11,14 +13,35 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::reasons::CHANGES_WHILE_READ;
+use pathbuild_dxf::Drawing;
 use rustc_hash::{FxHashMap, FxHashSet};
 use salsa::{CancellationToken, Cancelled, Database as _, Setter};
 
-use crate::bugs::{DriftPanic, TimeoutPanic, internal_error, too_slow};
-use crate::db::{Db, ScratchPool};
+use crate::bugs::{DriftPanic, TimeoutPanic, catch_bugs, internal_error, too_slow};
 use crate::inputs::{Directory, Role, SourceFile, Target};
-use crate::listing::{Listings, PendingListing};
 use crate::system::{Names, System};
+
+/// The interface of queries to the database.
+#[salsa::db]
+pub trait Db: salsa::Database {
+    /// The outside world.
+    fn system(&self) -> &dyn System;
+
+    /// The input of a file, which need not exist. The path must be normalised.
+    fn file(&self, path: &Utf8Path) -> SourceFile;
+
+    /// The input of a directory, which need not exist. The path must be normalised.
+    fn directory(&self, path: &Utf8Path) -> Directory;
+
+    /// The names in a directory that was listed in advance; waits for a listing in progress. `None` if the directory has yet to be listed.
+    fn listed(&self, directory: Directory) -> Option<Names>;
+
+    /// Records that a file's bytes no longer match its index.
+    fn note_changed(&self, file: SourceFile);
+
+    /// Scratch buffers for reading drawings.
+    fn scratch(&self) -> &ScratchPool;
+}
 
 /// The results of all queries. Clones share them; each thread needs its own clone.
 #[salsa::db]
@@ -213,6 +236,13 @@ impl fmt::Debug for Database {
     }
 }
 
+/// Records that a drawing has changed and abandons the query.
+pub(crate) fn abandon_query(db: &dyn Db, file: SourceFile) -> ! {
+    db.note_changed(file);
+    // Bypasses the panic hook: this is not a bug.
+    resume_unwind(Box::new(DriftPanic))
+}
+
 /// Work in progress on one handle of the database.
 #[derive(Debug)]
 pub struct WorkInProgress {
@@ -269,5 +299,117 @@ impl Database {
             };
             return Err(Box::new(problem));
         }
+    }
+}
+
+/// Buffers for one drawing.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    /// The bytes of the file.
+    pub(crate) bytes: Vec<u8>,
+    /// The parsed drawing.
+    pub(crate) drawing: Drawing,
+}
+
+/// Scratch buffers that are not in use.
+#[derive(Default)]
+pub struct ScratchPool(Mutex<Vec<Scratch>>);
+
+/// Largest buffer in bytes that is kept. Few drawings need more.
+const MOST_BYTES: usize = 1 << 20;
+const MOST_ENTITIES: usize = 1 << 12;
+
+impl ScratchPool {
+    /// Calls `work` with a scratch buffer, which holds the content of the previous drawing.
+    pub(crate) fn with<R>(&self, work: impl FnOnce(&mut Scratch) -> R) -> R {
+        let mut scratch = self.free().pop().unwrap_or_default();
+        let result = work(&mut scratch);
+        if scratch.bytes.len() <= MOST_BYTES && scratch.drawing.entities.capacity() <= MOST_ENTITIES {
+            self.free().push(scratch);
+        }
+        result
+    }
+
+    fn free(&self) -> MutexGuard<'_, Vec<Scratch>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl fmt::Debug for ScratchPool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ScratchPool").finish_non_exhaustive()
+    }
+}
+
+/// Listings that no query has taken yet.
+#[derive(Debug, Default)]
+pub(crate) struct Listings(Mutex<FxHashMap<Directory, ListingState>>);
+
+/// The state of a listing.
+#[derive(Debug)]
+enum ListingState {
+    /// Complete.
+    Known(Names),
+    /// In progress on another thread. The channel closes without names if the listing fails or never runs.
+    Pending(Receiver<Names>),
+}
+
+/// A listing to run on any thread. If it is dropped, the query lists the directory itself.
+pub struct PendingListing {
+    system: Arc<dyn System>,
+    path: Utf8PathBuf,
+    names: Sender<Names>,
+}
+
+impl PendingListing {
+    /// Lists the directory. A panic is left to the query, since here it would end the run.
+    pub fn run(self) {
+        if let Ok(Ok(listing)) = catch_bugs(|| self.system.list(&self.path)) {
+            // Sending fails if the directory has changed since and the listing was discarded.
+            _ = self.names.send(listing.files);
+        }
+    }
+}
+
+impl fmt::Debug for PendingListing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PendingListing").field("path", &self.path).finish_non_exhaustive()
+    }
+}
+
+impl Listings {
+    /// Registers a listing in progress.
+    pub(crate) fn begin(
+        &self,
+        directory: Directory,
+        path: Utf8PathBuf,
+        system: Arc<dyn System>,
+    ) -> PendingListing {
+        let (names, pending) = channel();
+        self.states().insert(directory, ListingState::Pending(pending));
+        PendingListing { system, path, names }
+    }
+
+    /// Adds a complete listing.
+    pub(crate) fn put(&self, directory: Directory, names: Names) {
+        self.states().entry(directory).or_insert(ListingState::Known(names));
+    }
+
+    /// Discards the listing of a directory that has changed.
+    pub(crate) fn forget(&self, directory: Directory) {
+        self.states().remove(&directory);
+    }
+
+    /// Takes the names in a directory; waits for a listing in progress.
+    pub(crate) fn take(&self, directory: Directory) -> Option<Names> {
+        let state = self.states().remove(&directory)?;
+        match state {
+            ListingState::Known(names) => Some(names),
+            ListingState::Pending(names) => names.recv().ok(),
+        }
+    }
+
+    fn states(&self) -> MutexGuard<'_, FxHashMap<Directory, ListingState>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

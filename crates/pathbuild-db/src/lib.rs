@@ -11,16 +11,14 @@
 
 mod bugs;
 mod database;
-mod db;
 mod inputs;
-mod listing;
 mod queries;
 
 pub use bugs::{bug, catch_bugs, too_slow};
+pub use database::PendingListing;
 pub use database::{Database, WorkInProgress};
-pub use db::{Db, ScratchPool};
+pub use database::{Db, ScratchPool};
 pub use inputs::{Directory, Limits, Reading, Role, Settings, SourceFile, Target};
-pub use listing::PendingListing;
 pub use pathbuild_files as system;
 pub use pathbuild_files::System;
 pub use queries::{

@@ -12,11 +12,11 @@ use pathbuild_diagnostic::messages::drawing::{BLOCK_NESTED, INVISIBLE, NOT_COMPA
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Value};
 use smol_str::SmolStr;
 
-use crate::curves::{NoPieces, Tolerance};
 use crate::entities::Shape;
 use crate::faults::{EntityError, Fatal};
 use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
+use crate::shapes::curves::{NoPieces, Tolerance};
 use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
 /// Builds a drawing.

@@ -8,7 +8,6 @@ mod binary;
 mod block_prefilter;
 mod blocks;
 mod collect;
-mod curves;
 mod drawing;
 mod encoding;
 mod entities;

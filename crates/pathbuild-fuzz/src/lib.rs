@@ -13,11 +13,10 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::adjust::{Inputs, Source, adjust};
-use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Options, guess, interpret};
-use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
-use pathbuild_gcode::summary::Summary;
+use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::statistics::Summary;
 use pathbuild_path::{
     FilePattern, KeepOutPattern, Language, LineTypeAliases, PathKey, PathOptions, PathPattern,
 };
@@ -25,6 +24,7 @@ use pathbuild_post::{Job, Post, PostOptions, ToolTable, native_remark};
 use pathbuild_toolpath::{Correction, Program};
 use pathbuild_workspace::config;
 use pathbuild_workspace::session::{limits, reading};
+use pathbuild_gcode::dialect::{Charset, Dialect};
 
 use grid_drawing::{Choices, dxf as drawn, written};
 

@@ -9,5 +9,4 @@ pub mod native;
 pub mod provenance;
 pub mod read;
 pub mod statistics;
-pub mod summary;
 pub mod verify;

@@ -5,7 +5,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret};
 use pathbuild_gcode::read::BlockReader;
-use pathbuild_gcode::summary::Summary;
+use pathbuild_gcode::statistics::Summary;
 use pathbuild_gcode::verify::{Checks, Machine, Tolerance, compare, verify};
 use proptest::prelude::*;
 

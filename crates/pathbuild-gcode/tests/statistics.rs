@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
+use pathbuild_gcode::dialect::Charset;
 use pathbuild_gcode::dialect::Dialect::{self, LinuxCnc, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
-use pathbuild_gcode::statistics::{Tally, statistics};
-use pathbuild_gcode::summary::Summary;
+use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::statistics::{Summary, Tally, statistics};
 use pathbuild_toolpath::{
     Class, Correction, Count, Height, PlannedMove, Program, ProgramStep, Statistics, Xy,
 };

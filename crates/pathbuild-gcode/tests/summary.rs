@@ -4,7 +4,7 @@ mod common;
 
 use pathbuild_gcode::dialect::Dialect::{self, LinuxCnc, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Interpretation, Options, interpret};
-use pathbuild_gcode::summary::{Summary, is_guess};
+use pathbuild_gcode::statistics::{Summary, is_guess};
 use pathbuild_motion::{Action, Pace};
 
 fn read(text: &str, dialect: Dialect) -> Interpretation {

@@ -6,7 +6,8 @@
 )]
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::dialect::Charset;
+use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_toolpath::{
     Class, Correction, Count, Height, PlannedMove, ProbePoint, Program, ProgramStep, Surface, Xy, ZModel,

@@ -3,8 +3,7 @@
 
 use pathbuild_diagnostic::{Text, words};
 
-use crate::letter::Letter;
-use crate::matrix::{ElementClass, Use};
+use crate::letter::{ElementClass, Letter, Use};
 use crate::names::PathName;
 use crate::values::{GivenNumber, Values};
 

@@ -1,14 +1,12 @@
 //! The elements of a path: their shapes and their meanings. (book: language/line-types, book: language/markers)
 
-use pathbuild_diagnostic::words;
-use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Text};
+use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Text, words};
 use smol_str::SmolStr;
 
 use crate::approx::{at_least, near};
 use crate::geometry::{Curve, Xy};
-use crate::letter::Letter;
+use crate::letter::{ElementClass, Letter};
 use crate::line_type::LineType;
-use crate::matrix::ElementClass;
 use crate::text::TextId;
 
 /// A line, arc or circle on a path's layer that represents a part of the path.

@@ -16,7 +16,6 @@ mod keep_out;
 mod language;
 mod letter;
 mod line_type;
-mod matrix;
 mod names;
 mod part;
 mod path;
@@ -32,15 +31,15 @@ pub use bind::{ExaminedPath, bind, examine, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
-pub use embedding::judge::{Judge, with_near_names};
+pub use embedding::{Judge, with_near_names};
 pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
 pub use language::{DoubtThresholds, Language};
 pub use letter::Letter;
+pub use letter::{ElementClass, Use};
 pub use line_type::{LineType, LineTypeAliases};
-pub use matrix::{ElementClass, Use};
 pub use names::files::{
     FilePattern, NameRange, PathKey, RangeTable, is_q_project, judge_file_name, q_project_name,
     tested_by_q_project,

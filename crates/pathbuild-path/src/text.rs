@@ -8,8 +8,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-use crate::letter::{Letter, Letters};
-use crate::matrix::{ElementClass, Use};
+use crate::letter::{ElementClass, Letter, Letters, Use};
 
 /// The parameter texts of a path, parsed once for all stages.
 #[derive(Clone, Debug, Default, PartialEq)]

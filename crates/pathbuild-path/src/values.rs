@@ -7,8 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use crate::approx::above;
 use crate::language::DoubtThresholds;
-use crate::letter::{Letter, Letters};
-use crate::matrix::{ElementClass, Use};
+use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::text::{
     LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_without_value, mistake_in_text,
     unit_mistake,

@@ -1,7 +1,6 @@
 //! Inserts texts from drawings, file names and options into the lines of a program in such a way that no control acts on them.
 
-use pathbuild_gcode::dialect::{is_active_comment, within_comment};
-use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::dialect::{Charset, is_active_comment, within_comment};
 
 use crate::shadow::{CommentMarks, words};
 use crate::target::Target;

@@ -5,8 +5,8 @@
 
 use std::collections::HashSet;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_motion::{Coolant, Move, MoveShape, Pace, Plane, Position, Turning};
 
 use crate::arcs;
@@ -481,5 +481,106 @@ impl Hole {
         };
         let numbers = [self.at[0], self.at[1], self.level, self.retract, self.bottom, self.exit, kind];
         numbers.into_iter().chain(self.feed).all(f64::is_finite)
+    }
+}
+
+/// Holes with more pecks than this are taken for errors.
+const MOST_PECKS: usize = 1_000;
+/// Height in mm above the depth already drilled at which the tool changes from rapid to feed; the same as in LinuxCNC's G83.
+const PECK_GAP: f64 = 0.254;
+
+impl Hole {
+    /// The moves of a hole: to its position at the start level, down, and up to its exit level.
+    pub(crate) fn moves(&self) -> Result<Vec<JobStep>, Box<Diagnostic>> {
+        let [x, y] = self.at;
+        let to = |z| [x, y, z];
+        let mut steps = vec![JobStep::rapid(to(self.level))];
+        if self.retract < self.level {
+            steps.push(JobStep::rapid(to(self.retract)));
+        }
+        let depths = self.depths()?;
+        for (index, &depth) in depths.iter().enumerate() {
+            if index > 0 {
+                let reached = depths[index - 1];
+                steps.push(JobStep::rapid(to(self.retract)));
+                steps.push(JobStep::rapid(to((reached + PECK_GAP).min(self.retract))));
+            }
+            steps.push(JobStep::feed(to(depth), self.feed));
+        }
+        if let HoleKind::Dwell { seconds } = self.kind {
+            steps.push(JobStep::Dwell { seconds });
+        }
+        steps.push(JobStep::rapid(to(self.exit)));
+        Ok(steps)
+    }
+
+    /// The depths reached by successive pecks; the last is the bottom.
+    fn depths(&self) -> Result<Vec<f64>, Box<Diagnostic>> {
+        let HoleKind::Peck { depth } = self.kind else { return Ok(vec![self.bottom]) };
+        let mut depths = Vec::new();
+        let mut z = self.retract - depth;
+        while z > self.bottom {
+            if depths.len() == MOST_PECKS {
+                let place = Point::new(self.at[0], self.at[1]);
+                let diagnostic =
+                    Diagnostic::new(&posts::TOO_MANY_PECKS).with("limit", MOST_PECKS).with("place", place);
+                return Err(Box::new(diagnostic));
+            }
+            depths.push(z);
+            z -= depth;
+        }
+        depths.push(self.bottom);
+        Ok(depths)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn heights(kind: HoleKind) -> Vec<f64> {
+        heights_from(20.0, kind)
+    }
+
+    fn heights_from(level: f64, kind: HoleKind) -> Vec<f64> {
+        let hole =
+            Hole { at: [1.0, 2.0], level, retract: 10.0, bottom: 4.0, exit: 20.0, feed: Some(60.0), kind };
+        let z = |step: &JobStep| match step {
+            JobStep::Move(movement) => Some(movement.to.z()),
+            _ => None,
+        };
+        hole.moves().unwrap().iter().filter_map(z).collect()
+    }
+
+    #[test]
+    fn a_plain_hole_is_drilled_in_one_go() {
+        assert_eq!(heights(HoleKind::Plain), [20.0, 10.0, 4.0, 20.0]);
+        assert_eq!(heights_from(10.0, HoleKind::Plain), [10.0, 4.0, 20.0], "it is there already");
+    }
+
+    #[test]
+    fn pecks_leave_the_hole_and_come_back_just_above_where_they_were() {
+        let expected = [20.0, 10.0, 7.0, 10.0, 7.254, 4.0, 20.0];
+        assert_eq!(heights(HoleKind::Peck { depth: 3.0 }), expected, "exactly two goes");
+        assert_eq!(heights(HoleKind::Peck { depth: 2.9 }).len(), 10, "a third for the rest");
+        let shallow = heights(HoleKind::Peck { depth: 0.2 });
+        assert!(shallow[1..shallow.len() - 1].iter().all(|z| *z <= 10.0), "no higher than it goes up");
+    }
+
+    #[test]
+    fn endless_pecks_are_refused() {
+        let hole = |bottom: f64| Hole {
+            at: [0.0, 0.0],
+            level: 1.0,
+            retract: 0.0,
+            bottom,
+            exit: 1.0,
+            feed: None,
+            kind: HoleKind::Peck { depth: 1.0 },
+        };
+        assert!(hole(-1001.0).moves().is_ok());
+        assert!(hole(-1002.0).moves().is_err());
+        let kind = HoleKind::Peck { depth: 0.0 };
+        assert!(Hole { kind, ..hole(-1.0) }.moves().is_err());
     }
 }

@@ -26,7 +26,6 @@ mod findings;
 mod from_program;
 mod from_steps;
 mod guard;
-mod holes;
 mod job;
 mod number;
 mod options;
@@ -34,7 +33,6 @@ mod read_back;
 mod reference;
 mod samples;
 mod shadow;
-mod spindle;
 mod target;
 mod ways;
 

@@ -5,7 +5,7 @@ use std::fmt;
 use camino::Utf8Path;
 use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::NO_DIRECTORY_OF_POST;
-use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::dialect::Charset;
 use pathbuild_gcode::verify::Machine;
 
 /// Options for writing a program through a post.

@@ -1,21 +1,20 @@
-//! Reads the text of a post back and compares its moves with those of the job. (book: program/posts, "Before a program is written")
+//! Reads the text of a post back and compares its moves with those of the job, and checks that the spindle turns in the required direction
+//! wherever the job cuts. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
-use pathbuild_motion as motion;
-use pathbuild_motion::{
-    Action, Axes, Change, Move, MoveShape, Named, Pace, Position, ToolLength, WorkSystem,
-};
-
-use super::job::{Entry, Job, Operation};
-use super::shadow::{Doubt, TranslatedText};
-use super::target::Target;
-use super::{holes, spindle, ways};
-use crate::findings::LineOrigin;
-use crate::job::JobStep;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
+use pathbuild_motion::{
+    Action, Axes, Change, Move, MoveShape, Named, Pace, Position, Step, ToolLength, Turning, WorkSystem,
+};
+
+use crate::findings::LineOrigin;
+use crate::job::{Entry, Job, JobStep, Operation};
+use crate::shadow::{Doubt, TranslatedText};
+use crate::target::Target;
+use crate::ways;
 
 /// What a text is compared with.
 #[derive(Clone, Copy, Debug)]
@@ -51,9 +50,9 @@ pub(super) fn check(
     }
     problems.clear();
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
-    if target.is_none() && (tolerance.is_none() || !spindle::is_started(&read.steps)) {
+    if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
         // The words may not be meant for the spindle, or the operator switches it and the final M5 is only for safety.
-        broken.retain(|problem| !spindle::is_rule_of_spindle(problem));
+        broken.retain(|problem| !is_rule_of_spindle(problem));
     }
     doubts.extend(chosen_offsets(&read.steps));
     if let Some(tolerance) = tolerance {
@@ -63,7 +62,7 @@ pub(super) fn check(
         let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(answered).collect();
         if *is_flat {
             (wanted, found, clearance) = (flat(&wanted), flat(&found), 0.0);
-            problems.extend(spindle::check_beam(&read.steps).map(as_post_s));
+            problems.extend(check_beam(&read.steps).map(as_post_s));
         }
         problems.extend(
             ways::check(&found, &wanted, clearance, tolerance).err().map(|movement| as_post_s(*movement)),
@@ -82,7 +81,7 @@ pub(super) fn check(
         }
         doubts.extend(translated.and_then(disputed));
         if !is_manual {
-            problems.extend(spindle::check(&read.steps, job, *is_flat).map(as_post_s));
+            problems.extend(check_spindle(&read.steps, job, *is_flat).map(as_post_s));
         }
     }
     problems.extend(broken);
@@ -110,7 +109,7 @@ fn disputed(translated: &TranslatedText) -> Option<Diagnostic> {
 }
 
 /// Reports words that select the origin of the program, about which the job says nothing.
-fn chosen_offsets(steps: &[motion::Step]) -> Vec<Diagnostic> {
+fn chosen_offsets(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
         let word = match &step.action {
@@ -130,11 +129,7 @@ fn chosen_offsets(steps: &[motion::Step]) -> Vec<Diagnostic> {
 const MOST_DOUBTS: usize = 5;
 
 /// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
-fn broken_rules(
-    steps: &[motion::Step],
-    job: &Job,
-    machine: Option<&Machine>,
-) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
     let mut rules = Rules::new(&Checks { stock: stock.as_ref(), machine });
     for step in steps {
@@ -264,7 +259,7 @@ impl Mover {
                 }
             }
             JobStep::Hole(hole) => {
-                for step in holes::moves(hole)? {
+                for step in hole.moves()? {
                     self.step(&step)?;
                 }
             }
@@ -272,4 +267,77 @@ impl Mover {
         }
         Ok(())
     }
+}
+
+/// Finds the first cut before which the spindle was not switched on, or turns in the wrong direction. Jobs that leave the spindle to the
+/// operator in some operation are not checked.
+fn check_spindle(steps: &[Step], job: &Job, is_flat: bool) -> Option<Diagnostic> {
+    let cutting = || job.operations.iter().filter(|operation| operation.cuts());
+    let turning = |operation: &Operation| operation.spindle.filter(|turning| turning.is_on());
+    let mut expected: Vec<Turning> = cutting().map(turning).collect::<Option<_>>()?;
+    expected.dedup();
+    // A move at feed above the material is not a cut.
+    let surface = cutting().map(|operation| operation.surface).reduce(f64::max);
+    let surface = surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY);
+    let (mut now, mut index) = (Turning::Unstated, 0);
+    for step in steps {
+        match &step.action {
+            Action::Spindle(spindle) => now = spindle.turning,
+            Action::Move(movement) if is_cut(movement, surface) => {
+                let wanted = *expected.get(index)?;
+                if now == wanted {
+                    continue;
+                }
+                if expected.get(index + 1) == Some(&now) {
+                    index += 1;
+                    continue;
+                }
+                let message = match now {
+                    Turning::Unstated => &posts::SPINDLE_NOT_STARTED,
+                    // Reported by the rules of `verify`.
+                    Turning::Off => return None,
+                    Turning::Clockwise | Turning::CounterClockwise => &posts::SPINDLE_OTHER_WAY,
+                };
+                return Some(Diagnostic::new(message).at_line(step.line, None));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Finds the first rapid during which the beam, which is controlled by the spindle words, may be on.
+pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
+    let mut is_on = false;
+    for step in steps {
+        match &step.action {
+            Action::Spindle(spindle) => {
+                is_on = spindle.turning.is_on();
+            }
+            Action::Move(movement) if is_on && movement.pace == Pace::Rapid && !movement.is_nothing() => {
+                return Some(Diagnostic::new(&posts::BEAM_ON).at_line(step.line, None));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Whether the spindle is ever switched on.
+pub(super) fn is_started(steps: &[Step]) -> bool {
+    steps.iter().any(|step| match step.action {
+        Action::Spindle(spindle) => spindle.turning.is_on(),
+        _ => false,
+    })
+}
+
+/// Whether a rule of `verify` concerns the spindle.
+pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
+    [&gcode::SPINDLE_OFF, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINDLE_LEFT_ON].contains(&problem.message)
+}
+
+fn is_cut(movement: &Move, surface: f64) -> bool {
+    matches!(movement.pace, Pace::Feed(_))
+        && !movement.is_nothing()
+        && movement.from.z().min(movement.to.z()) < surface
 }

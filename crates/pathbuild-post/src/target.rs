@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
-use pathbuild_gcode::dialect::{Acceptance, Dialect, LineLength, Percent, Style, Words, ascii};
-use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::dialect::{Acceptance, Charset, Dialect, LineLength, Percent, Style, Words, ascii};
 use pathbuild_gcode::read::LONGEST_LINE;
 
 /// What a control accepts.

@@ -10,7 +10,6 @@ pub mod files;
 pub mod findings;
 mod inputs;
 pub mod list;
-pub mod machine;
 pub mod memo;
 pub mod posting;
 pub mod session;

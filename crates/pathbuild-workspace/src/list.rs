@@ -6,8 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_gcode::statistics::statistics;
-use pathbuild_gcode::summary::{Extent, cutting_box};
+use pathbuild_gcode::statistics::{Extent, cutting_box, statistics};
 use pathbuild_path::{PathName, PathSignature};
 use serde_json::{Value as Json, json};
 

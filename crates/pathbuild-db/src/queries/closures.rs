@@ -12,11 +12,11 @@ use pathbuild_path::{Bindings, PathName, PathOptions, PathRole, PathSignature, S
 use pathbuild_toolpath::memory;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::db::Db;
+use super::embedding::{Instance, path, summary};
+use crate::database::Db;
 use crate::inputs::{Limits, Role, Settings, SourceFile, Target};
 use crate::queries::embedding::{Embedding, Outcome, embeds};
 use crate::queries::index::{NameKey, PathSummary, keep_out_problems, path_index};
-use crate::queries::instance::{Instance, path, summary};
 use crate::queries::lookup::{find_path, own_directory, search_path};
 use crate::queries::raw::raw_path;
 

@@ -17,7 +17,7 @@ use pathbuild_toolpath::own_moves;
 use smol_str::SmolStr;
 
 use crate::bugs::{TimeoutPanic, catch_bugs};
-use crate::db::Db;
+use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::nearby_ends::LayerEnds;
 use crate::queries::part;

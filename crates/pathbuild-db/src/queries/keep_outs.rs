@@ -8,11 +8,11 @@ use pathbuild_path::{Curve, KeepOut, KeepOutMap};
 use pathbuild_toolpath::{kind_of_move, way};
 use rustc_hash::FxHashSet;
 
-use crate::db::Db;
+use super::programs::Occurrences;
+use crate::database::Db;
 use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::keep_outs;
-use crate::queries::occurrences::Occurrences;
 use crate::queries::programs::{TracedProgram, traced_program};
 
 /// A clamp as placed in a program.

@@ -8,7 +8,7 @@ use pathbuild_path::{FilePattern, PathKey, PathName, RangeTable, SubpathName};
 use rustc_hash::FxHashSet;
 
 use crate::bugs::catch_bugs;
-use crate::db::Db;
+use crate::database::Db;
 use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
 use crate::system::{FileKind, Names, ReadError, join};

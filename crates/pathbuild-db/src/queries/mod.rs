@@ -14,12 +14,10 @@
 mod closures;
 mod embedding;
 mod index;
-mod instance;
 mod keep_outs;
 mod lookup;
 mod nearby_ends;
 mod neighbours;
-mod occurrences;
 mod part;
 mod programs;
 mod raw;
@@ -30,11 +28,11 @@ pub use closures::{
     Closure, Destination, Edge, MissingOption, NameLookup, ReachedPath, Trace, closure, trace,
 };
 pub use embedding::{Embedding, Outcome, embeds};
+pub use embedding::{Instance, chains, path, summary};
 pub use index::{
     FileIndex, NameKey, PathIndex, PathSummary, content, content_hash, file_index, keep_outs, path_index,
     path_names,
 };
-pub use instance::{Instance, chains, path, summary};
 pub use keep_outs::{PlacedKeepOut, placed_keep_outs};
 pub use lookup::{
     ResolvedPath, drawing_names, embeds_others, holders, likely_file, may_hold, name_table, prefetch,

@@ -7,11 +7,11 @@ use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_path::{Part, PartSettings, Placement, Way, Xy, cuts_into};
 use pathbuild_toolpath::{StepOrigin, cutting_way};
 
-use crate::db::Db;
+use super::programs::Occurrences;
+use crate::database::Db;
 use crate::inputs::{Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::parts;
-use crate::queries::occurrences::Occurrences;
 use crate::queries::part::soften;
 use crate::queries::programs::{TracedProgram, traced_program};
 

@@ -5,7 +5,7 @@ use pathbuild_path::{DrawnParts, Part, PartFindings, Path, PathCuts, WalkedPath,
 use pathbuild_toolpath::part_cuts;
 
 use crate::bugs::catch_bugs;
-use crate::db::Db;
+use crate::database::Db;
 use crate::inputs::Settings;
 
 /// The cuts of a sound path, if the drawing has parts. A panic was reported by the index already if the path gives no program either.

@@ -1,20 +1,22 @@
-//! Queries for displays: programs with the origins of their moves, the drawn paths, and the rest of a drawing.
+//! Queries for displays: programs with the origins of their moves, the places in them where findings about two of their paths are reported,
+//! the drawn paths, and the rest of a drawing.
 
 use std::sync::Arc;
 
+use pathbuild_diagnostic::{Diagnostic, TraceStep};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
     Bindings, ElementParameters, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath,
     parameters_in_force,
 };
-use pathbuild_toolpath::{Occurrence, Parts, Program, Trace, fold_traced};
+use pathbuild_toolpath::{Occurrence, Parts, Program, StepOrigin, Trace, fold_traced};
 use rustc_hash::FxHashMap;
 
-use crate::db::Db;
+use super::embedding::{Instance, chains, path};
+use crate::database::Db;
 use crate::inputs::{Role, Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::embedding::{Outcome, embeds};
-use crate::queries::instance::{Instance, chains, path};
 use crate::queries::raw::{raw_file, read_layers};
 
 /// A program with the origin of each step.
@@ -141,5 +143,61 @@ impl<'db> Parts for ClosurePaths<'db> {
 
     fn checkpoint(&self) {
         self.db.unwind_if_revision_cancelled();
+    }
+}
+
+/// The occurrences of paths in a program.
+#[derive(Clone, Copy)]
+pub(super) struct Occurrences<'t> {
+    pub(super) db: &'t dyn Db,
+    pub(super) traced: &'t TracedProgram,
+}
+
+impl<'t> Occurrences<'t> {
+    /// The innermost path that contains both an element and another path, and its element that leads to the former.
+    pub(super) fn common(self, mut at: StepOrigin, other: u32) -> (u32, Option<u32>) {
+        let around_other: Vec<u32> = self.outwards(other).collect();
+        while !around_other.contains(&at.occurrence) {
+            let Some(parent) = self.parent(at.occurrence) else { break };
+            at = parent;
+        }
+        (at.occurrence, at.element)
+    }
+
+    /// A path and the paths around it, from the inside out.
+    pub(super) fn outwards(self, occurrence: u32) -> impl Iterator<Item = u32> + 't {
+        let parent = move |inner: &u32| self.parent(*inner).map(|outer| outer.occurrence);
+        std::iter::successors(Some(occurrence), parent)
+    }
+
+    fn parent(self, occurrence: u32) -> Option<StepOrigin> {
+        self.traced.trace.occurrences[occurrence as usize].parent
+    }
+
+    /// Places a finding at an element of a path, or at the path's start.
+    pub(super) fn at_element(self, occurrence: u32, element: Option<u32>, found: Diagnostic) -> Diagnostic {
+        let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
+        let found = found.in_file(part.file.path(self.db)).in_path(part.path.name.as_str());
+        let element = element.and_then(|element| part.path.drawn.elements.get(element as usize));
+        let origin =
+            element.map_or(part.path.start_origin.clone(), |element| part.path.drawn.origin(element));
+        Diagnostic { trace: self.embeddings_leading_to(occurrence), ..origin.at(found) }
+    }
+
+    /// The embeddings that lead to a path, outermost first.
+    fn embeddings_leading_to(self, occurrence: u32) -> Vec<TraceStep> {
+        let step = |inner: u32| {
+            let StepOrigin { occurrence, element } = self.parent(inner)?;
+            let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
+            let element = part.path.drawn.elements.get(element? as usize)?;
+            Some(TraceStep {
+                file: part.file.path(self.db).clone(),
+                path: part.path.name.as_str().into(),
+                point: part.path.drawn.origin(element).point,
+            })
+        };
+        let mut steps: Vec<TraceStep> = self.outwards(occurrence).filter_map(step).collect();
+        steps.reverse();
+        steps
     }
 }

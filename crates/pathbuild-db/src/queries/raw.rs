@@ -9,8 +9,8 @@ use pathbuild_path::{
     AssignedText, Bindings, Combinations, PathName, Position, RawPath, SourceMap, SpeltName,
 };
 
-use crate::bugs::{abandon_query, catch_bugs};
-use crate::db::Db;
+use crate::bugs::catch_bugs;
+use crate::database::{Db, abandon_query};
 use crate::inputs::{Settings, SourceFile};
 use crate::queries::index::{NameKey, file_index};
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};

@@ -10,7 +10,7 @@ use pathbuild_path::may_be_stray_text;
 use rustc_hash::FxHasher;
 
 use crate::bugs::catch_bugs;
-use crate::db::Db;
+use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::system::ReadError;
 

@@ -8,7 +8,7 @@ use pathbuild_path::{
 };
 use pathbuild_toolpath::{Program, fold};
 
-use crate::db::Db;
+use crate::database::Db;
 use crate::inputs::{Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};

@@ -1,9 +1,8 @@
 //! Converts the groups of an entity to its shape, in the coordinates of its space: the drawing's or the block's.
 
-mod ellipse;
+pub(crate) mod curves;
 mod insert;
 mod polyline;
-mod spline;
 mod text;
 
 use crate::faults::EntityError;
@@ -13,10 +12,10 @@ use crate::pairs::Pair;
 use crate::placement::Placement;
 use crate::{Arc, Circle, Geometry, Line};
 
-pub(crate) use ellipse::Ellipse;
+pub(crate) use curves::Ellipse;
+pub(crate) use curves::Spline;
 pub(crate) use insert::Insert;
 pub(crate) use polyline::{OpenPolyline, lightweight};
-pub(crate) use spline::Spline;
 pub(crate) use text::{mtext, text};
 
 /// Whether object coordinates are mirrored: extrusion (0, 0, -1).

@@ -4,8 +4,6 @@
 //! Therefore the memory needed is little more than the program itself, and nothing is written if there is an error.
 
 mod check;
-mod formula;
-mod log;
 mod scan;
 mod values;
 mod write;
@@ -15,9 +13,9 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::provenance::is_same_program;
 
-use self::values::ProbeTable;
-pub(crate) use self::values::{ProgramProbe, probe_entry};
 use check::{Check, Values};
+use values::ProbeTable;
+pub(crate) use values::{ProgramProbe, probe_entry};
 
 /// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
 #[derive(Clone, Copy, Debug)]
@@ -160,7 +158,7 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<Adjusted, Vec<Diagnostic>> {
     let survey = scan::Survey::of(inputs.program, &mut problems);
     let mut lines = values::read(inputs.values, &mut problems);
     if let Some(log) = inputs.log {
-        log::fill(&mut lines, inputs.values, log, &mut problems);
+        values::fill_from_log(&mut lines, inputs.values, log, &mut problems);
     }
     let check = Check { inputs, table: &table, survey: &survey };
     let values = check.values(&lines, &mut problems);

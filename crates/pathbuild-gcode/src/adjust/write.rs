@@ -6,8 +6,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
 
 use super::check::Values;
-use super::formula::{self, Fault, Probes};
-use super::scan::{Line, Spot, in_line, lines, located, mark, number, spots};
+use super::scan::{Fault, Line, Probes, Spot, in_line, lines, located, mark, number, spots, value_of};
 use super::values::{entry_of_line, is_header};
 use super::{Adjusted, Inputs};
 use crate::native::{f3, push_exact};
@@ -86,8 +85,8 @@ impl Writer<'_> {
     fn height(&mut self, line: Line<'_>, spot: &Spot) -> Result<f64, Box<Diagnostic>> {
         let formula = &line.content()[spot.formula.clone()];
         let told = |fault: Fault| Box::new(located(line, &fault));
-        let height = formula::value(formula, &mut Measured(self.values))
-            .map_err(|fault| told(in_line(&fault, spot)))?;
+        let height =
+            value_of(formula, &mut Measured(self.values)).map_err(|fault| told(in_line(&fault, spot)))?;
         if !height.is_finite() {
             return Err(told(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
         }

@@ -6,7 +6,16 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::shown;
 
 use super::{Dialect, Percent, Style};
-use crate::native::{Charset, transliterated};
+
+/// The characters that may be written. (book: reference/configuration, `charset`)
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Charset {
+    /// Umlauts and the like are transliterated, anything else becomes `?`, because some controllers take bytes above 127 for commands.
+    #[default]
+    Ascii,
+    /// All characters are written as they are.
+    Utf8,
+}
 
 impl Dialect {
     /// Formats a comment in the dialect. The text must begin with a word of our own.
@@ -79,6 +88,40 @@ pub fn ascii(text: &str) -> String {
         is_after_capital = c.is_uppercase();
     }
     ascii
+}
+
+/// The ASCII replacement of a character.
+fn transliterated(character: char) -> &'static str {
+    match character {
+        'ä' | 'æ' => "ae",
+        'ö' | 'œ' => "oe",
+        'ü' => "ue",
+        'Ä' | 'Æ' => "Ae",
+        'Ö' | 'Œ' => "Oe",
+        'Ü' => "Ue",
+        'ß' => "ss",
+        'à' | 'á' | 'â' | 'ã' | 'å' => "a",
+        'è' | 'é' | 'ê' | 'ë' => "e",
+        'ì' | 'í' | 'î' | 'ï' => "i",
+        'ò' | 'ó' | 'ô' | 'õ' | 'ø' => "o",
+        'ù' | 'ú' | 'û' | 'µ' | 'μ' => "u",
+        'À' | 'Á' | 'Â' | 'Ã' | 'Å' => "A",
+        'È' | 'É' | 'Ê' | 'Ë' => "E",
+        'Ì' | 'Í' | 'Î' | 'Ï' => "I",
+        'Ò' | 'Ó' | 'Ô' | 'Õ' | 'Ø' => "O",
+        'Ù' | 'Ú' | 'Û' => "U",
+        'ç' => "c",
+        'Ç' => "C",
+        'ñ' => "n",
+        'Ñ' => "N",
+        '°' => "deg",
+        '±' => "+-",
+        '⌀' => "D",
+        '×' => "x",
+        '–' | '—' => "-",
+        '\u{a0}' => " ",
+        _ => "?",
+    }
 }
 
 /// Whether a control acts on a comment with this text: it opens a file, prints, hides moves or runs a program.

@@ -9,11 +9,13 @@ mod rules;
 use std::fmt;
 use std::str::FromStr;
 
-pub use self::rules::{Blanks, Grammar, LineLength, Operators, Percent, Slash, Spelling, Style};
 pub use codes::{Acceptance, Letters, Words};
 pub(crate) use comment::beginning_of;
-pub use comment::{ascii, is_active_comment, within_comment};
-pub use rules::{ArcRules, DwellRules, DwellUnit, FeedMode, RadiusTolerance, Rules, StartMotion};
+pub use comment::{Charset, ascii, is_active_comment, within_comment};
+pub use rules::{
+    ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LineLength, Operators, Percent,
+    RadiusTolerance, Rules, Slash, Spelling, StartMotion, Style,
+};
 
 /// The supported kinds of G-code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]

@@ -3,9 +3,7 @@
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Position};
 
-use super::execute::{Interpreter, whole};
-use super::gather::Slot;
-use super::limits;
+use super::execute::{Interpreter, Slot, limits, whole};
 use super::state::INCH;
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, Span};

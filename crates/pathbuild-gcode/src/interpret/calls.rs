@@ -11,9 +11,7 @@ use pathbuild_motion::{Action, StatedWord, Step, WordEffect};
 
 use super::codes;
 use super::evaluate::name_of;
-use super::execute::{Interpreter, whole};
-use super::gather::{Jump, Name, ValueFault};
-use super::limits;
+use super::execute::{Interpreter, Jump, Name, ValueFault, limits, whole};
 use super::switches::CALLS;
 use crate::read::{Block, BlockReader, OWord, OWordKind, Place, Value};
 

@@ -6,9 +6,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 
 use super::codes::{self, Cycle};
-use super::execute::{Interpreter, whole};
-use super::gather::Slot;
-use super::limits;
+use super::execute::{Interpreter, Slot, limits, whole};
 use super::state::CycleState;
 use crate::read::{Block, Span};
 

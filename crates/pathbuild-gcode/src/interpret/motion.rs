@@ -5,9 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Axes, Change, Group, Move, MoveShape, Named, Pace, Position, WorkSystem};
 
 use super::codes::{self, Command, Motion, Origin};
-use super::execute::{Interpreter, whole};
-use super::gather::{Slot, Values};
-use super::limits;
+use super::execute::{Interpreter, Slot, Values, limits, whole};
 use crate::read::{Block, Span};
 
 impl Interpreter<'_> {

@@ -5,9 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, ToolLength, Turning};
 
 use super::codes::{self, Command, FeedUnit};
-use super::execute::{Interpreter, whole};
-use super::gather::Slot;
-use super::limits;
+use super::execute::{Interpreter, Slot, limits, whole};
 use super::state::INCH;
 use crate::dialect::{DwellUnit, FeedMode};
 use crate::read::{Block, Span};

@@ -6,9 +6,7 @@ use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 
 use super::codes::{self, Command, Motion};
 use super::evaluate::{name_of, parameter_number};
-use super::execute::Interpreter;
-use super::gather::{Setting, Slot, ValueFault};
-use super::limits;
+use super::execute::{Interpreter, Setting, Slot, ValueFault, limits};
 use super::state::UnitCodes;
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::dialect::Acceptance;

@@ -6,14 +6,12 @@ use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::WrittenArc;
 use pathbuild_toolpath::{
-    Comment, Correction, ElementKind, Height, LeftOut, PlannedMove, ProbePoint, Program, ProgramStep, Xy,
-    is_doubtful, is_point,
+    Comment, Correction, ElementKind, Height, LeftOut, PlannedMove, ProbePoint, Program, ProgramStep,
+    Statistics, Total, Xy, is_doubtful, is_point,
 };
 
-use super::comment as ending;
-use super::comment::{Charset, Remarks};
 use super::number::{FIRST_PARAMETER, Formulas, Printed, f3, printed, push_f3};
-use crate::dialect::within_comment;
+use crate::dialect::{Charset, Dialect, within_comment};
 use crate::statistics::statistics;
 
 /// Options for writing programs.
@@ -160,7 +158,8 @@ pub fn program_within(
         }
     }
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
-    for line in ending::lines(&statistics(program, options.rapid), options.lang, options.remarks(program)) {
+    for line in statistics_lines(&statistics(program, options.rapid), options.lang, options.remarks(program))
+    {
         writer.line(&line);
     }
     writer.line("M30\n%");
@@ -380,4 +379,68 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
 /// G38.2 is an alarm if the tool makes no contact. With G38.3, which the original tool writes, the machine continues.
 fn code(program: &Program) -> &'static str {
     if program.compatible { "G38.3" } else { "G38.2" }
+}
+
+/// How comments are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Remarks {
+    pub(super) charset: Charset,
+    /// Whether "(" is kept within a comment, as `PathDxf2GCode` does.
+    pub(super) compatible: bool,
+}
+
+impl Remarks {
+    /// Formats a comment of the native dialect.
+    pub(super) fn comment(self, text: &str) -> String {
+        if !self.compatible {
+            return Dialect::Native.comment(text, self.charset);
+        }
+        let parts: Vec<String> =
+            text.split('(').map(|part| within_comment(part, Some(Dialect::Native), self.charset)).collect();
+        format!("({})", parts.join("("))
+    }
+}
+
+fn statistics_lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Vec<String> {
+    let [milling, drilling, sweeps, sum, commands] = labels(lang);
+    let totals = [
+        (milling, statistics.milling),
+        (drilling, statistics.drilling),
+        (sweeps, statistics.sweeps),
+        (sum, statistics.sum()),
+    ];
+    let mut lines: Vec<String> =
+        totals.iter().map(|(label, total)| remarks.comment(&total_line(label, total))).collect();
+    lines.push(remarks.comment(&format!("{commands} {}", statistics.commands)));
+    lines
+}
+
+fn total_line(label: &str, total: &Total) -> String {
+    let minutes = total.minutes();
+    // If the rapid feed is unknown or some feed is 0, the time is unknown.
+    let time = if minutes.is_finite() { format!("   ca.{minutes:3.0} min") } else { String::new() };
+    format!("{label:<12} {:5.0} mm{time}", total.length)
+}
+
+fn labels(lang: Lang) -> [&'static str; 5] {
+    match lang {
+        Lang::En => ["Milling length:", "Drill length:", "Sweeps:", "Sum:", "Command count:"],
+        Lang::De => ["Fräslänge:", "Bohrungen:", "Leerfahrten:", "Summe:", "Befehlszahl:"],
+    }
+}
+
+/// Label and length in mm of a comment with a length.
+pub(crate) fn stated_length(comment: &str) -> Option<(&str, f64)> {
+    let (label, rest) = comment.split_once(':')?;
+    let (length, _) = rest.split_once(" mm ")?;
+    Some((label, length.trim().parse().ok()?))
+}
+
+/// The length denoted by a label, in either language: 0 milling, 1 drilling, 2 sweeps, 3 their sum.
+pub(crate) fn kind_of_label(label: &str) -> Option<usize> {
+    let is_meant = |known: &str| {
+        let known = known.trim_end_matches(':');
+        known == label || within_comment(known, Some(Dialect::Native), Charset::Ascii) == label
+    };
+    [Lang::En, Lang::De].iter().find_map(|lang| labels(*lang)[..4].iter().position(|known| is_meant(known)))
 }

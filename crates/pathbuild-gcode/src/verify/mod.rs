@@ -13,7 +13,6 @@ mod rapids;
 mod rules;
 mod stated;
 mod stock;
-mod tops;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;

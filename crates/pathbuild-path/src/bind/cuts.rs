@@ -7,8 +7,7 @@ use crate::approx::{above, at_least};
 use crate::bind::{Binder, FaultSite, Scope, pushed};
 use crate::element::{Cut, Element};
 use crate::geometry::{Curve, Xy};
-use crate::letter::{CHAIN_LETTERS, Letter};
-use crate::matrix::ElementClass;
+use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, Helix, Hole, SegmentKind};
 use crate::text::TextId;
 

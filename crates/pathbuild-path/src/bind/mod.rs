@@ -16,8 +16,7 @@ use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape};
 use crate::geometry::Curve;
 use crate::language::Language;
-use crate::letter::{Letter, Letters};
-use crate::matrix::{ElementClass, Use};
+use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
     Surface, Turn,

@@ -8,8 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::approx::near;
 use crate::element::{Element, shown};
-use crate::letter::Letters;
-use crate::matrix::Use;
+use crate::letter::{Letters, Use};
 use crate::read::candidates::{
     AssignedCandidate, Candidate, Owner, SearchBudget, find, find_taken, nearest_miss,
 };

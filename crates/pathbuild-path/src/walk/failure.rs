@@ -11,7 +11,7 @@ use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::read::TextCircle;
 use crate::walk::Walker;
-use crate::walk::ends::{Ends, Square, Squares, square};
+use crate::walk::order::{Ends, Square, Squares, square};
 
 /// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
 const ON_CURVE: f64 = 0.001;

@@ -1,6 +1,5 @@
 //! The walk: orders the segments of a path from its start to its end. (book: language/chains-and-passes)
 
-mod ends;
 mod failure;
 mod order;
 
@@ -15,8 +14,7 @@ use crate::chain::{ChainBuilder, Passage, WalkedPath};
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
-use crate::walk::ends::Ends;
-use crate::walk::order::{Stars, Turns, comes_before};
+use crate::walk::order::{Ends, Stars, Turns, comes_before};
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {

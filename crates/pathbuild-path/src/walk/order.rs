@@ -1,14 +1,14 @@
-//! What comes next at a point: the order of the segments that meet there, and turn markers. (book: language/chains-and-passes, book:
+//! What comes next at a point: the segments that end there, their order, and turn markers. (book: language/chains-and-passes, book:
 //! language/order-and-turns)
 //!
 //! The segments of crowded points are sorted once, so that the work of a walk is linear in the number of segments.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::approx::{coincide, near};
 use crate::geometry::Xy;
 use crate::path::Path;
-use crate::walk::ends::{Crowd, Ends, Square, Squares, square};
 
 /// Whether a segment is taken before another one. Lengths are compared approximately, which is not transitive, so use this for a single
 /// scan in segment order.
@@ -166,5 +166,263 @@ impl Turns {
     /// The markers that were never used.
     pub(super) fn idle(&self) -> impl Iterator<Item = usize> {
         (0..self.first.len()).filter(|turn| !self.has_acted[self.first[*turn]])
+    }
+}
+
+/// The ends of a path's segments in a grid of squares, so that each step of the walk examines only its neighbourhood.
+#[derive(Default)]
+pub(super) struct Ends {
+    segments: Vec<SegmentEnds>,
+    /// The first end in each bucket of squares, see [`bucket_of`]. The number of buckets is a power of two.
+    buckets: Vec<u32>,
+}
+
+/// The ends of a segment, with links to further ends.
+struct SegmentEnds {
+    /// Start and end as drawn.
+    drawn: [Xy; 2],
+    /// The next end in the same bucket for each end. An end is numbered by twice its segment's number, plus one for the second end.
+    next: [u32; 2],
+}
+
+/// A square as column and row, see [`strip`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Square(u64, u64);
+
+/// The squares around a point: one, or up to four near their borders.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Squares {
+    first: Square,
+    /// The exclusive upper limit.
+    end: Square,
+}
+
+/// Segments that meet at a point. They also meet at every other point that coincides with both corners of the bounding box of their ends.
+pub(super) struct Crowd {
+    pub(super) corners: [Xy; 2],
+    pub(super) segments: Vec<usize>,
+}
+
+/// Marks the last end in a bucket.
+const NONE: u32 = u32::MAX;
+/// Number of buckets per segment. With half as many, more than a few buckets would contain ends from elsewhere.
+const BUCKETS: usize = 4;
+/// Number of squares per mm. A square has room for only a few points that do not coincide, which bounds the work of a step.
+const SQUARES: f64 = 5000.0;
+/// Offset of the grid in squares: drawings mostly use round numbers with up to four decimals, and points on a border between squares need
+/// two lookups.
+const SHIFT: f64 = 0.25;
+/// Search distance around a point in squares: slightly more than the distance at which points coincide (0.16).
+const REACH: f64 = 0.22;
+/// Search distance for points that may coincide with a third point via a second one: slightly more than three times as far.
+const WIDE_REACH: f64 = 0.5;
+/// So large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
+impl Ends {
+    pub(super) fn new(path: &Path) -> Self {
+        Self::of_segments(path.segments.iter().map(|segment| path.ends(segment)))
+    }
+
+    fn of_segments(drawn: impl ExactSizeIterator<Item = [Xy; 2]>) -> Self {
+        let count = (BUCKETS * drawn.len()).next_power_of_two();
+        let mut buckets = vec![NONE; count];
+        let segment = |(number, drawn): (u32, [Xy; 2])| {
+            let mut enter = |end: u32| {
+                let bucket = bucket_of(square(drawn[end as usize]), count);
+                std::mem::replace(&mut buckets[bucket], 2 * number + end)
+            };
+            SegmentEnds { drawn, next: [enter(0), enter(1)] }
+        };
+        let segments = (0_u32..).zip(drawn).map(segment).collect();
+        Self { segments, buckets }
+    }
+
+    /// The start and end of a segment as drawn.
+    pub(super) fn of(&self, segment: usize) -> [Xy; 2] {
+        self.segments[segment].drawn
+    }
+
+    /// Finds the wanted segments with an end at a point, in any order and possibly with duplicates.
+    pub(super) fn find_near(&self, point: Xy, is_wanted: impl Fn(usize) -> bool, found: &mut Vec<usize>) {
+        found.clear();
+        for square in Squares::around(point).each() {
+            self.each_in(square, |segment, end| {
+                if coincide(self.segments[segment].drawn[end], point) && is_wanted(segment) {
+                    found.push(segment);
+                }
+            });
+        }
+    }
+
+    /// The wanted segments with an end at a point; `None` if there are other ends so close that another nearby point may have different
+    /// segments.
+    pub(super) fn crowd(&self, point: Xy, is_wanted: impl Fn(usize) -> bool) -> Option<Crowd> {
+        let ([mut low, mut high], mut segments, mut is_alone) = ([point; 2], Vec::new(), true);
+        for square in Squares::within(WIDE_REACH, point).each() {
+            self.each_in(square, |segment, end| {
+                let end = self.segments[segment].drawn[end];
+                if coincide(end, point) && is_wanted(segment) {
+                    (low, high) = (low.inf(&end), high.sup(&end));
+                    segments.push(segment);
+                } else if is_wanted(segment) {
+                    is_alone &= !coincide(point + (end - point) / 3.0, point);
+                }
+            });
+        }
+        segments.sort_unstable();
+        segments.dedup();
+        (is_alone && coincide(low, high)).then_some(Crowd { corners: [low, high], segments })
+    }
+
+    /// Calls `take` for the ends in a square and for others in the same bucket.
+    fn each_in(&self, square: Square, mut take: impl FnMut(usize, usize)) {
+        let mut at = self.buckets[bucket_of(square, self.buckets.len())];
+        while at != NONE {
+            let (segment, end) = (at as usize / 2, at as usize % 2);
+            take(segment, end);
+            at = self.segments[segment].next[end];
+        }
+    }
+}
+
+impl Squares {
+    pub(super) fn around(point: Xy) -> Self {
+        Self::within(REACH, point)
+    }
+
+    fn within(reach: f64, point: Xy) -> Self {
+        let (columns, rows) = (around(point.x, reach), around(point.y, reach));
+        Self { first: Square(columns.start, rows.start), end: Square(columns.end, rows.end) }
+    }
+
+    pub(super) fn each(self) -> impl Iterator<Item = Square> {
+        let Self { first, end } = self;
+        (first.0..end.0).flat_map(move |column| (first.1..end.1).map(move |row| Square(column, row)))
+    }
+}
+
+/// The square of a point.
+pub(super) fn square(point: Xy) -> Square {
+    Square(strip(in_squares(point.x)), strip(in_squares(point.y)))
+}
+
+/// The columns or rows near a coordinate: one, or two near a border.
+fn around(coordinate: f64, reach: f64) -> Range<u64> {
+    let place = in_squares(coordinate);
+    let from_middle = place - (place + WHOLE - WHOLE);
+    let (is_first, is_last) = (from_middle < reach - 0.5, from_middle > 0.5 - reach);
+    let strip = strip(place);
+    strip.wrapping_sub(is_first.into())..strip.wrapping_add(is_last.into()).wrapping_add(1)
+}
+
+fn in_squares(coordinate: f64) -> f64 {
+    coordinate * SQUARES + SHIFT
+}
+
+/// Number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
+/// there only equal points coincide.
+fn strip(place: f64) -> u64 {
+    (place + WHOLE).to_bits()
+}
+
+/// The bucket of a square. The upper bits of a product depend on all bits of its factors.
+fn bucket_of(Square(column, row): Square, count: usize) -> usize {
+    const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
+    let mixed = column.wrapping_mul(ODD).rotate_left(32) ^ row;
+    (mixed.wrapping_mul(ODD) >> 32) as usize & (count - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    //! The number of ends examined, and the search distance.
+
+    use nalgebra::Vector2;
+    use proptest::prelude::*;
+
+    use super::{Ends, Squares};
+    use crate::approx::coincide;
+    use crate::geometry::Xy;
+
+    /// The number of ends examined when each end is queried for its neighbours.
+    fn looked_at(points: &[Xy]) -> usize {
+        let ends = Ends::of_segments(points.iter().map(|point| [*point; 2]));
+        let mut count = 0;
+        for point in points {
+            for square in Squares::around(*point).each() {
+                ends.each_in(square, |_, _| count += 1);
+            }
+        }
+        count
+    }
+
+    /// Points in a grid in a tiny part of a mm, none of which coincide.
+    fn crowd(side: u32) -> Vec<Xy> {
+        const APART: f64 = 0.000_04;
+        let at = |number: u32| APART * f64::from(number);
+        let point = |number: u32| Xy::new(at(number % side), at(number / side));
+        let points: Vec<Xy> = (0..side * side).map(point).collect();
+        assert!(!coincide(points[0], points[1]));
+        points
+    }
+
+    /// Four times as many points in four times the area, all within a thousandth of a mm² or less.
+    #[test]
+    fn ends_that_lie_close_but_do_not_meet_are_not_looked_at() {
+        let (one, four) = (looked_at(&crowd(50)), looked_at(&crowd(100)));
+        assert!(four <= 5 * one, "{one}, {four}");
+        assert!(one <= 100 * 2500, "{one}");
+    }
+
+    /// A point, and another one at this distance in a random direction.
+    fn apart(distance: f64) -> impl Strategy<Value = [Xy; 2]> {
+        let coordinate = || {
+            prop_oneof![-0.01..0.01, -9000.0..9000.0, (-90..90).prop_map(|tenths| f64::from(tenths) / 10.0)]
+        };
+        (coordinate(), coordinate(), 0.0..360.0_f64).prop_map(move |(x, y, angle)| {
+            let direction = Vector2::new(libm::cos(angle.to_radians()), libm::sin(angle.to_radians()));
+            [Xy::new(x, y), Xy::new(x, y) + direction * distance]
+        })
+    }
+
+    /// Approximate distance in mm below which points coincide.
+    const MEETING: f64 = 0.000_031_6;
+
+    fn ends([one, other]: [Xy; 2]) -> Ends {
+        Ends::of_segments([[one; 2], [other; 2]].into_iter())
+    }
+
+    fn found(points: [Xy; 2]) -> Vec<usize> {
+        let mut found = Vec::new();
+        ends(points).find_near(points[0], |_| true, &mut found);
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    fn is_alone(points: [Xy; 2]) -> bool {
+        ends(points).crowd(points[0], |_| true).is_some_and(|crowd| crowd.segments == [0])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn ends_that_meet_are_found_whatever_square_they_are_in(
+            inside in apart(0.999 * MEETING),
+            outside in apart(1.003 * MEETING),
+        ) {
+            prop_assert_eq!(found(inside), [0, 1]);
+            prop_assert_eq!(found(outside), [0]);
+        }
+
+        #[test]
+        fn who_may_meet_a_third_at_a_point_is_seen(
+            inside in apart(2.99 * MEETING),
+            outside in apart(3.01 * MEETING),
+        ) {
+            prop_assert!(!is_alone(inside));
+            prop_assert!(is_alone(outside));
+        }
     }
 }

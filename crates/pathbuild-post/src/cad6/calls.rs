@@ -12,7 +12,6 @@ use pathbuild_path::approx::at_least;
 use super::control_text::ControlTextKind;
 use super::definition::{Abilities, Definition};
 use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
-use crate::holes;
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Units};
 
 type Built = Result<(), Box<Diagnostic>>;
@@ -193,7 +192,7 @@ impl<'a> Builder<'a> {
             HoleKind::Dwell { .. } => self.abilities.dwell,
         };
         if !self.abilities.hole || !can_say_it {
-            for step in holes::moves(hole)? {
+            for step in hole.moves()? {
                 match step {
                     JobStep::Move(movement) => self.move_along(&movement)?,
                     JobStep::Dwell { seconds } => self.add_aside(What::Dwell(seconds)),

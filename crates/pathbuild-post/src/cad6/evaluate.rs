@@ -6,11 +6,9 @@ use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::posts;
 
 use super::expand::{Expanded, is_name};
-use super::marks::{UNDEFINED, char_of, is_mark};
 use super::numbers::{CForm, Form};
-use super::term::{Doubt, evaluate};
-use super::term::{Evaluated, Fault};
-use super::variables::Variables;
+use super::term::{Doubt, Evaluated, Fault, evaluate};
+use super::variables::{UNDEFINED, Variables, char_of, is_mark};
 use crate::PostFiles;
 
 /// Maximum nesting depth of statements.

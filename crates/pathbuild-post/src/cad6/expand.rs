@@ -5,9 +5,8 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::reasons::NOT_BELOW_POST;
 
-use super::marks::{UNDEFINED, VARIABLE, is_mark};
 use super::term::{Evaluated, Fault};
-use super::variables::Variables;
+use super::variables::{UNDEFINED, VARIABLE, Variables, is_mark};
 use crate::PostFiles;
 
 /// Maximum nesting depth of variables that refer to each other.

@@ -9,12 +9,10 @@ mod control_text;
 mod definition;
 mod evaluate;
 mod expand;
-mod marks;
 mod numbers;
 mod program;
 pub(super) mod reference;
 mod runner;
-mod settings;
 mod term;
 mod variables;
 

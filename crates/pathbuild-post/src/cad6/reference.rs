@@ -3,16 +3,16 @@
 use pathbuild_diagnostic::{Lang, Text};
 
 use super::control_text::ControlTextKind;
+use super::definition::SETTINGS;
 use super::evaluate::STATEMENTS;
 use super::numbers::FORMS;
-use super::settings::SETTINGS;
 use super::term::{FUNCTIONS, LEVELS, Rule};
 use super::variables::VARIABLES;
 use crate::reference::{Row, code};
 
 /// The keys of `[post]`: name, permitted values, meaning.
 pub(crate) fn settings(lang: Lang) -> Vec<Row> {
-    let row = |entry: &super::settings::Setting| {
+    let row = |entry: &super::definition::Setting| {
         vec![code(entry.name), entry.expected.in_lang(lang).to_owned(), entry.about.in_lang(lang).to_owned()]
     };
     SETTINGS.iter().map(row).collect()

@@ -10,7 +10,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Message, Text};
 
-use super::marks::is_mark;
+use super::variables::is_mark;
 
 /// Maximum nesting depth of parentheses and signs.
 const MOST_DEPTH: usize = 64;

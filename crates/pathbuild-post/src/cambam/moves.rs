@@ -14,7 +14,6 @@ use super::macros::{Argument, Macro, Value};
 use super::section::Section;
 use super::writer::{ROTARY, WriteResult, Writer};
 use crate::arcs::{MOST_CHORDS, Rounding, chords, pieces_of};
-use crate::holes;
 use crate::job::{Entry, Hole, HoleKind, JobStep};
 
 impl Writer<'_> {
@@ -44,7 +43,7 @@ impl Writer<'_> {
     pub(super) fn step(&mut self, step: &JobStep) -> WriteResult {
         match step {
             JobStep::Move(movement) => self.move_to(movement),
-            JobStep::Hole(hole) => holes::moves(hole)?.iter().try_for_each(|step| self.step(step)),
+            JobStep::Hole(hole) => hole.moves()?.iter().try_for_each(|step| self.step(step)),
             JobStep::Dwell { seconds } => {
                 let mut values = MoveValues::default();
                 values.set(Register::P, Some(self.dwell(*seconds)));

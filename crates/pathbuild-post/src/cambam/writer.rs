@@ -13,7 +13,6 @@ use super::template::{Template, TemplatePart};
 use crate::arcs::chords;
 use crate::findings::LineOrigin;
 use crate::guard::Guard;
-use crate::holes;
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::number::NumberFormat;
 use crate::shadow::{CommentMarks, Shadow, TranslatedText, Word, Words, words};
@@ -564,7 +563,7 @@ fn moves_of(step: &JobStep, plan: &Plan<'_>) -> usize {
             let count = movement.course().and_then(|course| chords(&course, plan.arc_tolerance()));
             count.map_or(1, |count| count as usize)
         }
-        JobStep::Hole(hole) => holes::moves(hole).map_or(1, |moves| moves.len()),
+        JobStep::Hole(hole) => hole.moves().map_or(1, |moves| moves.len()),
         _ => 1,
     }
 }

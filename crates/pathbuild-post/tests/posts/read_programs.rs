@@ -1,9 +1,9 @@
 //! Tests of parsed programs as jobs, and of built-in posts against the native program.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::native::{self, Charset, Header, WriteOptions};
+use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{

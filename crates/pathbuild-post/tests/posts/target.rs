@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_gcode::native::Charset;
+use pathbuild_gcode::dialect::Charset;
 use pathbuild_gcode::verify::{Machine, Travel};
 use pathbuild_motion::Turning;
 use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, Post, PostOptions};

@@ -3,7 +3,6 @@
 //! A [`Draft`] collects entities; finishing it gives a [`Sheet`], in which each parameter text is positioned so that it belongs to its
 //! element. `Sheet::to_dxf` writes the sheet through the crate `dxf`; its output is deterministic. (book: reference/dxf)
 
-mod bytes;
 mod convert;
 mod draft;
 pub mod model;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use pathbuild_db::MissingOption;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::native::{Charset, WriteOptions};
+use pathbuild_gcode::dialect::{Charset, Dialect};
+use pathbuild_gcode::native::WriteOptions;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::verify::Machine;
@@ -17,8 +17,7 @@ use pathbuild_toolpath::{Correction, Program, Total, ZModel};
 
 use super::outcome::Task;
 use crate::config::{Settings, types};
-use crate::machine::machine;
-use crate::posting::{PostProcessor, tool_table};
+use crate::posting::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
 

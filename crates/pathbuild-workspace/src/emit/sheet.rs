@@ -6,7 +6,7 @@ use pathbuild_db::{Database, SourceFile, Target, keep_outs, placed_keep_outs, tr
 use pathbuild_diagnostic::{Diagnostic, Lang, Value};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::summary::cutting_box;
+use pathbuild_gcode::statistics::cutting_box;
 use pathbuild_motion::Turning;
 use pathbuild_post::ToolTable;
 use pathbuild_toolpath::Program;

@@ -4,7 +4,6 @@
 
 mod builder;
 mod drawings;
-mod key;
 mod store;
 
 use camino::Utf8Path;
@@ -17,14 +16,14 @@ use crate::inputs::Inputs as Arguments;
 use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
+use crate::memo::store::Scope;
 pub use drawings::{DrawingResult, is_transient};
 pub(crate) use drawings::{find, read_drawings, subject};
-use key::Scope;
-pub use key::{BUILD, Coverage, CoveredPaths};
 use store::Store;
 pub use store::{
     Answer, Dependencies, ExtraInput, FreshResult, GeneratedFile, Inputs, OutputState, hash_output,
 };
+pub use store::{BUILD, Coverage, CoveredPaths};
 
 /// Results of earlier runs of a command, if there are any.
 #[derive(Debug, Default)]

@@ -1,10 +1,7 @@
 //! The interface between commands and the database: resolves arguments, and checks paths and builds programs on all cores.
 
 mod argument_matches;
-mod combinations;
 mod graph;
-mod hints;
-mod ignore_rules;
 mod library;
 mod outputs;
 mod prefetch;
@@ -28,10 +25,10 @@ use crate::workspace::{Advance, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, Node};
-pub(crate) use hints::MOST_UNKNOWN;
-pub(crate) use ignore_rules::{IGNORE_FILES, is_ignore_file};
+pub(crate) use library::{IGNORE_FILES, is_ignore_file};
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
+pub(crate) use resolve::MOST_UNKNOWN;
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};
 pub(crate) use scene::{drawn_source, examples, program_scene};
 pub use settings::{limits, reading};

@@ -7,7 +7,6 @@
 mod changes;
 mod directories;
 mod events;
-mod index;
 mod library;
 mod writing;
 

@@ -4,7 +4,6 @@
 //! Anything else in a
 //! program that could change where, how deep or how fast the tool cuts is a difference. The claims in its header are ignored.
 
-mod clamps;
 mod cuts;
 mod setup;
 
@@ -16,8 +15,8 @@ use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
 use crate::read::Problems;
 
-pub use clamps::{Clamps, PastClamps};
 use cuts::Cuts;
+pub use cuts::{Clamps, PastClamps};
 use setup::Setup;
 
 /// What a drawing and the configuration specify about a program.

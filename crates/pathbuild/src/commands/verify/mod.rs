@@ -16,7 +16,7 @@ use pathbuild_gcode::verify::{
 };
 use pathbuild_motion::Pace;
 use pathbuild_workspace::config::{number, positive};
-use pathbuild_workspace::machine::machine;
+use pathbuild_workspace::posting::machine;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, known_words};
 use pathbuild_workspace::session::Session;
 

@@ -1,6 +1,4 @@
-//! The post-processor of a run, with its settings. (book: program/posts)
-
-mod tools;
+//! The post-processor of a run with its settings, the configured tools, and the limits of the machine. (book: program/posts)
 
 use std::cell::RefCell;
 use std::process::{Command, Stdio};
@@ -12,18 +10,19 @@ use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::{posts, posts as messages};
 use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::native::Charset;
-use pathbuild_gcode::verify::{Machine, PostWords};
+use pathbuild_gcode::dialect::{Charset, Dialect};
+use pathbuild_gcode::verify::{Machine, PostWords, Travel};
+use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
-    BUILT_IN, Job, Output, Post, PostFiles, PostMacro, PostOptions, ToolTable, TranslatedText, samples,
+    BUILT_IN, Job, Operation, Output, Post, PostFiles, PostMacro, PostOptions, Tool, ToolEntry, ToolTable,
+    TranslatedText, samples,
 };
+use regex::Regex;
+use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::config::types::Extent;
 use crate::config::{Origin, is_file_name, types};
-use crate::machine::machine;
 use crate::workspace::Workspace;
-
-pub use tools::{complete_tools, tool_table};
 
 /// A post definition with everything that its output depends on besides the program.
 #[derive(Debug)]
@@ -404,4 +403,88 @@ impl PostFiles for DirectoryFiles<'_> {
         }
         system.read(&file, LARGEST).map_err(|error| error.reason(LARGEST))
     }
+}
+
+/// The machine of the configuration; `None` if nothing is configured.
+pub fn machine(context: &Workspace) -> Option<Machine> {
+    let settings = &context.settings.machine;
+    let placed = [settings.x.value, settings.y.value, settings.z.value];
+    let travel = if placed.iter().any(Option::is_some) {
+        Some(Travel::Placed(placed.map(ends)))
+    } else {
+        settings.travel.value.map(Travel::Size)
+    };
+    let machine = Machine {
+        travel,
+        feed: settings.max_feed.value,
+        rates: settings.rates.value.map_or([None; 3], |rates| rates.map(Some)),
+        spindle: settings.spindle_speeds.value.map(|speeds| (speeds.from, speeds.to)),
+    };
+    (machine != Machine::default()).then_some(machine)
+}
+
+/// Lower and upper end of an axis; unlimited if not configured.
+fn ends(extent: Option<Extent>) -> (f64, f64) {
+    extent.map_or((f64::NEG_INFINITY, f64::INFINITY), |extent| (extent.from, extent.to))
+}
+
+/// The tools of `[tool.NAME]`. Their patterns compile, because the configuration has no errors.
+pub fn tool_table(context: &Workspace) -> ToolTable {
+    ToolTable { entries: context.settings.tables.tools.value.iter().map(entry).collect() }
+}
+
+fn entry(tool: &types::Tool) -> ToolEntry {
+    let direction = tool.direction.or_else(|| tool.spindle.map(|_| types::Direction::Clockwise));
+    ToolEntry {
+        name: tool.name.clone(),
+        diameter: tool.diameter,
+        paths: tool.paths.as_deref().and_then(|pattern| Regex::new(pattern).ok()),
+        index: tool.number,
+        spindle: direction.map(|direction| match direction {
+            types::Direction::Clockwise => Turning::Clockwise,
+            types::Direction::Counterclockwise => Turning::CounterClockwise,
+        }),
+        speed: tool.spindle,
+        coolant: tool.coolant.map(|coolant| match coolant {
+            types::Coolant::Off => Coolant::OFF,
+            types::Coolant::Mist => Coolant::MIST,
+            types::Coolant::Flood => Coolant::FLOOD,
+        }),
+    }
+}
+
+/// Completes the operations of a program that was read with the table's data about their tools, unless the program itself has them. Warns
+/// about unknown tool numbers. The spindle stands still while probing, and in a program that cuts nothing.
+pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
+    let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
+    let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
+    for entry in &table.entries {
+        if let Some(index) = entry.index {
+            entries.entry(index).or_insert(entry);
+        }
+    }
+    let has_cuts = job.operations.iter().any(Operation::cuts);
+    for operation in &mut job.operations {
+        if !operation.tool.is_named {
+            continue;
+        }
+        let index = operation.tool.index;
+        let Some(entry) = entries.get(&index) else {
+            if reported.insert(index) {
+                unknown.push(index);
+            }
+            continue;
+        };
+        operation.tool = Tool::new(index, entry.diameter, &entry.name);
+        if !has_cuts || operation.only_probes() {
+            operation.spindle = operation.spindle.or(Some(Turning::Off));
+            operation.coolant = operation.coolant.or(Some(Coolant::OFF));
+            continue;
+        }
+        operation.spindle = operation.spindle.or(entry.spindle);
+        operation.speed = operation.speed.or(entry.speed);
+        operation.coolant = operation.coolant.or(entry.coolant);
+    }
+    let warning = |index| Diagnostic::new(&posts::TOOL_NUMBER_UNKNOWN).with("index", u64::from(index));
+    unknown.into_iter().map(warning).collect()
 }

@@ -1,26 +1,30 @@
-//! `check`: checks drawings, paths and directories, without writing anything. (book: reference/commands, `check`)
+//! `check`: checks drawings, paths and directories, without writing anything, with example values or all combinations of their variables'
+//! values, and only what depends on changed drawings if asked for. (book: reference/commands, `check`; book: language/variables)
 
-mod changed;
-
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Debug;
+use std::ops::ControlFlow;
 
-use camino::Utf8PathBuf;
-use pathbuild_db::{Database, Db, Role, SourceFile, Trace, check_file, path_names};
-use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::PathName;
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::join;
+use pathbuild_db::{
+    Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, locate, path_names,
+};
+use pathbuild_diagnostic::messages::parameters as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
+use pathbuild_path::{Bindings, PathName};
 
 use crate::Inputs;
 use crate::config::ResultKind;
-use crate::memo::{Answer, DrawingResult, Memo, check_query, find, read_drawings, subject};
+use crate::memo::{
+    Answer, Coverage, Dependencies, DrawingResult, Memo, check_query, find, read_drawings, subject,
+};
 use crate::session::timings::{FINDING, KEEPING, VERIFYING};
 use crate::session::{
-    ArgumentMatches, Checker, Pair, SelectedPath, Selection, Session, by_place, q_project_pairs,
+    ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, by_place,
+    q_project_pairs,
 };
 use crate::workspace::{Workspace, relative};
-
-use changed::ChangeFilter;
-pub use changed::EarlierFiles;
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -322,4 +326,231 @@ fn result(
 /// Inputs of a drawing's result that do not depend on its paths; empty if inputs are not traced.
 fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
     if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
+}
+
+/// Upper bound on the combinations of values that are checked per path.
+const MOST_COMBINATIONS: usize = 1000;
+
+impl Checker<'_> {
+    /// One target per combination of values, and a warning if there are too many combinations. A path without variables has a single
+    /// target.
+    pub fn combined_targets(&self, file: SourceFile, name: &PathName) -> (Vec<Target>, Option<Diagnostic>) {
+        let target = |role| self.db().target(file, name.as_str(), role);
+        match combinations(self.db(), file, name, MOST_COMBINATIONS) {
+            None => (vec![target(Role::Checked)], None),
+            Some((values, warning)) => {
+                let targets = values.into_iter().map(|values| target(Role::CheckedWith(values))).collect();
+                (targets, warning.map(|warning| locate(self.db(), warning)))
+            }
+        }
+    }
+
+    /// Merges the results of all combinations of a path. Each fault is reported once, with values that cause it unless all of them do.
+    pub fn merged(&self, results: &[CheckedTarget]) -> Vec<Diagnostic> {
+        let mut merged: Vec<MergedFault<'_>> = Vec::new();
+        let mut indices: BTreeMap<Identity<'_>, usize> = BTreeMap::new();
+        for result in results {
+            for diagnostic in &result.diagnostics {
+                let index = *indices.entry(Identity::of(diagnostic)).or_insert(merged.len());
+                match merged.get_mut(index) {
+                    // A single result may contain the same fault with different arguments.
+                    Some(combination) if combination.last.target == result.target => {}
+                    Some(combination) => {
+                        combination.count += 1;
+                        combination.last = result;
+                    }
+                    None => merged.push(MergedFault { diagnostic, first: result, last: result, count: 1 }),
+                }
+            }
+        }
+        merged.iter().map(|merged| self.with_values(merged, results.len())).collect()
+    }
+
+    fn with_values(&self, merged: &MergedFault<'_>, all: usize) -> Diagnostic {
+        let diagnostic = merged.diagnostic.clone();
+        let target = merged.first.target;
+        let Role::CheckedWith(values) = target.role(self.db()) else { return diagnostic };
+        let named = vec![
+            ("values", Value::quoted(shown(values))),
+            ("name", Value::quoted(&**target.name(self.db()))),
+        ];
+        match merged.count {
+            count if count == all => diagnostic,
+            1 => diagnostic.note(&messages::WITH_VALUES, named),
+            count => {
+                let counts = [("others", (count - 1).into()), ("all", all.into())];
+                diagnostic.note(&messages::WITH_MORE_VALUES, named.into_iter().chain(counts).collect())
+            }
+        }
+    }
+}
+
+/// A fault, and the combinations in which it occurs.
+struct MergedFault<'a> {
+    diagnostic: &'a Diagnostic,
+    first: &'a CheckedTarget,
+    last: &'a CheckedTarget,
+    count: usize,
+}
+
+/// Two diagnostics with the same identity are the same fault; the values in their messages do not matter.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Identity<'a> {
+    message: &'static str,
+    file: Option<&'a str>,
+    path: Option<&'a str>,
+    place: &'a Place,
+    text: Option<&'a TextFault>,
+}
+
+impl<'a> Identity<'a> {
+    fn of(diagnostic: &'a Diagnostic) -> Self {
+        let Message { key, .. } = diagnostic.message;
+        Self {
+            message: key,
+            file: diagnostic.file.as_ref().map(|file| file.as_str()),
+            path: diagnostic.path.as_deref(),
+            place: &diagnostic.place,
+            text: diagnostic.text.as_ref(),
+        }
+    }
+}
+
+/// Formats values as in a subpath's text: `:A0,5 :BX`.
+fn shown(values: &Bindings) -> String {
+    let values: Vec<String> = values.iter().map(|(name, value)| format!(":{name}{value}")).collect();
+    values.join(" ")
+}
+
+/// The files at an earlier time, such as in a Git revision.
+pub trait EarlierFiles: Debug {
+    /// For each file, whether it has changed since or did not exist. Files about which nothing is known count as changed.
+    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
+
+    /// File names of the drawings that the directory contained.
+    fn drawings(&self, directory: &Utf8Path) -> &[String];
+
+    /// A file that has changed and affects all results, such as a configuration or a symbolic link. `directories` are those that were
+    /// searched.
+    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
+}
+
+/// Selects the results that are shown.
+pub(super) struct ChangeFilter<'a> {
+    session: &'a Session<'a>,
+    memo: &'a Memo,
+    /// `None` shows all results.
+    changed: Option<ChangedDrawings>,
+}
+
+impl<'a> ChangeFilter<'a> {
+    /// If `past` is given, selects those of the results that depend on files changed since then.
+    pub(super) fn new<'r>(
+        session: &'a Session<'a>,
+        memo: &'a Memo,
+        past: Option<&dyn EarlierFiles>,
+        results: impl Iterator<Item = &'r Answer<DrawingResult>>,
+    ) -> Self {
+        let changed = past.map(|past| {
+            let mut reached = ReachedInputs::default();
+            for answer in results {
+                if let Some(inputs) = memo.dependencies(session.db(), answer) {
+                    reached.add(&inputs);
+                }
+            }
+            ChangedDrawings::new(session, past, reached)
+        });
+        Self { session, memo, changed }
+    }
+
+    pub(super) fn contains(&self, answer: &Answer<DrawingResult>) -> bool {
+        let Some(changed) = &self.changed else { return true };
+        let inputs = self.memo.dependencies(self.session.db(), answer);
+        inputs.is_none_or(|inputs| changed.affects(&inputs))
+    }
+}
+
+/// Inputs of results that may have changed.
+#[derive(Debug, Default)]
+struct ReachedInputs {
+    files: BTreeSet<Utf8PathBuf>,
+    /// Directories in which lookups were made.
+    directories: BTreeSet<Utf8PathBuf>,
+}
+
+/// Drawings that were changed, added or removed.
+struct ChangedDrawings {
+    files: BTreeSet<Utf8PathBuf>,
+    /// File names of these drawings, by directory.
+    names: BTreeMap<Utf8PathBuf, Vec<String>>,
+    coverage: Coverage,
+}
+
+impl ReachedInputs {
+    /// Adds the inputs of a result.
+    fn add(&mut self, facts: &Dependencies<'_>) {
+        facts.files.iter().for_each(|file| add(&mut self.files, file));
+        facts.lookups.iter().for_each(|(directory, _)| add(&mut self.directories, directory));
+    }
+}
+
+/// Inserts a path; copies it only if it is new, because most paths are already in the set.
+fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
+    if !paths.contains(path) {
+        paths.insert(path.to_owned());
+    }
+}
+
+impl ChangedDrawings {
+    /// Those of the given inputs that have changed since `past`.
+    fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
+        let ReachedInputs { mut files, directories } = reached;
+        let mut gone = BTreeSet::new();
+        for directory in &directories {
+            let now = drawings(session, directory);
+            let old = past.drawings(directory).iter().filter(|name| !now.contains(*name));
+            gone.extend(old.map(|name| join(directory, name)));
+            files.extend(now.iter().map(|name| join(directory, name)));
+        }
+        let files: Vec<Utf8PathBuf> = files.into_iter().collect();
+        let changed = past.changed(&files).into_iter().zip(files);
+        let changed = changed.filter_map(|(is_changed, file)| is_changed.then_some(file));
+        let files: BTreeSet<Utf8PathBuf> = changed.chain(gone).collect();
+        Self { names: by_directory(&files), files, coverage: Coverage::new(session.workspace()) }
+    }
+
+    /// Whether a result depends on one of the drawings.
+    fn affects(&self, facts: &Dependencies<'_>) -> bool {
+        facts.files.iter().any(|file| self.files.contains(*file))
+            || facts.lookups.iter().any(|(directory, name)| self.answers(directory, name))
+    }
+
+    /// Whether one of the drawings may answer a lookup of `name` in this directory.
+    fn answers(&self, directory: &Utf8Path, name: &str) -> bool {
+        let names = self.names.get(directory);
+        names.is_some_and(|names| names.iter().any(|file| self.coverage.may_hold(file, name)))
+    }
+}
+
+/// File names of the drawings in a directory, hidden ones included.
+fn drawings(session: &Session<'_>, directory: &Utf8Path) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    // Errors are ignored here: the lookups in this directory report them.
+    _ = session.db().system().each_entry(directory, &mut |entry| {
+        if entry.is_exact && Session::is_drawing(Utf8Path::new(entry.name)) {
+            names.insert(entry.name.to_owned());
+        }
+        ControlFlow::Continue(())
+    });
+    names
+}
+
+fn by_directory(files: &BTreeSet<Utf8PathBuf>) -> BTreeMap<Utf8PathBuf, Vec<String>> {
+    let mut names: BTreeMap<Utf8PathBuf, Vec<String>> = BTreeMap::new();
+    for file in files {
+        if let (Some(directory), Some(name)) = (file.parent(), file.file_name()) {
+            names.entry(directory.to_owned()).or_default().push(name.to_owned());
+        }
+    }
+    names
 }
