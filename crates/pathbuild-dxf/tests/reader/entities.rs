@@ -92,8 +92,8 @@ fn a_broken_entity_does_not_hide_the_next() {
 #[test]
 fn numbers_of_unwanted_layers_are_not_looked_at() {
     let text = entities("0 CIRCLE\n8 A\n10 x\n20 0\n40 1\n0 CIRCLE\n8 B\n10 y\n20 0\n40 1");
-    let options = pathbuild_dxf::Options { keep_layer: &|name| name == "B", ..options() };
-    let drawing = pathbuild_dxf::read(text.as_bytes(), &options);
+    let options = Options { keep_layer: &|name| name == "B", ..options() };
+    let drawing = read(text.as_bytes(), &options);
     assert_eq!(faults(&drawing), ["PB002 20 B: CIRCLE: group 10 must be a number, not \"y\""]);
     assert_eq!(drawing.layers.len(), 1);
 }
