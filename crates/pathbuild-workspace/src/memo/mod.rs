@@ -78,7 +78,9 @@ impl Memo {
             };
             Some(Answer { subject, value, inputs })
         };
-        subjects.into_iter().zip(cached).filter_map(answer).collect()
+        let mut answers = Vec::with_capacity(items.len());
+        answers.extend(subjects.into_iter().zip(cached).filter_map(answer));
+        answers
     }
 
     /// Whether there is any cache.
