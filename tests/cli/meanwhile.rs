@@ -6,7 +6,6 @@ use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use clap::Parser;
@@ -52,25 +51,12 @@ impl Changing {
 }
 
 impl System for Changing {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        self.change(path, OsSystem.read(path, limit))
-    }
-
-    fn read_stamped<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<(&'r [u8], Stamp), ReadError> {
-        self.change(path, OsSystem.read_stamped(path, limit, room))
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+        self.change(path, OsSystem.read_into(path, limit, room))
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         OsSystem.head(path, length)
-    }
-
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
-        OsSystem.modified(path)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

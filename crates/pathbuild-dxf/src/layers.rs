@@ -353,7 +353,8 @@ const USUAL_LINE_TYPES: usize = 8;
 pub(crate) struct LineTypes<'a> {
     by_spelling: Spellings<'a, LineType>,
     names: Vec<SmolStr>,
-    continuous: SmolStr,
+    /// The line type where none is given.
+    pub(crate) continuous: SmolStr,
 }
 
 impl Default for LineTypes<'_> {
@@ -377,11 +378,6 @@ impl<'a> LineTypes<'a> {
     /// The name with this index: upper case, without xref prefix.
     pub(crate) fn name(&self, number: u32) -> &SmolStr {
         &self.names[number as usize]
-    }
-
-    /// The line type where none is given.
-    pub(crate) fn continuous(&self) -> &SmolStr {
-        &self.continuous
     }
 
     fn first_use(&mut self, value: Value<'a>, decoder: &mut Decoder<'_>) -> LineType {

@@ -192,7 +192,7 @@ fn placed<'p>(
         layer,
         line_type: match traits.line_type {
             LineType::ByLayer => &layer.line_type,
-            LineType::ByBlock => insertion.map_or(line_types.continuous(), |insertion| &insertion.line_type),
+            LineType::ByBlock => insertion.map_or(&line_types.continuous, |insertion| &insertion.line_type),
             LineType::Named(number) => line_types.name(number),
         },
         own: traits.origin,

@@ -4,7 +4,7 @@
 use std::io;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
@@ -114,26 +114,8 @@ impl ConfinedSystem {
 }
 
 impl System for ConfinedSystem {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        self.allowed(path)?.read(path, limit)
-    }
-
-    fn read_into<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<&'r [u8], ReadError> {
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         self.allowed(path)?.read_into(path, limit, room)
-    }
-
-    fn read_stamped<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<(&'r [u8], Stamp), ReadError> {
-        self.allowed(path)?.read_stamped(path, limit, room)
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
@@ -142,10 +124,6 @@ impl System for ConfinedSystem {
 
     fn tail(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         self.allowed(path)?.tail(path, length)
-    }
-
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
-        self.allowed(path).ok()?.modified(path)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

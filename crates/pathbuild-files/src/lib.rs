@@ -18,10 +18,9 @@ pub use replace::is_temporary;
 pub use spelling::{clean, join, spelt};
 pub use stamp::{CLOCK, Clock, Stamp};
 
-use std::fmt;
-use std::fmt::Debug;
+use std::fmt::{self, Debug};
 use std::ops::ControlFlow;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::limits::{file_too_large, too_many_bytes};
@@ -31,48 +30,32 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 /// Reading, listing and writing files.
 pub trait System: Debug + Send + Sync {
+    /// Reads a file into a buffer, whose old content is overwritten, and returns the file's stamp. The stamp is unknown if it differs before
+    /// and after reading, or if the system has none: then the file must be read again to find out whether it has changed.
+    ///
+    /// # Errors
+    /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`. The content of the buffer is then undefined.
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError>;
+
     /// Reads a file.
     ///
     /// # Errors
-    /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`.
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError>;
-
-    /// Like [`read`](Self::read), but reuses a buffer. Its old content is overwritten; bytes beyond the returned slice are garbage.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    fn read_into<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<&'r [u8], ReadError> {
-        *room = self.read(path, limit)?;
-        Ok(room)
-    }
-
-    /// Like [`read_into`](Self::read_into), and also returns the file's stamp. The stamp is unknown if it differs before and after reading,
-    /// or if the system has none: then the file must be read again to find out whether it has changed.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    fn read_stamped<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<(&'r [u8], Stamp), ReadError> {
-        self.read_into(path, limit, room).map(|bytes| (bytes, Stamp::UNKNOWN))
+    /// As [`read_into`](Self::read_into).
+    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = Vec::new();
+        self.read_into(path, limit, &mut bytes)?;
+        Ok(bytes)
     }
 
     /// The first `length` bytes of a file, or fewer if it is shorter.
     ///
     /// # Errors
     /// As [`read`](Self::read).
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError>;
-
-    /// The time of the last change to a file, if known.
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime>;
+    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = self.read(path, u64::MAX)?;
+        bytes.truncate(length);
+        Ok(bytes)
+    }
 
     /// The names in a directory.
     ///

@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::{Bound, ControlFlow};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
 
-use super::{Entry, FileKind, Listing, ReadError, System, WriteOutcome};
+use super::{Entry, FileKind, Listing, ReadError, Stamp, System, WriteOutcome};
 
 /// Files by path. A directory exists as long as it contains a file.
 #[derive(Debug, Default)]
@@ -35,21 +35,9 @@ impl MemorySystem {
 }
 
 impl System for MemorySystem {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         let files = self.files();
-        let bytes = files.get(path).ok_or(ReadError::Missing)?;
-        let size = bytes.len() as u64;
-        if size > limit { Err(ReadError::TooLarge { size }) } else { Ok(bytes.clone()) }
-    }
-
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        let mut bytes = self.read(path, u64::MAX)?;
-        bytes.truncate(length);
-        Ok(bytes)
-    }
-
-    fn modified(&self, _: &Utf8Path) -> Option<SystemTime> {
-        None
+        copy(files.get(path).ok_or(ReadError::Missing)?, limit, room)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
@@ -93,6 +81,17 @@ impl System for MemorySystem {
     }
 }
 
+/// Copies the content of a file to a buffer. Files in memory have no stamp.
+fn copy(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+    let size = bytes.len() as u64;
+    if size > limit {
+        return Err(ReadError::TooLarge { size });
+    }
+    room.clear();
+    room.extend_from_slice(bytes);
+    Ok(Stamp::UNKNOWN)
+}
+
 /// The files in a directory and below. Paths are ordered component by component, so these are consecutive.
 fn below<'a>(
     files: &'a BTreeMap<Utf8PathBuf, Vec<u8>>,
@@ -122,26 +121,12 @@ impl OverlaySystem {
 }
 
 impl System for OverlaySystem {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        let size = self.bytes.len() as u64;
-        match path == self.path {
-            true if size > limit => Err(ReadError::TooLarge { size }),
-            true => Ok(self.bytes.clone()),
-            false => self.below.read(path, limit),
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+        if path == self.path {
+            copy(&self.bytes, limit, room)
+        } else {
+            self.below.read_into(path, limit, room)
         }
-    }
-
-    fn read_into<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<&'r [u8], ReadError> {
-        if path != self.path {
-            return self.below.read_into(path, limit, room);
-        }
-        *room = self.read(path, limit)?;
-        Ok(room)
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
@@ -149,10 +134,6 @@ impl System for OverlaySystem {
             return Ok(self.bytes[..length.min(self.bytes.len())].to_vec());
         }
         self.below.head(path, length)
-    }
-
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
-        self.below.modified(path)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

@@ -6,7 +6,6 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::ops::ControlFlow;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Value;
@@ -28,33 +27,11 @@ impl OsSystem {
 }
 
 impl System for OsSystem {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        let mut bytes = Vec::new();
-        read_whole(&open(path)?, limit, &mut bytes)?;
-        Ok(bytes)
-    }
-
-    fn read_into<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<&'r [u8], ReadError> {
-        read_whole(&open(path)?, limit, room)?;
-        Ok(room)
-    }
-
-    fn read_stamped<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<(&'r [u8], Stamp), ReadError> {
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         let file = open(path)?;
         let before = Stamp::of_open(&file);
         read_whole(&file, limit, room)?;
-        let stamp = if Stamp::of_open(&file) == before { before } else { Stamp::UNKNOWN };
-        Ok((room, stamp))
+        Ok(if Stamp::of_open(&file) == before { before } else { Stamp::UNKNOWN })
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
@@ -73,10 +50,6 @@ impl System for OsSystem {
         let mut tail = Vec::new();
         file.take(length).read_to_end(&mut tail)?;
         Ok(tail)
-    }
-
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
-        fs::metadata(path).ok()?.modified().ok()
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

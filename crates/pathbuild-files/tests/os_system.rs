@@ -56,8 +56,8 @@ fn drawings_are_read_into_the_same_memory() {
     let mut room = b"x".repeat(50);
     for size in [100, 1000, 10, 0, 70, 65_530, 65_540, 200_000, 20] {
         let (_directory, path) = file(size);
-        let read = OsSystem.read_into(&path, 1_000_000, &mut room).unwrap();
-        assert_eq!(read, b"0123456789".repeat(size / 10));
+        OsSystem.read_into(&path, 1_000_000, &mut room).unwrap();
+        assert_eq!(room, b"0123456789".repeat(size / 10));
     }
 }
 

@@ -13,18 +13,18 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::adjust::{Inputs, Source, adjust};
+use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Options, guess, interpret};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::statistics::Summary;
 use pathbuild_path::{
-    FilePattern, KeepOutPattern, Language, LineTypeAliases, PathKey, PathOptions, PathPattern,
+    FilePattern, Language, LayerPattern, LineTypeAliases, PathKey, PathOptions, PathPattern,
 };
 use pathbuild_post::{Job, Post, PostOptions, ToolTable, native_remark};
 use pathbuild_toolpath::{Correction, Program};
 use pathbuild_workspace::config;
 use pathbuild_workspace::session::{limits, reading};
-use pathbuild_gcode::dialect::{Charset, Dialect};
 
 use grid_drawing::{Choices, dxf as drawn, written};
 
@@ -119,7 +119,7 @@ fn compile(bytes: &[u8]) {
 fn settle(db: &Database) {
     let language = Language {
         path_pattern: PathPattern::default(),
-        keep_out: KeepOutPattern::new("clamps").ok(),
+        keep_out: LayerPattern::new("clamps").ok(),
         part: None,
         line_types: LineTypeAliases::default(),
         text_limit: 4096,

@@ -1,7 +1,5 @@
 //! Clamps: the layers that hold them, their outlines and heights, and the search for those that the tool hits. (book: language/keep-outs)
 
-use std::fmt;
-
 use pathbuild_diagnostic::Diagnostic;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -9,14 +7,6 @@ use smol_str::SmolStr;
 
 use crate::approx::above;
 use crate::geometry::{Arc, Curve, Line, Placement, Xy};
-use crate::names::{LazyRegex, PatternError};
-
-/// The pattern for names of layers with clamps. It must match the whole name, ignoring case.
-#[derive(Clone)]
-pub struct KeepOutPattern {
-    source: Box<str>,
-    whole: LazyRegex,
-}
 
 /// A clamp.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,28 +30,6 @@ pub struct KeepOuts {
     pub problems: Vec<Diagnostic>,
 }
 
-impl KeepOutPattern {
-    /// Creates a pattern from the configuration.
-    ///
-    /// # Errors
-    /// If it is not a valid regular expression.
-    pub fn new(pattern: &str) -> Result<Self, PatternError> {
-        let whole = LazyRegex::new(format!("^(?:{pattern})$"));
-        whole.check()?;
-        Ok(Self { source: pattern.into(), whole })
-    }
-
-    /// Whether a layer holds clamps.
-    pub fn is_layer(&self, layer: &str) -> bool {
-        self.whole.get().is_match(layer)
-    }
-
-    /// The regular expression as given.
-    pub fn as_str(&self) -> &str {
-        &self.source
-    }
-}
-
 impl KeepOut {
     /// The clamp after placing and raising its drawing.
     pub fn placed(&self, placement: &Placement, raised: f64) -> Self {
@@ -71,12 +39,6 @@ impl KeepOut {
             height: self.height + raised,
             outline: self.outline.iter().map(|curve| placement.place_curve(curve)).collect(),
         }
-    }
-}
-
-impl fmt::Debug for KeepOutPattern {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "/{}/", self.source)
     }
 }
 

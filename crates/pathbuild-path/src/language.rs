@@ -4,9 +4,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 
 use crate::approx::above;
-use crate::keep_out::KeepOutPattern;
 use crate::line_type::LineTypeAliases;
-use crate::names::PathPattern;
+use crate::names::{LayerPattern, PathPattern};
 use crate::part::PartSettings;
 
 /// Settings of the drawing language.
@@ -15,7 +14,7 @@ pub struct Language {
     /// The names of path layers.
     pub path_pattern: PathPattern,
     /// The names of layers with clamps, if configured.
-    pub keep_out: Option<KeepOutPattern>,
+    pub keep_out: Option<LayerPattern>,
     /// Settings of the part check, if configured.
     pub part: Option<PartSettings>,
     /// Additional names of line types.

@@ -35,7 +35,7 @@ pub use embedding::{Judge, with_near_names};
 pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
-pub use keep_out::{KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Way};
+pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
 pub use language::{DoubtThresholds, Language};
 pub use letter::Letter;
 pub use letter::{ElementClass, Use};
@@ -44,10 +44,10 @@ pub use names::files::{
     FilePattern, NameRange, PathKey, RangeTable, is_q_project, judge_file_name, q_project_name,
     tested_by_q_project,
 };
-pub use names::{PathLayer, PathName, PathPattern, PatternError, SpeltName};
+pub use names::{LayerPattern, PathLayer, PathName, PathPattern, PatternError, SpeltName};
 pub use part::{
-    CutElement, DrawnParts, Part, PartCut, PartFindings, PartPattern, PartRing, PartSettings, PathCuts,
-    StandingBar, check_parts, check_path, cuts_into,
+    CutElement, DrawnParts, Part, PartCut, PartFindings, PartRing, PartSettings, PathCuts, StandingBar,
+    check_parts, check_path, cuts_into,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

@@ -9,7 +9,8 @@ pub(crate) const MOST_FINDINGS: usize = 100;
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     found: Vec<Diagnostic>,
-    has_error: bool,
+    /// Whether any finding is an error.
+    pub(crate) has_error: bool,
 }
 
 impl Findings {
@@ -24,11 +25,6 @@ impl Findings {
             self.has_error |= finding.is_error();
             self.found.push(finding);
         }
-    }
-
-    /// Whether any finding is an error.
-    pub(crate) fn has_error(&self) -> bool {
-        self.has_error
     }
 
     /// Returns the findings if none of them is an error.

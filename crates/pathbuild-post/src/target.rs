@@ -4,52 +4,25 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
-use pathbuild_gcode::dialect::{Acceptance, Charset, Dialect, LineLength, Percent, Style, Words, ascii};
+use pathbuild_gcode::dialect::{
+    Acceptance, Charset, Dialect, LineLength, Percent, Rules, Spelling, Style, ascii,
+};
 use pathbuild_gcode::read::LONGEST_LINE;
 
-/// What a control accepts.
+/// A control that posts write for: what it accepts is what the rules of its dialect accept as usual.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
 pub(super) struct Target {
-    /// Name of its dialect.
-    pub(super) name: &'static str,
-    words: &'static Words,
-    comments: Comments,
-    /// Whether `!`, `?`, `~` and bytes above 127 act immediately, even in comments.
-    has_real_time_bytes: bool,
-    /// Whether a line may begin with `%`.
-    percent: bool,
-    /// Whether the rest of a line after `%` is the name of the program, even after a block number.
-    titles: bool,
-    longest: Option<LineLength>,
-    /// Whether the tool number follows M6 without a letter.
-    bare_tool_number: bool,
-    /// M codes that are followed by a text for the display.
-    message_codes: &'static [u16],
-    /// Whether lines may begin with N.
-    line_numbers: bool,
     /// The dialect in which the output is read back.
     pub(super) reader: Dialect,
-}
-
-/// The comment notations of a control.
-#[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "controls differ in each by itself")]
-struct Comments {
-    /// `( )`.
-    round: bool,
-    /// Whether `(` is an ordinary character within a round comment.
-    nested: bool,
-    /// `;` to the end of the line.
-    semicolon: bool,
-    /// `//` to the end of the line.
-    slashes: bool,
+    rules: &'static Rules,
+    spelling: &'static Spelling,
 }
 
 impl Target {
     /// Finds the target by the name of its dialect.
     pub(super) fn of(name: &str) -> Option<Self> {
-        name.parse().ok().map(Self::of_dialect)
+        let reader: Dialect = name.parse().ok()?;
+        Some(Self { reader, rules: reader.rules(), spelling: &reader.rules().spelling })
     }
 
     /// The names of all targets, for messages.
@@ -57,50 +30,23 @@ impl Target {
         Dialect::ALL.iter().map(|dialect| dialect.name()).collect()
     }
 
-    fn of_dialect(dialect: Dialect) -> Self {
-        let rules = dialect.rules();
-        let spelling = &rules.spelling;
-        Self {
-            name: dialect.name(),
-            words: rules.words,
-            comments: Comments {
-                round: spelling.round_comments == Style::Usual,
-                nested: spelling.nested_comments,
-                semicolon: spelling.semicolon_comments == Style::Usual,
-                slashes: spelling.slash_comments == Style::Usual,
-            },
-            has_real_time_bytes: spelling.real_time_bytes,
-            percent: spelling.percent != Percent::Refused,
-            titles: spelling.percent == Percent::Title,
-            longest: spelling.line_length,
-            bare_tool_number: spelling.bare_tool_number,
-            message_codes: spelling.message_codes,
-            line_numbers: spelling.block_numbers.is_some(),
-            reader: dialect,
-        }
-    }
-
     /// Whether the control supports the cycle G81.
     pub(super) fn has_cycles(&self) -> bool {
-        self.words.g(810) == Acceptance::Taken
+        self.rules.words.g(810) == Acceptance::Taken
     }
 
     /// Whether the control supports M3.
     pub(super) fn switches_spindle(&self) -> bool {
-        self.words.m(30) == Acceptance::Taken
-    }
-
-    /// Whether only ASCII may be written, regardless of the configuration.
-    fn needs_ascii(&self) -> bool {
-        self.has_real_time_bytes
+        self.rules.words.m(30) == Acceptance::Taken
     }
 
     /// Length of the mark that opens a comment at the beginning of a text, and the mark that closes it, unless it extends to the end of the
     /// line.
     pub(super) fn comment_marks(&self, text: &str) -> Option<(usize, &'static str)> {
-        let Comments { round, semicolon, slashes, .. } = self.comments;
-        let signs = [(round, "(", ")"), (semicolon, ";", ""), (slashes, "//", "")];
-        let found = signs.into_iter().find(|(is_known, open, _)| *is_known && text.starts_with(open));
+        let Spelling { round_comments, semicolon_comments, slash_comments, .. } = self.spelling;
+        let signs = [(round_comments, "(", ")"), (semicolon_comments, ";", ""), (slash_comments, "//", "")];
+        let found =
+            signs.into_iter().find(|(style, open, _)| **style == Style::Usual && text.starts_with(open));
         found.map(|(_, open, close)| (open.len(), close))
     }
 
@@ -116,7 +62,7 @@ impl Target {
         let digits = line
             .strip_prefix('M')
             .map_or("", |rest| &rest[..rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len())]);
-        let shows = digits.parse().is_ok_and(|code: u16| self.message_codes.contains(&code));
+        let shows = digits.parse().is_ok_and(|code: u16| self.spelling.message_codes.contains(&code));
         if shows { 1 + digits.len() } else { line.len() }
     }
 
@@ -125,7 +71,7 @@ impl Target {
         let mut pieces = Vec::new();
         let mut begins = 0;
         let mut at = 0;
-        if self.titles
+        if self.spelling.percent == Percent::Title
             && let Some(percent) = line.find('%').filter(|at| is_block_number(&line[..*at]))
         {
             return vec![LinePart::Code(&line[..percent]), LinePart::Comment(&line[percent..])];
@@ -213,7 +159,7 @@ impl Checker<'_> {
     }
 
     fn length(&mut self, bare: usize) {
-        let (length, longest) = match self.target.longest {
+        let (length, longest) = match self.target.spelling.line_length {
             Some(LineLength::Bare(longest)) => (bare, longest),
             Some(LineLength::Whole(longest)) => (self.line.len(), longest),
             // The limit for reading it back.
@@ -229,7 +175,7 @@ impl Checker<'_> {
         if self.errors.len() >= MOST_ERRORS {
             return;
         }
-        let diagnostic = diagnostic.quoting("dialect", self.target.name).with("line", self.number);
+        let diagnostic = diagnostic.quoting("dialect", self.target.reader.name()).with("line", self.number);
         let diagnostic = diagnostic.at_line(u32::try_from(self.number).unwrap_or(u32::MAX), None);
         self.errors.push(diagnostic.with_text(TextFault::new(self.line, span)));
     }
@@ -242,7 +188,8 @@ impl Checker<'_> {
     /// Checks a comment, because some bytes act even there.
     fn comment(&mut self, text: &str, start: usize) {
         let acts = |c: char| !c.is_ascii() || matches!(c, '!' | '?' | '~');
-        if let Some((at, c)) = text.char_indices().find(|(_, c)| self.target.has_real_time_bytes && acts(*c))
+        if let Some((at, c)) =
+            text.char_indices().find(|(_, c)| self.target.spelling.real_time_bytes && acts(*c))
         {
             self.reject(start + at..start + at + c.len_utf8());
         }
@@ -254,7 +201,7 @@ impl Checker<'_> {
             let is_first = start + at == 0;
             at += match c {
                 c if c.is_whitespace() => c.len_utf8(),
-                '%' if is_first && self.target.percent => 1,
+                '%' if is_first && self.target.spelling.percent != Percent::Refused => 1,
                 '/' if is_first => 1,
                 c if c.is_ascii_alphabetic() => self.word(&code[at..], start + at),
                 '0'..='9' if self.after_change => self.bare_number(&code[at..]),
@@ -284,16 +231,16 @@ impl Checker<'_> {
         if !self.takes(letter, value) {
             self.reject(start..start + length);
         }
-        self.after_change = self.target.bare_tool_number && letter == b'M' && value == 6.0;
+        self.after_change = self.target.spelling.bare_tool_number && letter == b'M' && value == 6.0;
         length
     }
 
     fn takes(&self, letter: u8, value: f64) -> bool {
-        let words = self.target.words;
+        let words = self.target.rules.words;
         match letter {
             b'G' => tenths(value).is_some_and(|code| words.g(code) != Acceptance::Unknown),
             b'M' => tenths(value).is_some_and(|code| words.m(code) == Acceptance::Taken),
-            b'N' => self.target.line_numbers,
+            b'N' => self.target.spelling.block_numbers.is_some(),
             letter => words.letters.contains(letter),
         }
     }
@@ -312,7 +259,7 @@ fn tenths(value: f64) -> Option<u16> {
 /// Replaces characters that the target or the configuration does not allow. Characters that the target would act on are replaced in
 /// comments; in code they are kept, so that the check reports them. Lines that are not UTF-8 are not changed.
 pub(crate) fn plain(text: &[u8], target: Option<&Target>, charset: Charset) -> Vec<u8> {
-    let is_ascii = charset == Charset::Ascii || target.is_some_and(Target::needs_ascii);
+    let is_ascii = charset == Charset::Ascii || target.is_some_and(|target| target.spelling.real_time_bytes);
     let mut plain = Vec::with_capacity(text.len());
     for line in text.split_inclusive(|&byte| byte == b'\n') {
         match std::str::from_utf8(line) {
@@ -336,10 +283,10 @@ fn plain_line(line: &str, target: Option<&Target>, is_ascii: bool) -> String {
 fn harmless(comment: &str, target: &Target) -> String {
     let is_round = comment.starts_with('(');
     let replace = |(at, c): (usize, char)| match c {
-        '(' if is_round && at > 0 && !target.comments.nested => '[',
-        '!' | '?' if target.has_real_time_bytes => '.',
-        '~' if target.has_real_time_bytes => '-',
-        '%' if !target.percent => '-',
+        '(' if is_round && at > 0 && !target.spelling.nested_comments => '[',
+        '!' | '?' if target.spelling.real_time_bytes => '.',
+        '~' if target.spelling.real_time_bytes => '-',
+        '%' if target.spelling.percent == Percent::Refused => '-',
         c => c,
     };
     comment.char_indices().map(replace).collect()

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::{Instant, SystemTime};
+use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, Listing, MemorySystem, ReadError, WriteOutcome, clean};
+use pathbuild_db::system::{FileKind, Listing, MemorySystem, ReadError, Stamp, WriteOutcome, clean};
 use pathbuild_db::{
     Db as _, Role, SourceFile, System, Target, bug, check_file, file_index, path_names, too_slow,
 };
@@ -309,16 +309,8 @@ impl Files {
 }
 
 impl System for Files {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        self.holding(path).read(path, limit)
-    }
-
-    fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
-        self.holding(path).head(path, length)
-    }
-
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
-        self.given.modified(path)
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+        self.holding(path).read_into(path, limit, room)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

@@ -91,10 +91,10 @@ impl Request<'_> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
-        let mut matches = session.timings().measure(&FINDING, || session.match_arguments(self.inputs));
+        let mut matches = session.timings.measure(&FINDING, || session.match_arguments(self.inputs));
         let query = check_query(self.with_all_values);
         let open = || Memo::open(session, ResultKind::Check, &query, self.inputs, &mut matches);
-        let memo = session.timings().measure(&VERIFYING, open);
+        let memo = session.timings.measure(&VERIFYING, open);
         let mut checked = self.check(session, &matches, &memo)?;
         checked.diagnostics = session.with_hints(checked.diagnostics);
         leak((memo, matches));
@@ -115,7 +115,7 @@ impl Request<'_> {
         }
         let q_projects = session.with_stable_files(|session| compare_q_projects(session, memo, &selection));
         let answers = named.iter().chain(&each).chain(&q_projects);
-        session.timings().measure(&KEEPING, || memo.keep(session, answers.filter_map(Answer::fresh)));
+        session.timings.measure(&KEEPING, || memo.keep(session, answers.filter_map(Answer::fresh)));
         let past = self.since(session, matches);
         let filter = ChangeFilter::new(session, memo, past, each.iter().chain(&q_projects));
         let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };

@@ -36,9 +36,11 @@ pub struct PostProcessor {
     file: Option<Utf8PathBuf>,
     /// Files that it inserts, relative to its directory.
     insertions: Vec<Utf8PathBuf>,
-    tools: ToolTable,
+    /// The configured tools.
+    pub tools: ToolTable,
     macros: Vec<PostMacro>,
-    cycles: bool,
+    /// Whether holes become canned cycles.
+    pub cycles: bool,
     /// Feed in mm/min for cuts without a feed of their own.
     feed: Option<f64>,
     charset: Charset,
@@ -119,10 +121,7 @@ impl PostProcessor {
             let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
             (pathbuild_post::load(name)?, text.as_bytes().to_vec(), None)
         };
-        let macros = context.settings.tables.macros.value.iter();
-        let macros: Vec<_> = macros
-            .map(|configured| PostMacro { name: configured.name.clone(), value: configured.value.clone() })
-            .collect();
+        let macros = context.settings.tables.macros.value.clone();
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
         let system = &*context.system;
         let insertions: Vec<Utf8PathBuf> = post.insertions(&macros).into_iter().collect();
@@ -144,10 +143,7 @@ impl PostProcessor {
             cycles: general.cycles.value,
             feed: general.feed.value,
             most_bytes: context.settings.limits.output_size(),
-            charset: match general.charset.value {
-                types::Charset::Ascii => Charset::Ascii,
-                types::Charset::Utf8 => Charset::Utf8,
-            },
+            charset: general.charset.value,
             arguments,
             machine: machine(context),
             system: Arc::clone(&context.system),
@@ -195,19 +191,9 @@ impl PostProcessor {
         !self.manner.manual_spindle
     }
 
-    /// The configured tools.
-    pub fn tools(&self) -> &ToolTable {
-        &self.tools
-    }
-
     /// The configured feed in mm/min for cuts without a feed of their own.
     pub fn feed(&self) -> Option<f64> {
         self.feed
-    }
-
-    /// Whether holes become canned cycles.
-    pub fn cycles(&self) -> bool {
-        self.cycles
     }
 
     /// Writes a program to be stored in the file `output`. Adds the files that it inserted or failed to insert to `inserted`, even if
@@ -434,22 +420,14 @@ pub fn tool_table(context: &Workspace) -> ToolTable {
 }
 
 fn entry(tool: &types::Tool) -> ToolEntry {
-    let direction = tool.direction.or_else(|| tool.spindle.map(|_| types::Direction::Clockwise));
     ToolEntry {
         name: tool.name.clone(),
         diameter: tool.diameter,
         paths: tool.paths.as_deref().and_then(|pattern| Regex::new(pattern).ok()),
         index: tool.number,
-        spindle: direction.map(|direction| match direction {
-            types::Direction::Clockwise => Turning::Clockwise,
-            types::Direction::Counterclockwise => Turning::CounterClockwise,
-        }),
+        spindle: tool.direction.or_else(|| tool.spindle.map(|_| Turning::Clockwise)),
         speed: tool.spindle,
-        coolant: tool.coolant.map(|coolant| match coolant {
-            types::Coolant::Off => Coolant::OFF,
-            types::Coolant::Mist => Coolant::MIST,
-            types::Coolant::Flood => Coolant::FLOOD,
-        }),
+        coolant: tool.coolant,
     }
 }
 

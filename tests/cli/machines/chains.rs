@@ -6,6 +6,7 @@
 use std::fmt::Write;
 
 use camino::Utf8PathBuf;
+use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_post::{BUILT_IN, Language, load};
@@ -13,7 +14,6 @@ use pathbuild_testkit::sheet;
 use pathbuild_toolpath::{Class, Correction, Program, ProgramStep};
 use pathbuild_workspace::{Inputs, config};
 use rayon::prelude::*;
-use pathbuild_gcode::dialect::{Charset, Dialect};
 
 use super::changes::Dice;
 use super::programs::{Named, of_inputs};

@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 
 use pathbuild_diagnostic::messages::gcode::RETURN_IN_LINE;
 use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret, interpret_each};
 use pathbuild_gcode::native::{self, Header, WriteOptions};
 use pathbuild_gcode::verify::{Against, Checks, Drawn, PostWords, Rules, Stock, ToolUse, coarse_arcs};
@@ -16,7 +17,6 @@ use pathbuild_motion::{Action, Change, Corners, Move, Pace, Position, Spindle, S
 use pathbuild_post::{BUILT_IN, Job, Language, PostOptions, ToolEntry, ToolTable, load, samples};
 use pathbuild_toolpath::{Correction, Program};
 use rayon::prelude::*;
-use pathbuild_gcode::dialect::{Charset, Dialect};
 
 use super::programs::{Named, programs};
 use super::{say, shown, texts};

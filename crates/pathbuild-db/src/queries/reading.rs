@@ -40,20 +40,15 @@ pub(super) fn read<R>(
     let reading = Settings::get(db).reading(db);
     let (path, limit) = (file.path(db), reading.file_size);
     db.scratch().with(|scratch| {
-        let read = catch_bugs(|| {
-            if reading.is_hashed {
-                db.system().read_stamped(path, limit, &mut scratch.bytes)
-            } else {
-                db.system().read_into(path, limit, &mut scratch.bytes).map(|bytes| (bytes, Stamp::UNKNOWN))
-            }
-        })?;
-        let (bytes, stamp) = read.map_err(|error| {
-            Box::new(match error {
-                ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
-                error => error.diagnostic(limit, "file-size"),
-            })
-        })?;
-        Ok(work(bytes, stamp, &mut scratch.drawing))
+        let stamp =
+            catch_bugs(|| db.system().read_into(path, limit, &mut scratch.bytes))?.map_err(|error| {
+                Box::new(match error {
+                    ReadError::IsDirectory => Diagnostic::new(&messages::IS_DIRECTORY),
+                    error => error.diagnostic(limit, "file-size"),
+                })
+            })?;
+        let stamp = if reading.is_hashed { stamp } else { Stamp::UNKNOWN };
+        Ok(work(&scratch.bytes, stamp, &mut scratch.drawing))
     })
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_db::{Role, Settings};
-use pathbuild_path::{KeepOutPattern, Language};
+use pathbuild_path::{Language, LayerPattern};
 use salsa::Setter;
 
 use crate::embedding::component;
@@ -19,7 +19,7 @@ fn with_clamp(y: &str) -> String {
 fn name_clamps(world: &mut World) -> Arc<Language> {
     let settings = Settings::get(&world.db);
     let before = Arc::clone(settings.language(&world.db));
-    let keep_out = KeepOutPattern::new("clamps").ok();
+    let keep_out = LayerPattern::new("clamps").ok();
     settings.set_language(&mut world.db).to(Arc::new(Language { keep_out, ..Language::clone(&before) }));
     before
 }

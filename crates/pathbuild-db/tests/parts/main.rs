@@ -17,7 +17,7 @@ use pathbuild_db::{
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_dxf::Units;
 use pathbuild_path::{
-    DoubtThresholds, FilePattern, Language, LineTypeAliases, PartPattern, PartSettings, PathOptions,
+    DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
     PathPattern,
 };
 use pathbuild_testkit::sheet;
@@ -72,7 +72,7 @@ impl PartTest<'_> {
         }
         let db = Database::new(system);
         let part = PartSettings {
-            pattern: PartPattern::new(self.pattern).unwrap(),
+            pattern: LayerPattern::new(self.pattern).unwrap(),
             tolerance: self.tolerance,
             is_held_otherwise: self.is_held_otherwise,
         };

@@ -77,7 +77,7 @@ impl<'r, 'i> Runner<'r, 'i> {
             self.interpreter.block(&block);
             let line = block.line;
             let is_unwanted = self.interpreter.out.drain(..).try_for_each(&mut *self.each).is_break();
-            if is_unwanted || self.interpreter.has_ended() {
+            if is_unwanted || self.interpreter.ended {
                 return Outcome::Ended;
             }
             if self.depth > 0 {

@@ -23,6 +23,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) stated: StatedProbes,
     /// The steps of the last block.
     pub(super) out: Vec<Step>,
+    /// Whether M2 or M30 has ended the program.
     pub(super) ended: bool,
     /// Where the program goes on after the last block, unless in the next line.
     pub(super) jump: Option<Jump>,
@@ -48,11 +49,6 @@ impl<'i> Interpreter<'i> {
             begins_subprogram: false,
             main_number: None,
         }
-    }
-
-    /// Whether M2 or M30 has ended the program.
-    pub(super) fn has_ended(&self) -> bool {
-        self.ended
     }
 
     /// Returns the problems found, if the file ends in this line.

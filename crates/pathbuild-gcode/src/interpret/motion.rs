@@ -332,7 +332,7 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn select_system(&mut self, block: &Block<'_>, system: WorkSystem, span: Span) {
-        let before = self.state.offsets.active();
+        let before = self.state.offsets.active;
         if before == system {
             return;
         }

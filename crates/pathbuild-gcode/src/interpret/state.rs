@@ -104,7 +104,7 @@ impl State {
 #[derive(Debug)]
 pub(super) struct Offsets {
     systems: [System; 9],
-    active: WorkSystem,
+    pub(super) active: WorkSystem,
     /// G92, which is added to the active system.
     origin: [f64; 3],
     suspended: [f64; 3],
@@ -140,10 +140,6 @@ impl Offsets {
             home: [0, 1].map(|index| configured.map(|offsets| offsets.home[index])),
             is_configured: configured.is_some(),
         }
-    }
-
-    pub(super) fn active(&self) -> WorkSystem {
-        self.active
     }
 
     /// Fixes the current origin as that of all positions.

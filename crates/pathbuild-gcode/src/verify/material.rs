@@ -29,8 +29,8 @@ const VISITS: f64 = 3.0;
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     let mut extent = Extent::default();
     each_known_move(program, &mut |line, movement| extent.add(line, movement, stock));
-    if extent.pieces > stock.most_pieces() {
-        let (line, limit) = (extent.line, stock.most_pieces());
+    if extent.pieces > stock.most_pieces {
+        let (line, limit) = (extent.line, stock.most_pieces);
         return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
             d.with("count", extent.pieces).with("limit", limit).quoting("key", "verify-pieces")
         });

@@ -29,7 +29,7 @@ pub struct Stock {
     /// Maximum number of cells that are visited, counting repeated visits.
     cells: u64,
     /// Maximum number of parts into which arcs and slopes are divided.
-    most_pieces: u64,
+    pub(super) most_pieces: u64,
 }
 
 /// The stock from a line on.
@@ -109,11 +109,6 @@ impl Stock {
     /// Sets the maximum number of parts into which arcs and slopes are divided. (`[limits] verify-pieces`)
     pub fn with_pieces(self, most: u64) -> Self {
         Self { most_pieces: most, ..self }
-    }
-
-    /// Maximum number of parts into which arcs and slopes are divided.
-    pub(super) fn most_pieces(&self) -> u64 {
-        self.most_pieces
     }
 
     /// Maximum number of visited cells.

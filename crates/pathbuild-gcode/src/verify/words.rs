@@ -22,19 +22,19 @@ pub struct PostWords {
     /// G and M words other than motions.
     codes: BTreeSet<(char, u16)>,
     /// The words that it writes before the first move, by group.
-    lead: BTreeMap<Group, u16>,
+    pub(super) lead: BTreeMap<Group, u16>,
     /// Whether it writes T.
-    chooses_tools: bool,
+    pub(super) chooses_tools: bool,
     /// The words by which it goes to machine positions before the first cut.
     first_places: BTreeSet<u16>,
     /// The greatest feed of its rapid moves in mm/min, if it depends on F.
-    rapid_feed: Option<f64>,
+    pub(super) rapid_feed: Option<f64>,
     /// Words that the reader leaves out, where the post's programs are read by its definition.
     others: BTreeSet<String>,
     /// The definition that writes it, where no dialect is named.
     definition: Option<String>,
     /// Whether it lets the control round corners without limit.
-    rounds_freely: bool,
+    pub(super) rounds_freely: bool,
     /// Whether its first move in the plane begins at a height specified by the program; `None` before that move.
     raises_first: Option<bool>,
 }
@@ -137,22 +137,6 @@ impl PostWords {
     /// Whether the post writes a word, with its code multiplied by ten.
     pub fn has(&self, letter: char, code: u16) -> bool {
         self.codes.contains(&(letter, code))
-    }
-
-    pub(super) fn chooses_tools(&self) -> bool {
-        self.chooses_tools
-    }
-
-    pub(super) fn rapid_feed(&self) -> Option<f64> {
-        self.rapid_feed
-    }
-
-    pub(super) fn rounds_freely(&self) -> bool {
-        self.rounds_freely
-    }
-
-    pub(super) fn lead(&self) -> &BTreeMap<Group, u16> {
-        &self.lead
     }
 
     /// Whether the post selects a coordinate system.

@@ -13,8 +13,7 @@ use smol_str::SmolStr;
 
 use pattern::{DefaultPattern, Groups, Pattern};
 
-pub(crate) use pattern::LazyRegex;
-pub use pattern::PatternError;
+pub use pattern::{LayerPattern, PatternError};
 
 /// A path name as spelt by its layer, with points. Comparison ignores case. Short names are stored inline, since every stage passes them
 /// on.

@@ -37,6 +37,10 @@ pub(crate) struct LazyRegex {
     compiled: OnceLock<Regex>,
 }
 
+/// The pattern for names of layers with clamps or with finished parts. It must match the whole name, ignoring case.
+#[derive(Clone, Debug)]
+pub struct LayerPattern(LazyRegex);
+
 /// The reason why a pattern is invalid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PatternError {
@@ -174,6 +178,29 @@ impl LazyRegex {
 
     pub(crate) fn get(&self) -> &Regex {
         self.compiled.get_or_init(|| compile(&self.source).expect("the pattern was checked"))
+    }
+}
+
+impl LayerPattern {
+    /// Creates a pattern from the configuration.
+    ///
+    /// # Errors
+    /// If it is not a valid regular expression.
+    pub fn new(pattern: &str) -> Result<Self, PatternError> {
+        let whole = LazyRegex::new(format!("^(?:{pattern})$"));
+        whole.check()?;
+        Ok(Self(whole))
+    }
+
+    /// Whether the pattern matches a layer.
+    pub fn is_layer(&self, layer: &str) -> bool {
+        self.0.get().is_match(layer)
+    }
+
+    /// The text of the first group that took part in matching a layer.
+    pub(crate) fn captured<'l>(&self, layer: &'l str) -> Option<&'l str> {
+        let captures = self.0.get().captures(layer)?;
+        captures.iter().skip(1).flatten().next().map(|found| found.as_str())
     }
 }
 

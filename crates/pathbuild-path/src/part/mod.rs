@@ -10,30 +10,21 @@ mod leftover;
 mod loose;
 mod prepared;
 
-use std::fmt;
-
 use pathbuild_diagnostic::{Diagnostic, Place};
 use smol_str::SmolStr;
 
 use crate::geometry::{Curve, Placement};
-use crate::names::{LazyRegex, PathName, PatternError};
+use crate::names::{LayerPattern, PathName};
 
 pub use check::{PartFindings, check_parts, check_path};
 pub use cuts::{CutElement, PartCut, PathCuts, StandingBar};
 pub use gouge::cuts_into;
 
-/// The pattern for names of layers with finished parts. It must match the whole name, ignoring case.
-#[derive(Clone)]
-pub struct PartPattern {
-    source: Box<str>,
-    whole: LazyRegex,
-}
-
 /// Settings of the part check.
 #[derive(Clone, Debug)]
 pub struct PartSettings {
     /// The layers with finished parts.
-    pub pattern: PartPattern,
+    pub pattern: LayerPattern,
     /// How far in mm a cut may miss the outline on either side.
     pub tolerance: f64,
     /// Whether something other than support bars holds the parts.
@@ -72,30 +63,6 @@ pub struct DrawnParts {
     pub problems: Vec<Diagnostic>,
 }
 
-impl PartPattern {
-    /// Creates a pattern from the configuration.
-    ///
-    /// # Errors
-    /// If it is not a valid regular expression.
-    pub fn new(pattern: &str) -> Result<Self, PatternError> {
-        let whole = LazyRegex::new(format!("^(?:{pattern})$"));
-        whole.check()?;
-        Ok(Self { source: pattern.into(), whole })
-    }
-
-    /// Whether a layer holds parts.
-    pub fn is_layer(&self, layer: &str) -> bool {
-        self.whole.get().is_match(layer)
-    }
-
-    /// The name of a path captured from the name of a layer, see [`Part::paths`].
-    pub(crate) fn paths(&self, layer: &str) -> Option<SmolStr> {
-        let captures = self.whole.get().captures(layer)?;
-        let name = captures.iter().skip(1).flatten().next()?.as_str();
-        Some(name.replace('_', ".").to_uppercase().into())
-    }
-}
-
 impl Part {
     /// Whether a path may cut the part: by default any path, otherwise the one captured by the pattern, with letters after its name at
     /// most.
@@ -112,11 +79,5 @@ impl Part {
             nest: ring.nest,
         };
         Self { rings: self.rings.iter().map(ring).collect(), ..self.clone() }
-    }
-}
-
-impl fmt::Debug for PartPattern {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "/{}/", self.source)
     }
 }

@@ -44,6 +44,7 @@ pub(crate) struct PathCollector<'d> {
     pub(super) unclear: Vec<UnclearCircle>,
     /// Problems shared by several elements: their index among the diagnostics, and the number of elements.
     pub(super) shared: Vec<SharedProblem>,
+    /// Whether there is anything but texts: layers with texts alone form no path.
     pub(super) has_elements: bool,
 }
 
@@ -121,11 +122,6 @@ impl PathCollector<'_> {
             }
         }
         path
-    }
-
-    /// Whether there is anything but texts: layers with texts alone form no path.
-    pub(crate) fn has_elements(&self) -> bool {
-        self.has_elements
     }
 
     /// The findings about a group of layers with texts only.

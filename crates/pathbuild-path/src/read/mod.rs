@@ -32,7 +32,7 @@ pub use stray::{NearNames, may_be_stray_text, stray_findings};
 /// Finds the paths of a drawing; none if the drawing itself has errors.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     let mut collected = collect::paths(drawing, language);
-    let without_elements = collected.extract_if(.., |path| !path.has_elements()).collect::<Vec<_>>();
+    let without_elements = collected.extract_if(.., |path| !path.has_elements).collect::<Vec<_>>();
     let mut diagnostics = drawing.diagnostics.clone();
     for path in without_elements {
         diagnostics.extend(path.orphans());

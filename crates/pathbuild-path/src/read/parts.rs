@@ -14,7 +14,8 @@ use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::Outline;
 use crate::language::Language;
 use crate::line_type::{LineType, LineTypes};
-use crate::part::{DrawnParts, Part, PartPattern, PartRing};
+use crate::names::LayerPattern;
+use crate::part::{DrawnParts, Part, PartRing};
 use crate::read::entities::{AnyText, at_entity, plane_arc, xy};
 use crate::read::stray::may_be_stray_text;
 
@@ -73,9 +74,10 @@ struct OutlineLayers<'d> {
 }
 
 impl<'d> OutlineLayers<'d> {
-    fn read(drawing: &'d Drawing, language: &Language, pattern: &PartPattern) -> Self {
+    fn read(drawing: &'d Drawing, language: &Language, pattern: &LayerPattern) -> Self {
         let layers: Vec<bool> = drawing.layers.iter().map(|layer| language.is_part(&layer.name)).collect();
-        let paths: Vec<_> = drawing.layers.iter().map(|layer| pattern.paths(&layer.name)).collect();
+        let path = |name: &str| Some(pattern.captured(name)?.replace('_', ".").to_uppercase().into());
+        let paths: Vec<_> = drawing.layers.iter().map(|layer| path(&layer.name)).collect();
         let mut line_types = LineTypes::new(&language.line_types);
         let mut curves: BTreeMap<_, Vec<OutlineCurve>> = BTreeMap::new();
         for (number, entity) in drawing.entities.iter().enumerate() {

@@ -75,7 +75,7 @@ fn folded(name: &str) -> String {
 pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
     let layers = PathLayers::find(drawing, &language.path_pattern);
     let mut paths = collect::paths(drawing, language);
-    paths.retain(PathCollector::has_elements);
+    paths.retain(|path| path.has_elements);
     for path in &mut paths {
         path.assign_texts(language);
         path.texts.prepare();

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Arc, Curve, KeepOut, KeepOutMap, KeepOutPattern, KeepOuts, Language, Line, Way, Xy, keep_outs,
+    Arc, Curve, KeepOut, KeepOutMap, KeepOuts, Language, LayerPattern, Line, Way, Xy, keep_outs,
 };
 use pathbuild_testkit::sheet;
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use crate::support::language;
 
 fn clamps_of(drawing: &str) -> KeepOuts {
-    let language = Language { keep_out: KeepOutPattern::new("clamps?|2000[.]1P").ok(), ..language() };
+    let language = Language { keep_out: LayerPattern::new("clamps?|2000[.]1P").ok(), ..language() };
     let options = Options {
         keep_layer: &|layer| language.is_keep_out(layer),
         note_text: None,

@@ -1,7 +1,7 @@
 //! Things drawn for a path that do not reach it: PB119 and PB120.
 
 use pathbuild_dxf::{Drawing, Options, Units};
-use pathbuild_path::{KeepOutPattern, Language, may_be_stray_text, stray_findings};
+use pathbuild_path::{Language, LayerPattern, may_be_stray_text, stray_findings};
 use pathbuild_testkit::sheet;
 
 use crate::support::{codes, language};
@@ -27,7 +27,7 @@ fn strays(others: &str) -> Vec<String> {
 
 fn strays_with(path: &str, others: &str) -> Vec<String> {
     let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 D4\"\n{path}\n{others}");
-    let language = Language { keep_out: KeepOutPattern::new("Clamps.*").ok(), ..language() };
+    let language = Language { keep_out: LayerPattern::new("Clamps.*").ok(), ..language() };
     codes(&stray_findings(&drawn(&drawing), &language))
 }
 

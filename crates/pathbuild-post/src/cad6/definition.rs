@@ -49,7 +49,7 @@ impl Definition {
         };
         let definition = reader.definition(table.get_ref());
         let mut findings = reader.findings;
-        if !findings.has_error() {
+        if !findings.has_error {
             for doubt in of(&definition, file) {
                 findings.add(doubt);
             }

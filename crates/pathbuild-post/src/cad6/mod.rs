@@ -58,7 +58,7 @@ pub(super) fn write(
     let guard = Guard::new(target, CommentMarks::default(), options.charset);
     let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
     program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
-    let called = runner.called();
+    let called = &runner.called;
     let switches = SWITCHES.iter().copied().filter(|name| definition.uses_in(called, name)).collect();
     let (text, origins, warnings) = runner.finish();
     let shadow = translate(definition, &text, job.units);

@@ -44,7 +44,7 @@ pub(super) struct Runner<'a> {
     fuel: usize,
     pub(super) warnings: Vec<Diagnostic>,
     /// The texts that were called.
-    called: Vec<ControlTextKind>,
+    pub(super) called: Vec<ControlTextKind>,
     /// For each line.
     origins: Vec<LineOrigin>,
 }
@@ -203,11 +203,6 @@ impl<'a> Runner<'a> {
             }
         }
         Box::new(locate(diagnostic, kind, text, span, self.file))
-    }
-
-    /// The distinct texts that were called.
-    pub(super) fn called(&self) -> &[ControlTextKind] {
-        &self.called
     }
 
     /// Returns the content of the file.

@@ -14,7 +14,7 @@ use std::sync::{Arc, LazyLock};
 use pathbuild_diagnostic::{Diagnostic, ElementId, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, ExaminedPath, KeepOut, KeepOutPattern, KeepOuts, Language, LineTypeAliases, Path, PathName,
+    Bindings, ExaminedPath, KeepOut, KeepOuts, Language, LayerPattern, LineTypeAliases, Path, PathName,
     PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file, stray_findings,
 };
 use regex::Regex;
@@ -55,7 +55,7 @@ type Instance = (usize, usize, Bindings);
 pub fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),
-        keep_out: KeepOutPattern::new("clamps").ok(),
+        keep_out: LayerPattern::new("clamps").ok(),
         part: None,
         line_types: LineTypeAliases::default(),
         join_tolerance: 0.0,

@@ -2,10 +2,10 @@
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
+use pathbuild_gcode::statistics::{Summary, statistics};
 use pathbuild_motion::{Axes, Move, Pace, Position, Step};
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
 use pathbuild_toolpath::{Occurrence, Program, StepOrigin, Trace, support_bars};
-use pathbuild_gcode::statistics::{Summary, statistics};
 
 use super::drawn::{DrawnSource, curve_shape, pair};
 use crate::scene::{

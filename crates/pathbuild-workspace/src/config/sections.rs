@@ -68,7 +68,10 @@ macro_rules! section {
 pub mod general {
     use camino::Utf8PathBuf;
     use pathbuild_diagnostic::Lang;
+    use pathbuild_dxf::Units;
+    use pathbuild_gcode::dialect::Charset;
     use pathbuild_path::{FilePattern, PathPattern};
+    use pathbuild_toolpath::ZModel;
 
     use crate::config::arguments::OptionValues::{
         Directories as SearchDirectories, Directory, Switch, Text, Texts,
@@ -79,9 +82,7 @@ pub mod general {
         RESTRICTIONS, SWITCH, choice,
     };
     use crate::config::table_kinds::POST;
-    use crate::config::types::{
-        Charset, Directories, PartHolding, PostChoice, Restriction, SpindleControl, Units, ZModel,
-    };
+    use crate::config::types::{Directories, PartHolding, PostChoice, Restriction, SpindleControl};
 
     /// Like [`section!`], for keys that command-line options can override. Such a key adds its option: position among the common options
     /// in the help, parser, values, and help in both languages.
@@ -300,9 +301,10 @@ pub mod machine {
 /// Tables with user-defined keys.
 pub mod tables {
     use pathbuild_diagnostic::Code;
+    use pathbuild_post::PostMacro;
 
     use crate::config::table_kinds::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
-    use crate::config::types::{Level, LineTypeAlias, Macro, SeveritiesIn, Tool};
+    use crate::config::types::{Level, LineTypeAlias, SeveritiesIn, Tool};
 
     section! {
         /// further names: name in the drawing = one of the known line types
@@ -316,7 +318,7 @@ pub mod tables {
         tools: Vec<Tool> = "tool", TOOLS, Vec::new(),
             "[tool.2mm]\ndiameter = 2\nnumber = 1\npaths = '[A-Z]$'\nspindle = 12000\ndirection = \"cw\"\ncoolant = \"off\"", Emit;
         /// texts for post-processors: a macro {$name}, or ~name~ in control texts; they take precedence over the definition's
-        macros: Vec<Macro> = "macros", MACROS, Vec::new(), "[macros]\noperator = \"anna\"", Emit;
+        macros: Vec<PostMacro> = "macros", MACROS, Vec::new(), "[macros]\noperator = \"anna\"", Emit;
     }
 }
 

@@ -5,12 +5,13 @@ use std::fmt::Debug;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::ConfinedSystem;
 use pathbuild_diagnostic::Lang;
+use pathbuild_toolpath::ZModel;
 use toml::de::DeTable;
 
 use super::origin::{Origin, ResultKind};
 use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, warnings, watch};
-use super::types::{Severities, ZModel};
+use super::types::Severities;
 
 /// The settings of a run, each with its source.
 #[derive(Clone, Debug)]

@@ -13,7 +13,9 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::kinds::{COUNT, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::reader::{Table, TomlReader, ValueType};
-use crate::config::types::{Coolant, Direction, Level, LineTypeAlias, Macro, PostChoice, SeveritiesIn, Tool};
+use crate::config::types::{Level, LineTypeAlias, PostChoice, SeveritiesIn, Tool};
+use pathbuild_motion::{Coolant, Turning};
+use pathbuild_post::PostMacro;
 
 /// Aliases of line types.
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
@@ -116,7 +118,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
                 "paths": (REGEX.schema)(),
                 "number": (COUNT.schema)(),
                 "spindle": (POSITIVE.schema)(),
-                "direction": choice_schema::<Direction>(),
+                "direction": choice_schema::<Turning>(),
                 "coolant": choice_schema::<Coolant>(),
             },
         } })
@@ -159,7 +161,7 @@ pub(in crate::config) const POST: ValueType<PostChoice> = ValueType {
 };
 
 /// Macros for post-processors.
-pub(in crate::config) const MACROS: ValueType<Vec<Macro>> = ValueType {
+pub(in crate::config) const MACROS: ValueType<Vec<PostMacro>> = ValueType {
     read: |value, reader| {
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| post_macro(entry, reader)).collect())
@@ -188,9 +190,9 @@ fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Li
     Some(LineTypeAlias { name: (**name.get_ref()).into(), line_type })
 }
 
-fn post_macro((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Macro> {
+fn post_macro((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<PostMacro> {
     let text = reader.within(name.get_ref(), |reader| reader.text(value))?;
-    Some(Macro { name: (**name.get_ref()).into(), value: text.into() })
+    Some(PostMacro { name: (**name.get_ref()).into(), value: text.into() })
 }
 
 fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<(Code, Level)> {
@@ -254,7 +256,7 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let paths = table.take("paths", &REGEX).map(|value| value.value);
     let number = table.take("number", &COUNT).and_then(|value| u32::try_from(value.value).ok());
     let spindle = table.take("spindle", &POSITIVE).and_then(|value| value.value);
-    let direction = table.take("direction", &choice::<Direction>()).map(|value| value.value);
+    let direction = table.take("direction", &choice::<Turning>()).map(|value| value.value);
     let coolant = table.take("coolant", &choice::<Coolant>()).map(|value| value.value);
     Some(Tool { name: name.into(), diameter: diameter?, paths, number, spindle, direction, coolant })
 }

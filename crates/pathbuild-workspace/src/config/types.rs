@@ -4,7 +4,11 @@ use camino::{Utf8Path, Utf8PathBuf};
 use globset::{GlobBuilder, GlobSet};
 use pathbuild_diagnostic::limits::text_too_long;
 use pathbuild_diagnostic::{Code, Lang, Severity, Value};
+use pathbuild_dxf::Units;
+use pathbuild_gcode::dialect::Charset;
+use pathbuild_motion::{Coolant, Turning};
 use pathbuild_path::LineType;
+use pathbuild_toolpath::ZModel;
 
 /// Declares a choice: an enum with the texts that stand for its variants.
 macro_rules! choice {
@@ -25,46 +29,34 @@ pub(crate) trait Choice: Copy + PartialEq + 'static {
     const ALL: &[(&str, Self)];
 }
 
+impl Choice for Units {
+    const ALL: &[(&str, Self)] =
+        &[("header", Self::Header), ("drawing", Self::Drawing), ("mm", Self::Millimetres)];
+}
+
+impl Choice for Charset {
+    const ALL: &[(&str, Self)] = &[("ascii", Self::Ascii), ("utf-8", Self::Utf8)];
+}
+
+impl Choice for ZModel {
+    const ALL: &[(&str, Self)] = &[("idw4", Self::Idw4), ("plane", Self::Plane), ("tin", Self::Tin)];
+}
+
+/// The directions in which a tool may turn.
+impl Choice for Turning {
+    const ALL: &[(&str, Self)] = &[("cw", Self::Clockwise), ("ccw", Self::CounterClockwise)];
+}
+
+impl Choice for Coolant {
+    const ALL: &[(&str, Self)] = &[("off", Self::OFF), ("mist", Self::MIST), ("flood", Self::FLOOD)];
+}
+
 impl Choice for LineType {
     const ALL: &[(&str, Self)] = &Self::NAMES;
 }
 
 impl Choice for Lang {
     const ALL: &[(&str, Self)] = &[("en", Self::En), ("de", Self::De)];
-}
-
-choice! {
-    /// Unit of the numbers in a drawing.
-    Units {
-        /// Millimetres; a header with another unit is an error.
-        Header = "header",
-        /// The unit in the header; numbers are converted.
-        Drawing = "drawing",
-        /// Millimetres, whatever the header says.
-        Millimetres = "mm",
-    }
-}
-
-choice! {
-    /// Character set of written files.
-    Charset {
-        /// ASCII; other characters are transliterated.
-        Ascii = "ascii",
-        /// UTF-8.
-        Utf8 = "utf-8",
-    }
-}
-
-choice! {
-    /// How heights are interpolated between probes. (book: language/probes)
-    ZModel {
-        /// Inverse distance weighting of the nearest four probes.
-        Idw4 = "idw4",
-        /// Least-squares plane.
-        Plane = "plane",
-        /// Triangulation.
-        Tin = "tin",
-    }
 }
 
 choice! {
@@ -100,28 +92,6 @@ choice! {
         Warning = "warning",
         /// Not reported.
         Ignore = "ignore",
-    }
-}
-
-choice! {
-    /// Direction of rotation of the spindle.
-    Direction {
-        /// Clockwise.
-        Clockwise = "cw",
-        /// Counterclockwise.
-        Counterclockwise = "ccw",
-    }
-}
-
-choice! {
-    /// Coolant that a tool needs while it cuts.
-    Coolant {
-        /// No coolant.
-        Off = "off",
-        /// Mist.
-        Mist = "mist",
-        /// Flood.
-        Flood = "flood",
     }
 }
 
@@ -238,7 +208,7 @@ pub struct Tool {
     /// Spindle speed in 1/min.
     pub spindle: Option<f64>,
     /// Direction of rotation; `None` means clockwise, or the operator's choice if there is no speed either.
-    pub direction: Option<Direction>,
+    pub direction: Option<Turning>,
     /// Coolant; `None` leaves the choice to the operator.
     pub coolant: Option<Coolant>,
 }
@@ -278,15 +248,6 @@ choice! {
         /// Milliseconds, which Mach3 can be set to (Config > Logic).
         Milliseconds = "milliseconds",
     }
-}
-
-/// A text that post-processors insert by name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Macro {
-    /// Name in post definitions.
-    pub name: Box<str>,
-    /// The inserted text.
-    pub value: Box<str>,
 }
 
 /// Travel of an axis in mm, in coordinates of the emitted program.

@@ -7,16 +7,16 @@ use std::sync::Arc;
 
 use pathbuild_db::MissingOption;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_gcode::dialect::{Charset, Dialect};
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::WriteOptions;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::verify::Machine;
 use pathbuild_post::ToolTable;
-use pathbuild_toolpath::{Correction, Program, Total, ZModel};
+use pathbuild_toolpath::{Correction, Program, Total};
 
 use super::outcome::Task;
-use crate::config::{Settings, types};
+use crate::config::Settings;
 use crate::posting::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
@@ -92,22 +92,9 @@ pub fn writing(context: &Workspace) -> WriteSettings {
 /// Settings for writing native programs.
 fn write_options(context: &Workspace) -> WriteOptions {
     let general = &context.settings.general;
-    let charset = match general.charset.value {
-        types::Charset::Ascii => Charset::Ascii,
-        types::Charset::Utf8 => Charset::Utf8,
-    };
     let rapid = general.rapid.value.unwrap_or_default();
-    WriteOptions { lang: context.settings.comment_lang(), charset, rapid, correction: correction(context) }
-}
-
-/// How heights are corrected between probes.
-fn correction(context: &Workspace) -> Correction {
-    let model = match context.settings.general.z_model.value {
-        types::ZModel::Idw4 => ZModel::Idw4,
-        types::ZModel::Plane => ZModel::Plane,
-        types::ZModel::Tin => ZModel::Tin,
-    };
-    Correction { model, longest: context.settings.z_split() }
+    let correction = Correction { model: general.z_model.value, longest: context.settings.z_split() };
+    WriteOptions { lang: context.settings.comment_lang(), charset: general.charset.value, rapid, correction }
 }
 
 /// How programs are written: natively or through a post-processor.

@@ -157,9 +157,9 @@ impl<'a> CatalogueBuilder<'a> {
     fn further_file(&mut self, ExtraInput { path, hash }: &ExtraInput) -> usize {
         let mut room = Vec::new();
         let limit = self.session.workspace().settings.limits.file_size.value;
-        let now = self.session.db().system().read_stamped(path, limit, &mut room);
-        let stamp = now.ok().filter(|(bytes, _)| Some(*blake3::hash(bytes).as_bytes()) == *hash);
-        let stamp = stamp.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp);
+        let stamp = self.session.db().system().read_into(path, limit, &mut room).ok();
+        let stamp =
+            stamp.filter(|_| Some(*blake3::hash(&room).as_bytes()) == *hash).unwrap_or(Stamp::UNKNOWN);
         let number = self.new_file(path, hash.map(|hash| (hash, stamp)));
         let fact = &mut self.catalogue.files[number];
         if fact.hash != *hash {

@@ -232,9 +232,7 @@ fn verify_snapshot(
     let read = |file: &Utf8Path, is_output: bool| {
         let mut room = Vec::new();
         let limit = if is_output { limits.output_size.value } else { limits.file_size.value };
-        let (bytes, stamp) = system.read_stamped(file, limit, &mut room).ok()?;
-        let length = bytes.len();
-        room.truncate(length);
+        let stamp = system.read_into(file, limit, &mut room).ok()?;
         Some((room, stamp))
     };
     let confined = workspace.settings.confined.as_ref();

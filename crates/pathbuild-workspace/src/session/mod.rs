@@ -46,7 +46,8 @@ pub struct Session<'a> {
     /// Progress display over all batches. Without one, each parallel loop shows its own.
     progress: Option<Box<dyn Advance>>,
     workers: OnceLock<Option<Workers>>,
-    timings: Timings,
+    /// Time spent, by phase.
+    pub timings: Timings,
 }
 
 /// Upper bound on repetitions of work during which drawings changed. A drawing that keeps changing is then reported.
@@ -113,11 +114,6 @@ impl<'a> Session<'a> {
     /// The database.
     pub fn db(&self) -> &Database {
         &self.db
-    }
-
-    /// Time spent, by phase.
-    pub fn timings(&self) -> &Timings {
-        &self.timings
     }
 
     /// The drawing with this path.

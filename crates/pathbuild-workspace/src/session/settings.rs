@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use pathbuild_db::{Database, Limits, Reading, Settings};
-use pathbuild_dxf::Units;
 use pathbuild_path::{
-    DoubtThresholds, FilePattern, KeepOutPattern, Language, LineTypeAliases, PartPattern, PartSettings,
-    PathOptions, PathPattern, Restriction,
+    DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
+    PathPattern, Restriction,
 };
 
 use super::normal;
@@ -19,7 +18,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let reading = reading(&context.settings, is_hashed);
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
-        keep_out: general.keep_out.value.as_deref().and_then(|pattern| KeepOutPattern::new(pattern).ok()),
+        keep_out: general.keep_out.value.as_deref().and_then(|pattern| LayerPattern::new(pattern).ok()),
         part: part(general),
         line_types: aliases(context),
         join_tolerance: general.join_tolerance.value,
@@ -43,7 +42,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
 
 fn part(general: &config::sections::general::Settings) -> Option<PartSettings> {
     Some(PartSettings {
-        pattern: PartPattern::new(general.part.value.as_deref()?).ok()?,
+        pattern: LayerPattern::new(general.part.value.as_deref()?).ok()?,
         tolerance: general.part_tolerance.value,
         is_held_otherwise: general.part_held.value == types::PartHolding::Otherwise,
     })
@@ -54,11 +53,7 @@ pub fn reading(settings: &config::Settings, is_hashed: bool) -> Reading {
     let (general, limits) = (&settings.general, &settings.limits);
     let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
     Reading {
-        units: match general.units.value {
-            types::Units::Header => Units::Header,
-            types::Units::Drawing => Units::Drawing,
-            types::Units::Millimetres => Units::Millimetres,
-        },
+        units: general.units.value,
         approximate_curves: general.approximate_curves.value,
         file_size: limits.file_size.value,
         entities: count(limits.entities.value),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicI64, Ordering};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
@@ -98,25 +98,12 @@ impl Mischief {
 }
 
 impl System for Mischief {
-    fn read(&self, path: &Utf8Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        self.around(path, || OsSystem.read(path, limit))
-    }
-
-    fn read_stamped<'r>(
-        &self,
-        path: &Utf8Path,
-        limit: u64,
-        room: &'r mut Vec<u8>,
-    ) -> Result<(&'r [u8], Stamp), ReadError> {
-        self.around(path, || OsSystem.read_stamped(path, limit, room))
+    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+        self.around(path, || OsSystem.read_into(path, limit, room))
     }
 
     fn head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
         OsSystem.head(path, length)
-    }
-
-    fn modified(&self, path: &Utf8Path) -> Option<SystemTime> {
-        OsSystem.modified(path)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {

@@ -31,7 +31,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let request = Request { inputs: &args.inputs, with_all_values: args.all_bindings, changed };
     let mut session = request.session(context);
     if args.timings {
-        session.timings().switch_on();
+        session.timings.switch_on();
     }
     let checked = match request.run(&mut session) {
         Ok(checked) => checked,
@@ -44,7 +44,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     };
     let status = conclude(context, args, checked, begun.elapsed());
     if args.timings {
-        for line in session.timings().lines(context.lang()) {
+        for line in session.timings.lines(context.lang()) {
             context.printer.status(line);
         }
     }

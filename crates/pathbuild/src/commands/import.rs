@@ -5,8 +5,8 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, in_prose, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
-use serde_json::{Value, json};
 use pathbuild_gcode::statistics::{Extent, MoveTotals, Summary, Tally, Used, is_guess};
+use serde_json::{Value, json};
 
 use super::program::Program;
 use crate::args::{Format, ImportArgs};

@@ -160,7 +160,7 @@ fn output(
     if let Some(feed) = post_processor.feed() {
         job.set_missing_feeds(feed);
     }
-    let unknown = complete_tools(&mut job, post_processor.tools());
+    let unknown = complete_tools(&mut job, &post_processor.tools);
     let mut output = post_processor.write(&job, to, &mut Vec::new())?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
     Ok(output)

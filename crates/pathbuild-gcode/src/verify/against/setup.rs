@@ -78,7 +78,7 @@ impl<'w> Setup<'w> {
             tool
         };
         let spin_up = if dialect == Dialect::Native { 0.0 } else { spin_up };
-        let missing = words.lead().clone();
+        let missing = words.lead.clone();
         Self {
             dialect,
             words,
@@ -156,13 +156,13 @@ impl<'w> Setup<'w> {
                     Corners::Rounded(Some(most)) if !(most > 0.0 && most <= CORNERS) => {
                         extra(line, "G64 P".to_owned(), problems);
                     }
-                    Corners::Rounded(None) if self.words.rounds_freely() => {}
+                    Corners::Rounded(None) if self.words.rounds_freely => {}
                     Corners::Rounded(None) => extra(line, "G64".to_owned(), problems),
                     Corners::Rounded(Some(_)) | Corners::Exact => {}
                 }
             }
             Change::RapidFeed(feed) => {
-                let most = self.words.rapid_feed().unwrap_or(f64::INFINITY);
+                let most = self.words.rapid_feed.unwrap_or(f64::INFINITY);
                 if feed == 0.0 {
                     problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "F"));
                 } else if feed > most + SAME_SPEED {
@@ -182,7 +182,7 @@ impl<'w> Setup<'w> {
 
     fn select(&mut self, line: u32, number: u32, problems: &mut Problems) {
         self.selected = Some(number);
-        if !self.words.chooses_tools() && self.has_post() {
+        if !self.words.chooses_tools && self.has_post() {
             return extra(line, "T".to_owned(), problems);
         }
         let expected = *self.expected.number.get_or_insert(number);
@@ -240,7 +240,7 @@ impl<'w> Setup<'w> {
 
     /// Whether there is a post that writes such programs.
     fn has_post(&self) -> bool {
-        !self.words.lead().is_empty()
+        !self.words.lead.is_empty()
     }
 
     /// Checks that what the post writes before the first move is present.
@@ -258,7 +258,7 @@ impl<'w> Setup<'w> {
         let fits =
             |chosen| !self.dialect.rules().layers || self.expected.number.is_none_or(|it| it == chosen);
         let is_chosen = chosen.is_some_and(fits);
-        if !is_chosen && self.words.chooses_tools() && !std::mem::replace(&mut self.reported.tool, true) {
+        if !is_chosen && self.words.chooses_tools && !std::mem::replace(&mut self.reported.tool, true) {
             let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));
             problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.quoting("expected", expected));
         }
