@@ -2,14 +2,15 @@
 
 use camino::Utf8Path;
 use insta::assert_snapshot;
-use pathbuild::args::Format;
+use pathbuild::render::Format;
 use pathbuild::render::View;
-use pathbuild::report::{CheckedFile, Findings};
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{
     Diagnostic, ElementId, EntityKind, Handle, Lang, Point, TextFault, TraceStep, Value,
 };
 use pathbuild_path::PathName;
+use pathbuild_workspace::check::CheckedFile;
+use pathbuild_workspace::findings::Findings;
 
 /// One with everything that a diagnostic can have, and one with as little as possible.
 fn findings() -> Findings {

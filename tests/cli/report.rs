@@ -4,14 +4,17 @@
 use std::time::Duration;
 
 use camino::Utf8Path;
-use pathbuild::report::{CheckedFile, Findings, Fingerprint, judge, summary};
+use pathbuild::render::Fingerprint;
+use pathbuild::report::summary;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{
     Diagnostic, ElementId, EntityKind, Handle, Lang, Point, Severity, TextFault, TraceStep,
 };
 use pathbuild_path::PathName;
 use pathbuild_workspace::Inputs;
+use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::config::{self, Overrides};
+use pathbuild_workspace::findings::{Findings, judge};
 
 fn diagnostic() -> Diagnostic {
     Diagnostic::new(&files::NOT_DXF)

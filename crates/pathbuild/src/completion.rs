@@ -1,32 +1,21 @@
 //! Dynamic shell completion of path names, posts, dialects and codes. The script printed by `completions` calls the program whenever the
 //! user presses the tab key, with an environment variable set.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsStr;
 
 use clap_complete::engine::ValueCompleter;
-use clap_complete::env::CompleteEnv;
 use clap_complete::{ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter};
 use pathbuild_diagnostic::{Code, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_post::BUILT_IN;
+use pathbuild_workspace::Inputs;
+use pathbuild_workspace::config::Overrides;
 use pathbuild_workspace::session::Session;
 
-use crate::args::{Cli, Command, CommonArgs};
-use crate::exit::ExitStatus;
-use crate::{context_of, german, lang_of};
+use crate::environment;
 
 /// Environment variable that requests completions.
 pub(crate) const VARIABLE: &str = "PATHBUILD_COMPLETE";
-
-/// Answers a completion request of a shell; `None` if this is an ordinary run.
-pub(crate) fn answer(arguments: &[OsString]) -> Option<ExitStatus> {
-    let definition = || german::command(lang_of(arguments));
-    match CompleteEnv::with_factory(definition).var(VARIABLE).try_complete(arguments, None) {
-        Ok(false) => None,
-        Ok(true) => Some(ExitStatus::Success),
-        Err(_) => Some(ExitStatus::Usage),
-    }
-}
 
 /// Completes names of paths, drawings and directories.
 pub(crate) fn paths() -> ArgValueCompleter {
@@ -78,13 +67,15 @@ fn is_harmless(name: &str) -> bool {
 
 /// Paths of the working directory's library that begin with the current word.
 fn path_names(current: &OsStr) -> Vec<CompletionCandidate> {
-    let cli = Cli { command: Command::Man, common: CommonArgs { quiet: 2, ..CommonArgs::default() } };
-    let (context, faults) = context_of(&cli);
+    let (user, mut faults) = environment::user();
+    let overrides = Overrides { trusted: user.trusted.clone(), ..Overrides::default() };
+    let (workspace, more) = environment::workspace(&overrides, &user, &Inputs::default());
+    faults.extend(more);
     if !faults.is_empty() {
         return Vec::new();
     }
     let begin = current.to_string_lossy().to_lowercase();
-    let names = Session::new(&context).names_of_library().into_iter();
+    let names = Session::new(&workspace).names_of_library().into_iter();
     let matching = names.filter(|name| name.as_str().to_lowercase().starts_with(&begin));
     matching
         .filter(|name| is_harmless(name.as_str()))

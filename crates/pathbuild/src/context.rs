@@ -2,22 +2,21 @@
 
 use std::ops::Deref;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use camino::Utf8Path;
-use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
-use pathbuild_diagnostic::Diagnostic;
-use pathbuild_workspace::config::{self, Overrides, Settings};
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_workspace::config::{self, Overrides};
+use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::{Inputs, Workspace, files};
 use serde_json::Value;
 
-use crate::args::{Cli, Format};
+use crate::args::Cli;
+use crate::environment::{self, system_of};
 use crate::exit::ExitStatus;
 use crate::output::Output;
 use crate::printer::{Printer, Stream};
-use crate::render::{View, json as lines, render};
-use crate::report::Findings;
+use crate::render::{Format, View, json as lines, render};
 use crate::usage;
 
 /// Everything that a command needs besides its arguments.
@@ -44,10 +43,48 @@ impl Deref for Context {
 }
 
 impl Context {
-    /// The context of a command line.
+    /// The context of a command line in this workspace.
     pub fn new(cli: &Cli, overrides: Overrides, printer: Rc<Printer>, workspace: Workspace) -> Self {
         let output = Output::new(&cli.command, &cli.common);
         Self { printer, format: output.format, output, overrides, workspace }
+    }
+
+    /// The context of a command line in the working directory. Also returns diagnostics of the configuration.
+    pub fn of(cli: &Cli) -> (Self, Vec<Diagnostic>) {
+        let Cli { command, common } = cli;
+        let (user, mut faults) = environment::user();
+        let overrides = Overrides { trusted: user.trusted.clone(), ..common.overrides() };
+        let (workspace, more) = environment::workspace(&overrides, &user, &command.inputs());
+        faults.extend(more);
+        let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
+        let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
+        let cache_home = || {
+            environment::cache_home(common.cache_dir.as_deref(), user.cache_dir, &workspace.working_directory)
+        };
+        let workspace = Workspace {
+            cache: if common.no_cache { None } else { cache_home() },
+            own_lang: common.lang.map(Lang::from).or(workspace.own_lang),
+            jobs: common.jobs,
+            reporter: printer.clone(),
+            ..workspace
+        };
+        (Self::new(cli, overrides, printer, workspace), faults)
+    }
+
+    /// Why options or the environment ask for something impossible.
+    pub(crate) fn refusal(&self) -> Option<String> {
+        self.output.refusal(self).or_else(|| environment::refusal(self))
+    }
+
+    /// Warns if the working directory's configuration does not apply to this run.
+    pub(crate) fn warn_about_unused_configuration(&self) {
+        if let Some(file) = self.unused_configuration() {
+            self.printer.status(self.phrase(
+                "note: {} does not apply to files outside its tree (give --config {} to apply it); no other configuration was found",
+                "Hinweis: {} gilt nicht für Dateien außerhalb ihres Verzeichnisbaums (mit --config {} gilt sie doch); eine andere Konfiguration wurde nicht gefunden",
+                file.as_str(),
+            ));
+        }
     }
 
     /// A workspace for another tree, with that tree's configuration and without a cache. Also returns diagnostics of that configuration.
@@ -201,13 +238,5 @@ impl Context {
             width: self.printer.width(stream),
             ..self.plain_view()
         }
-    }
-}
-
-/// The files that a run with these settings may access.
-pub(crate) fn system_of(settings: &Settings) -> Arc<dyn System> {
-    match &settings.confined {
-        Some(confined) => Arc::new(confined.clone()),
-        None => OsSystem::shared(),
     }
 }

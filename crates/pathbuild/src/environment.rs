@@ -1,18 +1,58 @@
-//! Locations of the user's configuration and cache, and the user's language. (book: reference/configuration)
+//! What a run takes from its environment: the working directory, the user's configuration, cache and language. (book: reference/configuration)
 #![expect(
     clippy::disallowed_methods,
     reason = "the environment tells where the user's own files are; no result depends on them"
 )]
 
 use std::env::{self, VarError};
+use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::Lang;
-use pathbuild_workspace::config::clean;
-use pathbuild_workspace::{CacheHome, Workspace};
+use pathbuild_db::System;
+use pathbuild_db::system::{OsSystem, spelt};
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_workspace::config::{self, Overrides, Settings, User, clean};
+use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
 /// Names the cache directory, like `--cache-dir`.
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
+
+/// The user's own settings, with diagnostics of their file.
+pub(crate) fn user() -> (User, Vec<Diagnostic>) {
+    user_configuration().map(|file| User::load(&OsSystem, &file)).unwrap_or_default()
+}
+
+/// A workspace in the working directory for these inputs, which caches and reports nothing. Also returns diagnostics of the configuration.
+pub(crate) fn workspace(overrides: &Overrides, user: &User, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
+    let working_directory = working_directory();
+    let (settings, faults) = config::load(&OsSystem::shared(), overrides, inputs, &working_directory);
+    let workspace = Workspace {
+        system: system_of(&settings),
+        settings,
+        own_lang: lang().or(user.lang),
+        system_lang: system_lang(),
+        working_directory,
+        jobs: None,
+        cache: None,
+        reporter: Rc::new(SilentReporter),
+    };
+    (workspace, faults)
+}
+
+/// The working directory; empty if it is unknown or not UTF-8, so that relative names stay relative.
+pub(crate) fn working_directory() -> Utf8PathBuf {
+    let directory = env::current_dir().ok();
+    directory.and_then(|directory| Utf8PathBuf::from_path_buf(directory).ok()).map(spelt).unwrap_or_default()
+}
+
+/// The files that a run with these settings may access.
+pub(crate) fn system_of(settings: &Settings) -> Arc<dyn System> {
+    match &settings.confined {
+        Some(confined) => Arc::new(confined.clone()),
+        None => OsSystem::shared(),
+    }
+}
 
 /// Path of the user's `config.toml`, whether it exists or not; `None` if its directory is unknown.
 pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
@@ -28,12 +68,12 @@ pub(crate) fn user_configuration() -> Option<Utf8PathBuf> {
 }
 
 /// Language chosen by `PATHBUILD_LANG`: `de`, `en`, or the name of a locale such as `de_AT.UTF-8`.
-pub(crate) fn lang() -> Option<Lang> {
+fn lang() -> Option<Lang> {
     named_lang(&env::var("PATHBUILD_LANG").ok()?)
 }
 
 /// Language of the system's locale: from the POSIX variables on every system, else the user's language on Windows and macOS.
-pub(crate) fn system_lang() -> Option<Lang> {
+fn system_lang() -> Option<Lang> {
     let variables = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter();
     let named = variables.filter_map(|variable| env::var(variable).ok()).find(|name| !name.is_empty());
     named_lang(&named.or_else(sys_locale::get_locale)?)

@@ -5,12 +5,11 @@ use std::cell::RefCell;
 use serde_json::{Map, Value, json};
 
 use pathbuild_workspace::Workspace;
+use pathbuild_workspace::findings::Findings;
 
-use crate::args::{Command, CommonArgs, Format, ReportFile};
-use crate::context::Context;
+use crate::args::{Command, CommonArgs, ReportFile};
 use crate::printer::Stream;
-use crate::render::{RenderedText, View, json as lines, page, render};
-use crate::report::{Findings, pictures};
+use crate::render::{Format, RenderedText, View, json as lines, page, pictures, render};
 
 /// The document of a run, with everything to be written at its end.
 #[derive(Debug)]
@@ -113,9 +112,9 @@ impl Output {
     }
 
     /// An HTML report.
-    pub(crate) fn page(&self, context: &Context, view: &View) -> RenderedText {
+    pub(crate) fn page(&self, workspace: &Workspace, view: &View) -> RenderedText {
         let found = self.found.borrow();
-        page(&found, &pictures(context, &found.diagnostics), view)
+        page(&found, &pictures(workspace, &found.diagnostics), view)
     }
 
     /// The text of a report.

@@ -6,10 +6,9 @@ use std::time::Duration;
 use crate::args::{Cli, WatchArgs};
 use crate::commands::watch;
 use crate::context::Context;
-use crate::environment::user_configuration;
+use crate::environment::{user_configuration, working_directory};
 use crate::exit::ExitStatus;
 use crate::serving::Server;
-use crate::{context_of, refusal, warn_about_unused_configuration, working_directory};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::shown;
 
@@ -25,18 +24,18 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     let home = working_directory();
     loop {
         if has_begun && !is_back(cli, &home, server.as_ref()) {
-            return context_of(cli).0.printer.finish(ExitStatus::Success);
+            return Context::of(cli).0.printer.finish(ExitStatus::Success);
         }
         // Taken before the configuration is read, so that later changes are noticed.
-        let sources = Sources::of(&context_of(cli).0);
-        let (context, faults) = context_of(cli);
-        if let Some(refusal) = refusal(&context) {
+        let sources = Sources::of(&Context::of(cli).0);
+        let (context, faults) = Context::of(cli);
+        if let Some(refusal) = context.refusal() {
             let status = context.usage(&refusal);
             return context.printer.finish(status);
         }
         if !has_begun && server.is_none() {
             context.begin();
-            warn_about_unused_configuration(&context);
+            context.warn_about_unused_configuration();
             match Server::start(&context, &args.serving) {
                 Ok(started) => server = started,
                 Err(reason) => return context.printer.finish(context.usage(&reason)),
@@ -69,7 +68,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                     "the configuration or its post-processor is missing or invalid: nothing is checked until this is fixed",
                     "die Konfiguration oder ihr Postprozessor fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
                 ));
-                while Sources::of(&context_of(cli).0) == sources {
+                while Sources::of(&Context::of(cli).0) == sources {
                     if server.as_ref().is_some_and(Server::is_over) {
                         return context.printer.finish(ExitStatus::Success);
                     }
@@ -95,7 +94,7 @@ fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     if enter(home) || is_named && is_configured && !inputs.inputs.is_empty() {
         return true;
     }
-    let (context, _) = context_of(cli);
+    let (context, _) = Context::of(cli);
     let line = context.phrase(
         "the working directory {} is missing: nothing is checked until it is there again",
         "das Arbeitsverzeichnis {} fehlt: nichts wird geprüft, bis es wieder da ist",

@@ -7,8 +7,7 @@ use clap_complete::env::Shells;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_workspace::Inputs;
 
-use super::InputArgs;
-use super::shared::Address;
+use super::shared::{Address, InputArgs};
 use crate::completion;
 
 /// `pathbuild check`

@@ -1,23 +1,18 @@
 //! Arguments that several commands share, and the types of their values.
 
-use std::ffi::OsString;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::ops::Deref;
 
-use camino::{Utf8Path, Utf8PathBuf};
-use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{
-    Arg, ArgAction, ArgMatches, Args, Command as Definition, CommandFactory, Error, FromArgMatches,
-    Subcommand, ValueEnum,
-};
+use camino::Utf8PathBuf;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command as Definition, Error, FromArgMatches, ValueEnum};
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{GivenOptions, OptionValues, Overrides, SettingOption};
 
-use super::{Cli, Command};
 use crate::completion;
 use crate::printer::{ColorChoice, Verbosity};
+use crate::render::Format;
 
 /// The common options.
 #[derive(Clone, Debug, Default, Args)]
@@ -197,112 +192,6 @@ impl FromArgMatches for InputArgs {
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
         *self = Self::from_arg_matches(matches)?;
         Ok(())
-    }
-}
-
-impl Cli {
-    /// Parses a command line, which begins with the program's own name.
-    ///
-    /// # Errors
-    /// An error of usage, or the requested help or version.
-    pub fn read(arguments: &[OsString]) -> Result<Self, Error> {
-        if let Some(read) = Self::read_command(arguments) {
-            return Ok(read);
-        }
-        let matches = Self::matches(&Self::command(), arguments)?;
-        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
-    }
-
-    /// Parses a command line with a definition in some language.
-    ///
-    /// # Errors
-    /// An error of usage, or the requested help or version, in that language.
-    pub fn matches(definition: &Definition, arguments: &[OsString]) -> Result<ArgMatches, Error> {
-        let read = |arguments: &[OsString]| definition.clone().try_get_matches_from(arguments);
-        read(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
-            Some(arguments) => read(&arguments),
-            None => Err(error),
-        })
-    }
-
-    /// The language requested by a command line, even if the command line has errors.
-    pub fn lang(arguments: &[OsString]) -> Option<LangArg> {
-        let texts: Vec<&str> = arguments.iter().filter_map(|argument| argument.to_str()).collect();
-        let apart = texts.windows(2).filter(|pair| pair[0] == "--lang").map(|pair| pair[1]);
-        let joined = texts.iter().filter_map(|text| text.strip_prefix("--lang="));
-        apart.chain(joined).find_map(|name| LangArg::from_str(name, false).ok())
-    }
-
-    /// Fast path for a command line that begins with a command and has no errors: defines only that command. Every command gets its own
-    /// copy of the common options, and defining all of them takes a quarter of the time of a short run.
-    fn read_command(arguments: &[OsString]) -> Option<Self> {
-        let commands = Command::augment_subcommands(Definition::new("pathbuild"));
-        let command = commands.find_subcommand(arguments.get(1)?)?.clone();
-        let line = CommonArgs::augment_args(Definition::new("pathbuild")).subcommand(command);
-        Self::from_arg_matches(&line.try_get_matches_from(arguments).ok()?).ok()
-    }
-}
-
-/// Inserts `check` before a drawing that is given in place of a command.
-fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
-    let named = error.get(ContextKind::InvalidSubcommand);
-    let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) = (error.kind(), named) else {
-        return None;
-    };
-    Utf8Path::new(named).extension().filter(|extension| extension.eq_ignore_ascii_case("dxf"))?;
-    let place = arguments.iter().position(|argument| argument == named.as_str())?;
-    let (before, after) = arguments.split_at(place);
-    Some([before, &["check".into()], after].concat())
-}
-
-/// How something is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-pub enum Format {
-    /// With the faulty text underlined, help and notes
-    #[default]
-    Full,
-    /// One line each
-    Concise,
-    /// One JSON object a line
-    Json,
-    /// SARIF 2.1.0
-    Sarif,
-    /// Annotations of a GitHub workflow
-    Github,
-    /// GitLab code quality
-    Gitlab,
-    /// `JUnit` XML, a test case for each path
-    Junit,
-    /// A page with pictures: for `--report` only
-    #[value(hide = true)]
-    Html,
-    /// A graph for Graphviz
-    #[value(hide = true)]
-    Dot,
-    /// A graph for Mermaid
-    #[value(hide = true)]
-    Mermaid,
-}
-
-impl Format {
-    /// Whether the format shows diagnostics; the others show graphs.
-    pub fn shows_diagnostics(self) -> bool {
-        !matches!(self, Self::Dot | Self::Mermaid)
-    }
-
-    /// Whether the format is machine-readable, so that it is the result of a run.
-    pub fn is_for_machines(self) -> bool {
-        self == Self::Json || self.is_report()
-    }
-
-    /// Whether the format contains only findings.
-    pub fn is_report(self) -> bool {
-        matches!(self, Self::Sarif | Self::Github | Self::Gitlab | Self::Junit)
-    }
-
-    /// Whether the format can only be written once all findings are known.
-    pub fn is_whole(self) -> bool {
-        matches!(self, Self::Sarif | Self::Gitlab | Self::Junit)
     }
 }
 

@@ -16,10 +16,10 @@ use super::output_row;
 use crate::args::AdjustArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use crate::report::Findings;
 use pathbuild_workspace::config::{positive, regex};
 use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
 use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
 
 /// Runs the command. Each of several programs is written unless it has errors itself.

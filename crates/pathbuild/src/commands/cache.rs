@@ -7,9 +7,10 @@ use pathbuild_diagnostic::messages::files;
 
 use serde_json::json;
 
-use crate::args::{CacheArgs, CacheCommand, Format};
+use crate::args::{CacheArgs, CacheCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 use pathbuild_workspace::memo::BUILD;
 
 /// Runs the command.

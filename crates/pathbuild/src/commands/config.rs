@@ -2,9 +2,10 @@
 
 use serde_json::json;
 
-use crate::args::{ConfigArgs, ConfigCommand, Format};
+use crate::args::{ConfigArgs, ConfigCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 use pathbuild_workspace::config::{Setting, schema, settings, show};
 
 /// Prints the settings, or the schema.

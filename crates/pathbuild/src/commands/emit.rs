@@ -7,10 +7,11 @@ use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang, Note};
 use pathbuild_workspace::emit::{Emission, ProgramOutcome, Request, State, Task};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, run_post_build};
 
-use crate::args::{EmitArgs, Format};
+use crate::args::EmitArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::count;
+use crate::render::Format;
 use serde_json::{Value, json};
 
 /// Runs the command.

@@ -11,9 +11,10 @@ use pathbuild_workspace::session::{Direction, Embedding, End, Graph, Node, Selec
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::args::{Format, GraphArgs};
+use crate::args::GraphArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 
 /// Runs `graph`: lists all embeddings of the given paths; without arguments, those of the library.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {

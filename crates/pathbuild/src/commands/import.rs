@@ -9,9 +9,10 @@ use pathbuild_gcode::statistics::{Extent, MoveTotals, Summary, Tally, Used, is_g
 use serde_json::{Value, json};
 
 use super::program::Program;
-use crate::args::{Format, ImportArgs};
+use crate::args::ImportArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 
 /// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it was read.
 pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {

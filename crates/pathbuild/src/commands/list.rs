@@ -6,10 +6,11 @@ use pathbuild_workspace::list::{PathListing, Request, Row, State, Stats, Total, 
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
-use crate::args::{Format, ListArgs};
+use crate::args::ListArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::{self, count, decimal};
+use crate::render::Format;
 use crate::table::{Column, table};
 
 /// Prints one line per path.

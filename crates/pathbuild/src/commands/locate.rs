@@ -10,9 +10,10 @@ use serde_json::Value;
 
 use pathbuild_workspace::Input;
 
-use crate::args::{Format, GraphArgs};
+use crate::args::GraphArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 use pathbuild_workspace::session::{Selection, Session};
 
 /// Runs the command. Prints one line per definition: `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.

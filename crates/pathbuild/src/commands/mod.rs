@@ -31,9 +31,10 @@ use camino::Utf8Path;
 use pathbuild_db::system::WriteOutcome;
 use serde_json::{Value, json};
 
-use crate::args::{Command, Format};
+use crate::args::Command;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 use crate::usage;
 
 /// A file that was written, as a line in JSON.

@@ -11,9 +11,10 @@ use pathbuild_motion::Step;
 use pathbuild_post::{BUILT_IN, Job, Output, Remark, is_of_head, native_remark};
 use serde_json::json;
 
-use crate::args::{Format, PostArgs, PostCommand};
+use crate::args::{PostArgs, PostCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};

@@ -16,9 +16,10 @@ use pathbuild_workspace::session::Session;
 use regex::Regex;
 use serde_json::{Value as Json, json};
 
-use crate::args::{Format, TextsArgs};
+use crate::args::TextsArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {

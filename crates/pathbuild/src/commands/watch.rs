@@ -16,8 +16,8 @@ use crate::args::WatchArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::counted;
-use crate::report::Findings;
 use crate::serving::Server;
+use pathbuild_workspace::findings::Findings;
 
 /// Runs the command.
 ///

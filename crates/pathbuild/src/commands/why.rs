@@ -8,9 +8,10 @@ use pathbuild_diagnostic::shown;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::args::{Format, GraphArgs};
+use crate::args::GraphArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 use pathbuild_workspace::memo::Memo;
 use pathbuild_workspace::session::Session;
 

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 
 use super::{View, view};
-use crate::report::Findings;
+use pathbuild_workspace::findings::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     findings.diagnostics.iter().map(|diagnostic| line(diagnostic, view)).collect()

@@ -11,7 +11,7 @@ use miette::{
 use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, shown};
 
 use super::{View, view};
-use crate::report::Findings;
+use pathbuild_workspace::findings::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let theme = if view.color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };

@@ -5,7 +5,7 @@
 use pathbuild_diagnostic::{Diagnostic, Severity, shown};
 
 use super::{View, concise, view};
-use crate::report::Findings;
+use pathbuild_workspace::findings::Findings;
 
 /// Number of annotations per severity that GitHub shows for a step.
 const SHOWN: usize = 10;

@@ -4,8 +4,9 @@
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
+use super::Fingerprint;
 use super::{View, view};
-use crate::report::{Findings, Fingerprint};
+use pathbuild_workspace::findings::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let fingerprints = Fingerprint::of(&findings.diagnostics);

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_view::escaped;
 
 use super::{RenderedText, View, view};
-use crate::report::Findings;
+use pathbuild_workspace::findings::Findings;
 
 /// Renders the page. `pictures` has one entry per finding.
 pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> RenderedText {

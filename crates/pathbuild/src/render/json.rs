@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{RenderedText, View};
-use crate::report::Findings;
+use pathbuild_workspace::findings::Findings;
 
 #[derive(Serialize)]
 struct Object<'a> {

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, shown};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{View, concise};
-use crate::report::Findings;
+use pathbuild_workspace::findings::Findings;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let mut report = Report::new("pathbuild");

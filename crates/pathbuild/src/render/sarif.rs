@@ -6,8 +6,9 @@ use std::collections::BTreeSet;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
+use super::Fingerprint;
 use super::{View, view};
-use crate::report::{Findings, Fingerprint};
+use pathbuild_workspace::findings::Findings;
 
 /// Upper bound on results: GitHub refuses runs with more.
 const MOST_RESULTS: usize = 25_000;

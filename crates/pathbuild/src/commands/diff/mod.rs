@@ -15,9 +15,10 @@ use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace};
 
 use super::program::Program;
-use crate::args::{DiffArgs, Format};
+use crate::args::DiffArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::render::Format;
 
 use output::Output;
 use revision::Revision;

@@ -1,8 +1,8 @@
 //! Baselines: text files with one known finding per line, which users can read, merge and shorten. Only the fingerprint at the beginning of
 //! a line counts; the rest describes the finding. Empty lines and lines that begin with `#` are comments.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::{self, Write};
+use std::collections::BTreeSet;
+use std::fmt::Write;
 
 use camino::Utf8Path;
 use pathbuild_db::System;
@@ -10,24 +10,24 @@ use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault, Value, shown};
 use pathbuild_workspace::files;
+use pathbuild_workspace::findings::Findings;
 
-use super::Findings;
-use crate::render::View;
+use crate::render::{Fingerprint, View};
 
 /// Known findings, which are not reported.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Baseline {
+pub(crate) struct Baseline {
     fingerprints: BTreeSet<String>,
 }
 
 /// Findings compared with a baseline.
-pub(super) struct BaselineComparison {
+pub(crate) struct BaselineComparison {
     /// Findings that are not in the baseline.
-    pub(super) new: Findings,
+    pub(crate) new: Findings,
     /// Number of findings that are in the baseline.
-    pub(super) known: usize,
+    pub(crate) known: usize,
     /// Number of entries in the baseline that match no finding.
-    pub(super) gone: usize,
+    pub(crate) gone: usize,
 }
 
 impl Baseline {
@@ -35,7 +35,7 @@ impl Baseline {
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
+    pub(crate) fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
         let text = files::read(system, file, limit).map_err(|reason| {
             vec![match system.read(file, limit) {
                 // Reports the configuration key of the limit, as for other files.
@@ -47,7 +47,7 @@ impl Baseline {
     }
 
     /// The text of a baseline that contains all these findings.
-    pub fn text(findings: &Findings, view: &View) -> String {
+    pub(crate) fn text(findings: &Findings, view: &View) -> String {
         let mut text = HEAD.to_owned();
         for (diagnostic, fingerprint) in
             findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics))
@@ -57,7 +57,7 @@ impl Baseline {
         shown::lines(&text).into_owned()
     }
 
-    pub(super) fn compare(&self, findings: Findings) -> BaselineComparison {
+    pub(crate) fn compare(&self, findings: Findings) -> BaselineComparison {
         let fingerprints = Fingerprint::of(&findings.diagnostics);
         let found = findings.diagnostics.len();
         let is_new =
@@ -120,57 +120,4 @@ fn fault(file: &Utf8Path, number: u32, line: &str) -> Diagnostic {
         .in_file(file)
         .at_line(number, Some(1))
         .with_text(TextFault::new(line, 0..word))
-}
-
-/// A 128-bit hash that identifies a finding, displayed as 32 hexadecimal digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Fingerprint(u128);
-
-impl Fingerprint {
-    /// Fingerprints of findings, in their order.
-    pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
-        let mut met: BTreeMap<u128, u32> = BTreeMap::new();
-        let mut fingerprint = |diagnostic| {
-            let hash = hash(diagnostic);
-            let number = met.entry(hash.0).and_modify(|number| *number += 1).or_insert(0);
-            Self(hash.and(&number.to_le_bytes()).0)
-        };
-        diagnostics.iter().map(&mut fingerprint).collect()
-    }
-}
-
-impl fmt::Display for Fingerprint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:032x}", self.0)
-    }
-}
-
-fn hash(diagnostic: &Diagnostic) -> Hash {
-    let place = &diagnostic.place;
-    let point = place.point.map(|point| format!("{:.3} {:.3}", point.x.0 + 0.0, point.y.0 + 0.0));
-    let fault = diagnostic.text.as_ref().map(|fault| &fault.text[fault.span()]);
-    Hash::NEW
-        .and(diagnostic.code().to_string().as_bytes())
-        .and(diagnostic.file.as_ref().and_then(|file| file.file_name()).unwrap_or_default().as_bytes())
-        .and(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
-        .and(place.entity.map_or("", |entity| entity.name()).as_bytes())
-        .and(point.unwrap_or_default().as_bytes())
-        .and(fault.unwrap_or_default().as_bytes())
-}
-
-/// 128-bit FNV-1a, which is the same on every machine and in every version.
-#[derive(Clone, Copy)]
-struct Hash(u128);
-
-impl Hash {
-    const NEW: Self = Self(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
-    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
-
-    /// Adds bytes, followed by a separator that does not occur in UTF-8.
-    fn and(self, bytes: &[u8]) -> Self {
-        bytes
-            .iter()
-            .chain(&[0xff])
-            .fold(self, |hash, byte| Self((hash.0 ^ u128::from(*byte)).wrapping_mul(Self::PRIME)))
-    }
 }

@@ -3,11 +3,12 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_view::{Scene, Spot, cutout_svg};
+use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::cannot_write;
+use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
 
-use super::{Findings, Fingerprint};
-use crate::context::Context;
+use super::Fingerprint;
 
 /// Upper bound on the number of findings that get a picture.
 const MOST: usize = 1000;
@@ -16,19 +17,19 @@ const MOST: usize = 1000;
 const MOST_BYTES: usize = 256 << 20;
 
 /// One picture per finding; `None` if the finding has no place in a drawing.
-pub(crate) fn pictures(context: &Context, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
+pub(crate) fn pictures(workspace: &Workspace, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> =
         diagnostics.iter().take(MOST).filter_map(|diagnostic| drawing(diagnostic)).collect();
     files.sort_unstable();
     files.dedup();
-    let scenes = Session::new(&context.workspace).drawn_scenes(&files);
+    let scenes = Session::new(workspace).drawn_scenes(&files);
     let scene = |file: &Utf8Path| -> Option<&Scene> {
         scenes.get(files.binary_search(&file).ok()?).and_then(Option::as_ref)
     };
     let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &Diagnostic)| {
         let scene = scene(drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?)?;
-        let picture = cutout_svg(scene, &spot(diagnostic)?, context.lang());
+        let picture = cutout_svg(scene, &spot(diagnostic)?, workspace.lang());
         bytes += picture.len();
         Some(picture)
     };
@@ -67,15 +68,15 @@ fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
 
 /// Writes a picture of each finding that has a place into a directory, and returns errors. The same finding has the same file name in every
 /// run.
-pub(crate) fn write(context: &Context, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
-    let directory = context.working_directory.join(directory);
-    let images = pictures(context, &findings.diagnostics);
+pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
+    let directory = workspace.working_directory.join(directory);
+    let images = pictures(workspace, &findings.diagnostics);
     let names = Fingerprint::of(&findings.diagnostics).into_iter().zip(&findings.diagnostics);
     let mut problems = Vec::new();
     for (picture, (fingerprint, diagnostic)) in images.into_iter().zip(names) {
         let Some(picture) = picture else { continue };
         let file = directory.join(name(diagnostic, fingerprint));
-        if let Err(reason) = context.system.write(&file, picture.as_bytes()) {
+        if let Err(reason) = workspace.system.write(&file, picture.as_bytes()) {
             problems.push(cannot_write(&file, reason));
             break;
         }

@@ -1,8 +1,5 @@
 //! Findings at the end of a run: baseline, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
 
-mod baseline;
-mod pictures;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::ManuallyDrop;
 use std::time::Duration;
@@ -11,21 +8,15 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, in_prose};
 use pathbuild_workspace::check::CheckOutcome;
 use pathbuild_workspace::files;
+use pathbuild_workspace::findings::Findings;
 
-use self::baseline::BaselineComparison;
 use crate::args::CheckArgs;
+use crate::baseline::{Baseline, BaselineComparison};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::{count, counted};
-use crate::render::View;
+use crate::render::{View, write_pictures};
 use crate::table::table;
-
-pub use pathbuild_workspace::check::CheckedFile;
-pub use pathbuild_workspace::findings::{Findings, judge};
-
-pub use self::baseline::{Baseline, Fingerprint};
-
-pub(crate) use pictures::{pictures, write as write_pictures};
 
 /// Ends a check of the given duration: applies severities and baseline, shows findings, writes reports and the summary, and returns the
 /// exit status.
