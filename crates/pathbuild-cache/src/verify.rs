@@ -41,9 +41,9 @@ pub struct Verdict {
 pub struct VerifyContext<'a> {
     /// Directory that paths are relative to.
     pub base: &'a Utf8Path,
-    /// Which file may contain which path.
+    /// Decides which file may contain which path.
     pub covers: CoversFn<'a>,
-    /// Which records are requested, by subject.
+    /// Decides which records are requested, by their subject.
     pub is_requested: &'a (dyn Fn(&str) -> bool + Sync),
     /// Whether a file may be accessed.
     pub is_allowed: &'a (dyn Fn(&Utf8Path) -> bool + Sync),

@@ -37,7 +37,7 @@ pub fn exceeded(what: impl Into<Value>, limit: impl Into<Value>, key: &str) -> D
     Diagnostic::new(&files::LIMIT).with("what", what).with("limit", limit).quoting("key", key)
 }
 
-/// PB005 for a file of so many bytes.
+/// PB005 for a file of `size` bytes.
 pub fn file_too_large(size: u64, limit: u64, key: &str) -> Diagnostic {
     exceeded(Sentence::new(&FILE_SIZE).with("size", size), bytes(limit), key)
 }
@@ -47,7 +47,7 @@ pub fn moves_cut(moves: u64) -> Sentence {
     Sentence::new(&MOVES_CUT).with("moves", moves)
 }
 
-/// The reason why a file of so many bytes is not read.
+/// The reason why a file of `size` bytes is not read.
 pub fn too_many_bytes(size: u64, limit: u64) -> Sentence {
     Sentence::new(&TOO_MANY_BYTES).with("size", size).with("limit", limit)
 }

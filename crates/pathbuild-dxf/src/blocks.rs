@@ -46,7 +46,7 @@ struct Block<'a> {
 /// The layers used by the contents of a block.
 #[derive(Clone, Default)]
 enum LayersOf {
-    /// Not determined yet.
+    /// The layers have yet to be determined.
     #[default]
     Unknown,
     /// Determined.

@@ -29,7 +29,7 @@ pub(crate) enum BadGroup<'a> {
         /// Its code.
         code: i32,
     },
-    /// Not a number.
+    /// The value of a group is not a number.
     Number {
         /// Its code.
         code: i32,
@@ -38,7 +38,7 @@ pub(crate) enum BadGroup<'a> {
         /// Why it is not a number.
         reason: NotANumber,
     },
-    /// Not a positive length.
+    /// The value of a group is not a positive length.
     NotPositive {
         /// Its code.
         code: i32,

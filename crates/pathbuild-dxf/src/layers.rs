@@ -337,9 +337,9 @@ pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 /// The line type of an entity as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LineType {
-    /// That of its layer, also where none is written.
+    /// The line type of its layer, which also applies if the entity names none.
     ByLayer,
-    /// That of the INSERT.
+    /// The line type of the INSERT that places its block.
     ByBlock,
     /// Index of a name in [`LineTypes`].
     Named(u32),

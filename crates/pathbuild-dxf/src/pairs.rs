@@ -195,11 +195,11 @@ static EOF: LazyLock<FinderRev<'static>> = LazyLock::new(|| FinderRev::new("EOF"
 
 /// How a skipped section ended.
 pub(crate) enum SectionEnd<'a> {
-    /// With `0/ENDSEC`; the pairs continue after it.
+    /// The section ended with `0/ENDSEC`; the pairs continue after it.
     Ended,
-    /// With the `0/SECTION` of the next section.
+    /// `0/ENDSEC` is missing: the next section begins with this pair.
     Missing(Pair<'a>),
-    /// With the end of the input.
+    /// The input ended within the section.
     CutOff {
         /// The last line.
         line: u32,

@@ -192,15 +192,15 @@ fn a_difference_is_said_with_both_lines() {
     assert_eq!(fault_text(&diagnostic), "5 moves-differ");
     assert_eq!(
         diagnostic.text(Lang::En),
-        "the moves differ: here the tool goes to X20.000 Y1.000 Z5.000, in line 5 of the other to X20.000 Y2.000 Z5.000"
+        "the moves differ: here the tool goes to X20.000 Y1.000 Z5.000, but in line 5 of the other program to X20.000 Y2.000 Z5.000"
     );
     assert_eq!(
         said("G1 X10", "G0 X10").text(Lang::En),
-        "the moves differ: this is a cutting move, in line 4 of the other it is a rapid move"
+        "the moves differ: this is a cutting move, but in line 4 of the other program it is a rapid move"
     );
     assert_eq!(
         said("G1 X10", "G1 X10 F7").text(Lang::En),
-        "the feeds differ: 100 here, 7 in line 4 of the other"
+        "the feeds differ: 100 here, but 7 in line 4 of the other program"
     );
     assert_eq!(
         said("G1 X10", "G1 X10\nY3").text(Lang::En),

@@ -81,11 +81,11 @@ pub enum Role {
 /// The kind of a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Cut {
-    /// To B.
+    /// Cuts down to B.
     Mill,
-    /// To D.
+    /// Cuts down to D.
     Mark,
-    /// To B, with bars up to D.
+    /// Cuts down to B and leaves bars up to D.
     Support,
 }
 

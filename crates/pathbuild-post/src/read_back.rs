@@ -137,7 +137,7 @@ fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Di
     }
     let (mut broken, mut doubts) = (Vec::new(), Vec::new());
     for mut problem in rules.finish() {
-        // What is only doubtful in somebody else's program is an error in one we are about to write.
+        // A program of other origin gets a warning for this; one that we are about to write must not have it.
         if problem.message == &gcode::SPINDLE_LEFT_ON {
             problem.severity = Severity::Error;
         }

@@ -31,9 +31,9 @@ pub struct TranslatedText {
 /// A word with an effect that the shadow lacks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DoubtfulWord {
-    /// From 1.
+    /// Number of the line, counted from 1.
     pub line: u32,
-    /// Such as `G41`.
+    /// The word, such as `G41`.
     pub word: String,
     /// What is doubtful about it.
     pub doubt: Doubt,

@@ -78,7 +78,7 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
-    /// Computes it for one or more points.
+    /// The distribution of one or more points.
     pub(super) fn new(points: &[Xy]) -> Self {
         let count = points.len() as f64;
         let sum = points.iter().fold(Vector2::zeros(), |sum, point| sum + point.coords);

@@ -151,8 +151,9 @@ impl Request<'_> {
             if memo.holds(path.as_str()) { path.as_str().into() } else { subject(path, Some(&[])) }
         };
         let named = read_drawings(session, memo, &named, known);
-        let names =
-            |file: SourceFile| find(&named, file.path(session.db())).map_or(&[][..], |it| &it.value.names);
+        let names = |file: SourceFile| {
+            find(&named, file.path(session.db())).map_or(&[][..], |answer| &answer.value.names)
+        };
         let selection = session.select_arguments(matches, &matches.arguments, &names);
         let targets = targets(session, &selection);
         let check = |open: &[&CheckTarget]| {

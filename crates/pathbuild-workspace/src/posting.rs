@@ -220,8 +220,8 @@ impl PostProcessor {
             return PostWords::of_programs(written, dialect);
         }
         let translated: Vec<TranslatedText> = written.map(|text| self.post.translate(&text)).collect();
-        let left_out = translated.iter().flat_map(|it| &it.doubtful).map(|word| word.word.clone());
-        PostWords::of_programs(translated.iter().map(|it| &it.text), dialect)
+        let left_out = translated.iter().flat_map(|text| &text.doubtful).map(|word| word.word.clone());
+        PostWords::of_programs(translated.iter().map(|text| &text.text), dialect)
             .of_definition(&self.name(), left_out)
     }
 

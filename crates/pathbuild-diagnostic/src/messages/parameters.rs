@@ -299,8 +299,8 @@ messages! {
     DEPTH_OF_MILLING: ParameterWithoutEffect {
         en: "{letter} has no effect here: milling (line type CONTINUOUS) goes down to B",
         de: "{letter} hat hier keine Wirkung: Fräsen (Linientyp CONTINUOUS) geht bis B",
-        help_en: "write B{value} if that is how deep it is; what goes down to D is a mark, line type DIVIDE",
-        help_de: "B{value} schreiben, wenn es so tief ist; bis D geht eine Markierung, Linientyp DIVIDE",
+        help_en: "write B{value} if the cut is to go down to there; only a mark (line type DIVIDE) goes down to D",
+        help_de: "B{value} schreiben, wenn bis dorthin gefräst werden soll; bis D geht nur eine Markierung (Linientyp DIVIDE)",
     }
     /// A chain parameter on a segment other than the first.
     WITHOUT_EFFECT_IN_CHAIN: ParameterWithoutEffect {

@@ -582,7 +582,7 @@ messages! {
     }
     /// Note: the spindle turns in the wrong direction.
     SPINDLE_OTHER_WAY: PostDiffers {
-        en: "here the spindle turns in the opposite direction of the tool's `direction`",
+        en: "here the spindle turns in the direction opposite to the tool's `direction`",
         de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
     }
     /// Note: a laser beam that is on during a rapid move.

@@ -108,7 +108,7 @@ messages! {
     }
     /// `verify --against`: another tool length offset (G43, H).
     LENGTHS_DIFFER: MovesDiffer {
-        en: "the tool's length is not that of the tool in the spindle",
+        en: "the tool length in effect is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
         help_en: "use G43 H with the number of the tool that M6 changed to; native programs use none",
         help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht keines",
@@ -381,32 +381,32 @@ messages! {
     }
     /// `diff`: moves to different points.
     PATHS_DIFFER: MovesDiffer {
-        en: "the moves differ: here the tool goes to {found}, in line {line} of the other to {expected}",
-        de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen nach {expected}",
+        en: "the moves differ: here the tool goes to {found}, but in line {line} of the other program to {expected}",
+        de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen Programms aber nach {expected}",
     }
     /// `diff`: moves along different curves.
     SHAPES_DIFFER: MovesDiffer {
-        en: "the moves differ: this one and that in line {line} of the other part between their ends",
-        de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen trennen sich zwischen ihren Enden",
+        en: "the moves differ: this one and that in line {line} of the other program have the same ends, but not the same way between them",
+        de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen Programms haben dieselben Enden, aber nicht denselben Weg dazwischen",
     }
     /// `diff`: a rapid move and a cut.
     KINDS_DIFFER: MovesDiffer {
-        en: "the moves differ: this is {found}, in line {line} of the other it is {expected}",
-        de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen {expected}",
+        en: "the moves differ: this is {found}, but in line {line} of the other program it is {expected}",
+        de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
     /// `diff`: different feeds.
     FEEDS_DIFFER: MovesDiffer {
-        en: "the feeds differ: {found} here, {expected} in line {line} of the other",
-        de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen {expected}",
+        en: "the feeds differ: {found} here, but {expected} in line {line} of the other program",
+        de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
     /// `diff`: missing moves at the end.
     MOVES_MISSING: MovesDiffer {
-        en: "the moves end here; the other goes on in line {line}",
-        de: "die Bewegungen enden hier; das andere fährt in Zeile {line} weiter",
+        en: "the moves end here, but the other program goes on in line {line}",
+        de: "die Bewegungen enden hier, das andere Programm geht aber in Zeile {line} weiter",
     }
     /// `diff`: additional moves at the end.
     MOVES_TOO_MANY: MovesDiffer {
-        en: "the other's moves end in line {line}; these go on",
-        de: "die Bewegungen des anderen enden in Zeile {line}; diese gehen weiter",
+        en: "the moves of the other program end in line {line}, but this program goes on",
+        de: "die Bewegungen des anderen Programms enden in Zeile {line}, dieses Programm geht aber weiter",
     }
 }

@@ -45,7 +45,7 @@ pub(super) enum Entered {
 }
 
 /// The ASCII text may be surrounded by bytes of any code page.
-static LINE: LazyLock<bytes::Regex> = LazyLock::new(|| {
+static VALUE_LINE: LazyLock<bytes::Regex> = LazyLock::new(|| {
     let number = r"\s*(-?[0-9]+(?:[.,][0-9]+)?)\s*";
     let at = format!(r"@\s*\[{number}\|{number}\]");
     let place = format!(r"\(\s*\[{number}\s{number}\](?:/L:.*)?/T={number}(?:{at}\s*)?\)");
@@ -59,7 +59,8 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
     let mut found: Vec<ProbeLine<'_>> = Vec::new();
     let mut known: BTreeMap<u32, u32> = BTreeMap::new();
     for line in lines(values).filter(|line| !line.content().trim_ascii().is_empty()) {
-        let Some(mut read) = LINE.captures(line.content()).and_then(|parts| probe_line(line, &parts)) else {
+        let Some(mut read) = VALUE_LINE.captures(line.content()).and_then(|parts| probe_line(line, &parts))
+        else {
             problems.push(line.fault(&messages::NO_PROBE_LINE, 0..line.content().len()));
             continue;
         };
@@ -142,7 +143,7 @@ impl fmt::Display for ProgramProbe {
 /// Position of a probe in its own drawing.
 pub(super) type ProbePoint = [f64; 2];
 
-static ENTRY: LazyLock<Regex> = LazyLock::new(|| {
+static HEADER_ENTRY: LazyLock<Regex> = LazyLock::new(|| {
     let number = r"(-?[0-9]+(?:\.[0-9]+)?)";
     let pattern = format!(
         r"^Probe #([0-9]+): \[{number} {number}\] T={number}(?: X{number} Y{number})?(?: Z{number})?$"
@@ -179,7 +180,7 @@ pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
     if !comment.starts_with("Probe #") {
         return None;
     }
-    let parts = ENTRY.captures(comment)?;
+    let parts = HEADER_ENTRY.captures(comment)?;
     let number = |index: usize| parts.get(index).and_then(|part| parse_number(part.as_str()));
     let at = number(5).zip(number(6)).map(|(x, y)| Xy::new(x, y));
     let probe = ProgramProbe { place: [number(2)?, number(3)?], height: number(4)?, at, measured: number(7) };
@@ -189,7 +190,7 @@ pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
 /// Values that differ by no more than this, in mm, are considered equal: users enter three decimals.
 const SAME: f64 = 0.0005;
 
-static REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
+static LOG_REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
     bytes::Regex::new(r"(?-u)\[PRB:(?<probe>[^\]\n]*)\]|WCO:(?<offset>[-+0-9.,]*)")
         .expect("a constant pattern")
 });
@@ -251,7 +252,7 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<Measured
     let mut measured = Vec::new();
     let mut offset = 0.0;
     for line in lines(log) {
-        for report in REPORT.captures_iter(line.content()) {
+        for report in LOG_REPORT.captures_iter(line.content()) {
             if let Some(found) = report.name("offset") {
                 offset = third(found.as_bytes()).unwrap_or(offset);
                 continue;

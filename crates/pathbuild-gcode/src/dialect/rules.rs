@@ -453,9 +453,9 @@ pub enum Slash {
 /// Maximum length of a line, in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineLength {
-    /// Of the line as it is in the file, without the line break.
+    /// Limits the line as it is in the file, without its line break.
     Whole(usize),
-    /// Without blanks and comments.
+    /// Limits what remains of the line without blanks and comments.
     Bare(usize),
 }
 

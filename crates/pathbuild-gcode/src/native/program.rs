@@ -91,7 +91,7 @@ pub fn is_title(found: &str, drawing: &str, path: &str) -> bool {
 
 /// Whether a title found in a program names the given drawing.
 pub fn is_title_of(found: &str, drawing: &str) -> bool {
-    drawing_of_title(found).is_some_and(|of| plain_title(of) == plain_title(drawing))
+    drawing_of_title(found).is_some_and(|titled| plain_title(titled) == plain_title(drawing))
 }
 
 const PATH: &str = "Path ";

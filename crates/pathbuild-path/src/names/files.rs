@@ -98,12 +98,13 @@ impl NameRange {
 
 /// Compares an end of a range in a file's name with the name of a path.
 fn compare(file: &Groups, PathKey(path): &PathKey) -> Ordering {
-    let left = |groups: &Groups, index| groups.iter().skip(index).filter(|group| !group.is_empty()).count();
+    let remaining =
+        |groups: &Groups, index| groups.iter().skip(index).filter(|group| !group.is_empty()).count();
     for index in 0..file.len().max(path.len()) {
         let order = match (file.get(index), path.get(index)) {
             (Some(file), Some(path)) if !file.is_empty() && !path.is_empty() => compare_groups(file, path),
             // A name without further groups covers one with more groups: 1234 equals 1234.3A, but 1234.3 is greater than 1234.
-            _ if left(file, index) > left(path, index) => return Ordering::Greater,
+            _ if remaining(file, index) > remaining(path, index) => return Ordering::Greater,
             _ => return Ordering::Equal,
         };
         if order.is_ne() {

@@ -214,7 +214,8 @@ const SQUARES: f64 = 5000.0;
 const SHIFT: f64 = 0.25;
 /// Search distance around a point in squares: slightly more than the distance at which points coincide (0.16).
 const REACH: f64 = 0.22;
-/// Search distance for points that may coincide with a third point via a second one: slightly more than three times as far.
+/// Search distance in squares for points that coincide with a point only by way of others, each of which coincides with the next: slightly
+/// more than three times that distance.
 const WIDE_REACH: f64 = 0.5;
 /// So large that adding it rounds to an integer: the low bits of the sum count whole numbers. (1.5 * 2^52)
 const WHOLE: f64 = 6_755_399_441_055_744.0;

@@ -59,7 +59,7 @@ kinds! {
 /// A control text as it is in its file.
 #[derive(Clone, Debug)]
 pub(super) struct ControlText {
-    /// Without the line break before the closing quotes.
+    /// The text without the line break before its closing quotes.
     pub(super) text: String,
     /// Line and column of its first character in the file, counted from 1; `None` for built-in texts.
     pub(super) begins: Option<(u32, u32)>,

@@ -21,7 +21,7 @@ use crate::number::FEWEST_DECIMALS;
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
     pub(super) settings: Settings,
-    /// Indexed by kind.
+    /// The control texts, indexed by their kind; `None` for those that the definition lacks.
     texts: Vec<Option<ControlText>>,
     /// Names used in the texts, with the variables they stand for.
     pub(super) aliases: Vec<(Box<str>, Box<str>)>,

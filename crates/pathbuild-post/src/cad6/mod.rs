@@ -36,7 +36,7 @@ pub(super) struct EngineOutput {
     pub(super) text: Vec<u8>,
     /// What the text says, in the words of RS274.
     pub(super) shadow: TranslatedText,
-    /// Of each line.
+    /// The origin of each line.
     pub(super) origins: Vec<LineOrigin>,
     /// Doubtful constructs.
     pub(super) warnings: Vec<Diagnostic>,

@@ -10,7 +10,7 @@ use crate::number::NumberFormat;
 /// A number format, selected by the character after the brace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// As many decimals as there are.
+    /// All decimals that the number has, and no more.
     Shortest,
     /// `'`: two decimals and a thousands separator.
     Money,

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Text;
 
 use crate::number::NumberFormat;
 
-/// All options.
+/// The values of all these elements; absent ones have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "the file's elements are independent switches")]
 pub(super) struct Options {

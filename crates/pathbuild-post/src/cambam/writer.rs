@@ -25,7 +25,7 @@ pub(crate) struct WrittenText {
     pub(crate) text: String,
     /// What the text says, in the words of RS274.
     pub(crate) shadow: TranslatedText,
-    /// Of each line.
+    /// The origin of each line.
     pub(crate) origins: Vec<LineOrigin>,
     /// Doubtful constructs.
     pub(crate) warnings: Vec<Diagnostic>,

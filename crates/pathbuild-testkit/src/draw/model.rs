@@ -385,7 +385,7 @@ pub enum PolylineKind {
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Ellipse {
     pub centre: Point,
-    /// From the centre to the end of the major axis.
+    /// The end of the major axis, relative to the centre.
     pub major: Point,
     /// The ratio of the minor axis to the major axis.
     pub ratio: f64,

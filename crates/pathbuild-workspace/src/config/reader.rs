@@ -378,7 +378,7 @@ pub(super) struct Source<'a> {
 const BLOCK: usize = 1 << 10;
 
 /// Number of bytes of a line that are shown on each side of a fault.
-const AROUND: usize = 200;
+const MOST_CONTEXT: usize = 200;
 
 impl<'a> Source<'a> {
     /// A file with this text.
@@ -432,13 +432,15 @@ impl<'a> Source<'a> {
 
     /// First byte that is shown of a line with a fault at `start`.
     fn shown_from(&self, begin: usize, start: usize) -> usize {
-        begin.max(self.text.floor_char_boundary(start.saturating_sub(AROUND)))
+        begin.max(self.text.floor_char_boundary(start.saturating_sub(MOST_CONTEXT)))
     }
 
     /// End of the part that is shown if the fault ends at `end`.
     fn shown_to(&self, start: usize, end: usize) -> usize {
-        let most =
-            self.text.ceil_char_boundary((end.clamp(start, start + AROUND)) + AROUND).min(self.text.len());
+        let most = self
+            .text
+            .ceil_char_boundary((end.clamp(start, start + MOST_CONTEXT)) + MOST_CONTEXT)
+            .min(self.text.len());
         self.text[start..most].find(['\n', '\r']).map_or(most, |length| start + length)
     }
 }

@@ -255,8 +255,9 @@ impl<'w> Setup<'w> {
         // Where the post inserts its tool by M6, T alone only says which one is next.
         let chosen = self.inserted.or(self.selected.filter(|_| !self.words.has('M', 60)));
         // A layer is its tool. Elsewhere, a wrong tool has been reported where it was selected.
-        let fits =
-            |chosen| !self.dialect.rules().layers || self.expected.number.is_none_or(|it| it == chosen);
+        let fits = |chosen| {
+            !self.dialect.rules().layers || self.expected.number.is_none_or(|number| number == chosen)
+        };
         let is_chosen = chosen.is_some_and(fits);
         if !is_chosen && self.words.chooses_tools && !std::mem::replace(&mut self.reported.tool, true) {
             let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));

@@ -197,7 +197,7 @@ impl ReferenceProgram {
         let programs = std::slice::from_ref(&*self.drawn);
         let (job, _) = Job::from_programs(&self.drawn.path, programs, &writer.tools, writer.cycles);
         let text = writer.write(&job, None, &mut Vec::new())?.text;
-        let translated = writer.translate(&text).map(|it| it.text.into_bytes());
+        let translated = writer.translate(&text).map(|translated| translated.text.into_bytes());
         let code = translated.as_deref().unwrap_or(&text);
         let options = Options {
             milliseconds: context.settings.machine.dwell.value == DwellTime::Milliseconds,
