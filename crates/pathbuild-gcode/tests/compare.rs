@@ -204,7 +204,7 @@ fn a_difference_is_said_with_both_lines() {
     );
     assert_eq!(
         said("G1 X10", "G1 X10\nY3").text(Lang::En),
-        "the moves end here; the other goes on in line 5"
+        "the moves end here, but the other program goes on in line 5"
     );
 }
 
