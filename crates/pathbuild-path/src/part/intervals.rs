@@ -86,15 +86,15 @@ pub(crate) fn at(curve: &Curve, along: f64) -> Xy {
 
 /// Sorts stretches and joins those that touch.
 pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
-    stretches.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
-    let mut all: Vec<Stretch> = Vec::with_capacity(stretches.len());
-    for (from, to) in stretches {
-        match all.last_mut() {
-            Some(last) if from <= last.1 + gap => last.1 = last.1.max(to),
-            _ => all.push((from, to)),
+    stretches.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    stretches.dedup_by(|next, last| {
+        let is_joined = next.0 <= last.1 + gap;
+        if is_joined {
+            last.1 = last.1.max(next.1);
         }
-    }
-    all
+        is_joined
+    });
+    stretches
 }
 
 /// What joined stretches leave of a range.

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rstar::Envelope as _;
+
 use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH};
 use super::gouge::JudgedCut;
@@ -224,22 +226,31 @@ impl<'s> LeftoverSearch<'s> {
 
     /// The stretches at the feet of bars, where the cut goes down to the bar.
     fn feet(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
-        let mut all = Vec::new();
-        for (bar, radius) in self.bars() {
-            let mut foot = Vec::new();
-            within(curve.curve, &bar.foot, radius + self.tolerance, &mut foot);
-            if foot.is_empty() {
-                continue;
-            }
-            let mut low = Vec::new();
-            for cut in self.own(&curve.near) {
-                if let Some(below) = cut.cut.way.below(bar.top + self.tolerance) {
-                    within(curve.curve, &below, cut.radius + self.tolerance, &mut low);
-                }
-            }
-            all.extend(common(&joined(foot, GAP), &joined(low, GAP)));
+        let mut of_tops: Vec<(f64, Vec<Stretch>)> = Vec::new();
+        let extent = around(curve.curve, self.tolerance);
+        for (bar, radius) in
+            self.bars().filter(|(bar, radius)| around(&bar.foot, *radius).intersects(&extent))
+        {
+            let place = of_tops.iter().position(|(top, _)| *top == bar.top).unwrap_or_else(|| {
+                of_tops.push((bar.top, Vec::new()));
+                of_tops.len() - 1
+            });
+            within(curve.curve, &bar.foot, radius + self.tolerance, &mut of_tops[place].1);
         }
-        joined(all, GAP)
+        let feet = of_tops.into_iter().filter(|(_, feet)| !feet.is_empty());
+        let feet = feet.flat_map(|(top, feet)| common(&joined(feet, GAP), &self.low(curve, top)));
+        joined(feet.collect(), GAP)
+    }
+
+    /// What is cut down to the top of a bar, but not all through the plate.
+    fn low(&self, curve: &RingCurve<'_>, top: f64) -> Vec<Stretch> {
+        let mut found = Vec::new();
+        for cut in self.own(&curve.near).filter(|cut| cut.through != Some(cut.cut.way.curve)) {
+            if let Some(below) = cut.cut.way.below(top + self.tolerance) {
+                within(curve.curve, &below, cut.radius + self.tolerance, &mut found);
+            }
+        }
+        joined(found, GAP)
     }
 
     /// The bars of the paths that cut the part, with half of O.
