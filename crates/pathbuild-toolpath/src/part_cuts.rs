@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use pathbuild_motion::{Move, Pace};
 use pathbuild_path::{
-    Arc as CurveArc, Bars, Curve, Cut, CutElement, Line, PartCut, Path, PathCuts, PathOptions, Role,
-    SegmentKind, Shape, StandingBar, WalkedPath, Way, Xy, approx,
+    Arc as CurveArc, Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, Path, PathCuts,
+    PathOptions, PlacedSubpath, Role, SegmentKind, Shape, StandingBar, WalkedPath, Way, Xy, approx,
 };
 
 use crate::fold::{Parts, fold_in_one_pass};
@@ -27,7 +27,8 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_compatible: bool) -> PathC
         elements: Vec::new(),
         cuts: Vec::new(),
         bars: bars(path),
-        has_subpaths: path.segments.iter().any(|segment| matches!(segment.kind, SegmentKind::Subpath(_))),
+        ends: (path.start, path.end),
+        embedded: walked.items.iter().filter_map(|item| embedded(path, item)).collect(),
     };
     let mut numbers = BTreeMap::new();
     for (number, movement) in program.moves() {
@@ -46,6 +47,12 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_compatible: bool) -> PathC
         found.cuts.push(PartCut { way: Way { curve: shifted(&way.curve, path.start), ..way }, element });
     }
     found
+}
+
+fn embedded(path: &Path, item: &Item) -> Option<EmbeddedPlace> {
+    let Item::Subpath(PlacedSubpath { segment, start, end }) = item else { return None };
+    let SegmentKind::Subpath(subpath) = &path.segments[*segment].kind else { return None };
+    Some(EmbeddedPlace { segment: *segment, ends: (*start, *end), height: subpath.height })
 }
 
 /// An element that has not cut anything yet.

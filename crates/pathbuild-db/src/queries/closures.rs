@@ -18,6 +18,7 @@ use crate::inputs::{Limits, Role, Settings, SourceFile, Target};
 use crate::queries::embedding::{Embedding, Outcome, embeds};
 use crate::queries::index::{NameKey, PathSummary, keep_out_problems, path_index};
 use crate::queries::lookup::{find_path, own_directory, search_path};
+use crate::queries::part::part_problems;
 use crate::queries::raw::raw_path;
 
 /// The paths that a target reaches, including its own.
@@ -98,7 +99,9 @@ fn closure_without_embeddings<'db>(
 ) -> Option<Closure<'db>> {
     let (own, limits) = (summary(db, root), Settings::get(db).limits(db));
     let has_raised = own.signature.as_ref().is_some_and(|signature| !signature.raised_probes.is_empty());
-    let is_plain = own.is_clean() && keep_out_problems(db, target.file(db)).is_empty();
+    let is_plain = own.is_clean()
+        && keep_out_problems(db, target.file(db)).is_empty()
+        && part_problems(db, root).is_empty();
     let is_lone = *target.role(db) == Role::Checked && is_plain && !own.has_subpaths() && !has_raised;
     let is_within = size_limit_problem(own.moves, limits).is_none() && limits.paths > 0;
     let reached = vec![ReachedPath { instance: root, depth: 0 }];
@@ -214,7 +217,7 @@ impl<'db> Walk<'db> {
             has_errors |= self.report_all(instance, &sweep_problems);
         }
         has_errors |= self.report_all(instance, &summary.walk_problems);
-        has_errors |= self.report_all(instance, &summary.part_problems);
+        has_errors |= self.report_all(instance, part_problems(self.db, instance));
         let Some(signature) = summary.known_signature() else { return true };
         for embedding in embeds(self.db, instance) {
             has_errors |= self.visit_embedding(instance, &signature.name, embedding, depth);

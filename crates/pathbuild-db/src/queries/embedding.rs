@@ -3,17 +3,16 @@
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{
-    Bindings, Judge, Origin, Path, PathName, PathSignature, SpeltName, SubpathCall, SubpathName, WalkedPath,
+    Bindings, Judge, Origin, PathName, PathSignature, SpeltName, SubpathCall, SubpathName, WalkedPath,
 };
 
 use crate::database::Db;
 use crate::inputs::{Settings, SourceFile};
 use crate::queries::index::{
-    BoundPath, NameKey, PathSummary, bind, file_index, parts, path_index, walk_within_limit,
+    BoundPath, NameKey, PathSummary, bind, file_index, path_index, walk_within_limit,
 };
 use crate::queries::lookup::{ResolvedPath, find_path, own_directory, search_path};
 use crate::queries::nearby_ends::LayerEnds;
-use crate::queries::part::judge_path;
 use crate::queries::raw::{raw_path, read_layers};
 
 /// A subpath segment and the result of resolving it.
@@ -164,12 +163,7 @@ fn summary_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PathSum
     let file = instance.file(db);
     let Some(raw) = raw_path(db, file, instance.name(db)) else { return PathSummary::default() };
     let read_all = || read_layers(db, file, &|_| true);
-    let mut part_problems = Vec::new();
-    let mut judge = |path: &Path, walked: &WalkedPath| {
-        part_problems = judge_path(db, parts(db, file), path, walked);
-    };
-    let summary = PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all), &mut judge);
-    PathSummary { part_problems, ..summary }
+    PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all), &mut |_, _| {})
 }
 
 /// The bound and checked path. Only programs need it, so few are kept.

@@ -9,8 +9,8 @@ use pathbuild_diagnostic::{Code, Diagnostic, Note, Point};
 use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
-    Bindings, DrawnParts, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
-    PathHeader, PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
+    Bindings, DrawnParts, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Path, PathCuts, PathHeader,
+    PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
     stray_findings,
 };
 use pathbuild_toolpath::own_moves;
@@ -20,7 +20,7 @@ use crate::bugs::{TimeoutPanic, catch_bugs};
 use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::nearby_ends::LayerEnds;
-use crate::queries::part;
+use crate::queries::part::{self, FileParts};
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
 /// The index of a drawing. It contains no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
@@ -33,8 +33,8 @@ pub struct FileIndex {
     diagnostics: Vec<Diagnostic>,
     /// The clamps, if any layer has some.
     keep_outs: Option<Arc<KeepOuts>>,
-    /// The finished parts.
-    parts: Arc<[Part]>,
+    /// The parts and cuts, if the settings name layers with parts.
+    pub(super) parts: Option<Arc<FileParts>>,
     content: Content,
 }
 
@@ -182,18 +182,6 @@ fn indexed_keep_outs(db: &dyn Db, file: SourceFile) -> Option<Arc<KeepOuts>> {
     file_index(db, file).keep_outs.clone()
 }
 
-/// The parts of a drawing; empty without the setting.
-pub(super) fn parts(db: &dyn Db, file: SourceFile) -> &[Part] {
-    // Most libraries have no parts; no query is needed then.
-    if Settings::get(db).language(db).part.is_none() { &[] } else { indexed_parts(db, file) }
-}
-
-/// The parts in a drawing's index, unaffected by edits of its paths.
-#[salsa::tracked(returns(deref))]
-fn indexed_parts(db: &dyn Db, file: SourceFile) -> Arc<[Part]> {
-    Arc::clone(&file_index(db, file).parts)
-}
-
 impl FileIndex {
     fn new(
         db: &dyn Db,
@@ -203,23 +191,21 @@ impl FileIndex {
         content: Content,
     ) -> Self {
         let names: Vec<PathName> = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
-        let mut cuts = parts.is_some().then(Vec::new);
+        let is_checked = Settings::get(db).language(db).part.is_some();
+        let mut cuts = is_checked.then(Vec::new);
         let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, ends, cuts.as_mut());
         // Pushed one by one: `collect` would keep the raw paths' allocation.
         let mut paths: Vec<PathIndex> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         let mut diagnostics = raw.diagnostics;
-        if let (Some(parts), Some(cuts)) = (&parts, &cuts) {
-            let findings = part::judge(db, parts, cuts, cuts.len() == paths.len());
-            diagnostics.extend(findings.of_file);
-            for (cuts, problems) in cuts.iter().zip(findings.of_paths) {
-                if let Ok(place) = paths.binary_search_by(|path| path.header.name.cmp(&cuts.name)) {
-                    paths[place].summary.part_problems = problems;
-                }
-            }
-        }
-        let parts = parts.map(|drawn| drawn.parts.into()).unwrap_or_default();
+        let DrawnParts { parts, mut problems, .. } = parts.unwrap_or_default();
+        part::soften(db, &mut problems);
+        diagnostics.append(&mut problems);
+        let parts = cuts.map(|cuts: Vec<PathCuts>| {
+            let is_complete = cuts.len() == paths.len();
+            Arc::new(FileParts { parts, cuts: in_order(cuts), is_complete })
+        });
         // A collected list would occupy the memory of the one it is made of, fifty times what it needs.
         let mut shared = Vec::with_capacity(paths.len());
         shared.extend(paths.into_iter().map(Arc::new));
@@ -275,6 +261,11 @@ impl FileIndex {
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
     }
+}
+
+fn in_order(mut cuts: Vec<PathCuts>) -> Vec<PathCuts> {
+    cuts.sort_unstable_by(|one, other| one.name.cmp(&other.name));
+    cuts
 }
 
 impl PartialEq for FileIndex {
@@ -337,8 +328,6 @@ pub struct PathSummary {
     pub sweep_problems: Vec<Diagnostic>,
     /// Findings about the walk.
     pub walk_problems: Vec<Diagnostic>,
-    /// Findings about its cuts beside and into finished parts.
-    pub part_problems: Vec<Diagnostic>,
     /// Estimated number of moves, without embedded paths.
     pub moves: u64,
 }
@@ -376,7 +365,6 @@ impl PathSummary {
             problems,
             sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height()),
             walk_problems,
-            part_problems: Vec::new(),
             moves,
             signature: Some(signature),
             faulty_signature: None,
@@ -390,12 +378,11 @@ impl PathSummary {
 
     /// Whether the path itself has no findings.
     pub(super) fn is_clean(&self) -> bool {
-        let Self { problems, sweep_problems, walk_problems, part_problems, .. } = self;
+        let Self { problems, sweep_problems, walk_problems, .. } = self;
         self.signature.is_some()
             && problems.is_empty()
             && sweep_problems.is_empty()
             && walk_problems.is_empty()
-            && part_problems.is_empty()
     }
 
     /// Whether the path embeds others.

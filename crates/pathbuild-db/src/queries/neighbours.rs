@@ -1,28 +1,26 @@
-//! Cuts into the parts of other components of a project. (book: language/part)
+//! Cuts into the parts of other components of a project, and through their support bars. (book: language/part)
 
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Diagnostic, Point};
-use pathbuild_path::{Part, PartSettings, Placement, Way, Xy, cuts_into};
-use pathbuild_toolpath::{StepOrigin, cutting_way};
+use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
+use pathbuild_path::{NeighbourGouge, Origin, PlacedCuts, Placement, Xy};
 
-use super::programs::Occurrences;
 use crate::database::Db;
-use crate::inputs::{Settings, SourceFile, Target};
+use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
-use crate::queries::index::parts;
-use crate::queries::part::soften;
-use crate::queries::programs::{TracedProgram, traced_program};
+use crate::queries::embedding::{Instance, Outcome, embeds};
+use crate::queries::part::{file_parts, parts_of, path_cuts, soften};
 
-/// PB214 for cuts of one embedded path into the part of another: one per part and element, reported in the path that contains both.
-pub(super) fn gouged_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
+/// PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
+/// element, reported in the path that contains both.
+pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most programs have no parts in them; no query is needed then.
     if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
 }
 
 fn has_neighbours(db: &dyn Db, target: Target) -> bool {
-    let has_parts = |file| !parts(db, file).is_empty();
+    let has_parts = |file| file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
     Settings::get(db).language(db).part.is_some()
         && closure(db, target).reached.len() > 1
         && closure(db, target).files(db).into_iter().any(has_parts)
@@ -30,151 +28,164 @@ fn has_neighbours(db: &dyn Db, target: Target) -> bool {
 
 #[salsa::tracked]
 fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
-    let (Some(settings), Some(traced)) =
-        (&Settings::get(db).language(db).part, traced_program(db, target).as_deref())
-    else {
+    let closure = closure(db, target);
+    let (Some(settings), Some(root)) = (&Settings::get(db).language(db).part, closure.root) else {
         return Vec::new();
     };
-    let mut found = NeighbourSearch::new(db, traced, settings).findings();
-    for problem in &mut found {
-        soften(db, problem);
+    if closure.has_errors() || !closure.missing_options.is_empty() {
+        return Vec::new();
     }
+    let mut program = PlacedProgram { db, tolerance: settings.tolerance, paths: Vec::new() };
+    let start = path_cuts(db, root).map_or(Xy::origin(), |cuts| cuts.ends.0);
+    program.add(root, Placement::from_origin(start), 0.0, None);
+    let mut found = program.findings();
+    soften(db, &mut found);
     found
 }
 
-/// Searches a program for cuts into the parts of others.
-struct NeighbourSearch<'t> {
-    db: &'t dyn Db,
-    traced: &'t TracedProgram,
-    settings: &'t PartSettings,
-    /// The cutting moves with their radii and origins.
-    cuts: Vec<(Way, f64)>,
-    origins: Vec<StepOrigin>,
+/// The paths of a program at their places.
+struct PlacedProgram<'db> {
+    db: &'db dyn Db,
+    tolerance: f64,
+    /// Each after the path that embeds it.
+    paths: Vec<PlacedPath<'db>>,
 }
 
-/// A part as placed in a program.
-struct PlacedPart {
-    part: Part,
-    occurrence: u32,
-    file: SourceFile,
-    placement: Placement,
-    raised: f64,
+struct PlacedPath<'db> {
+    instance: Instance<'db>,
+    cuts: PlacedCuts<'db>,
+    /// The number of the path around it, and the segment there that embeds it.
+    parent: Option<(usize, &'db Origin)>,
 }
 
 /// Distance in mm between two places of a drawing below which they are the same: paths of one drawing that are embedded together.
 const SAME_PLACE: f64 = 0.01;
 
-impl<'t> NeighbourSearch<'t> {
-    fn new(db: &'t dyn Db, traced: &'t TracedProgram, settings: &'t PartSettings) -> Self {
-        let TracedProgram { program, trace, parts } = traced;
-        let (mut cuts, mut origins) = (Vec::new(), Vec::new());
-        for (number, movement) in program.moves() {
-            let origin = trace.steps.get(number as usize - 1).filter(|origin| origin.element.is_some());
-            if let (Some(origin), Some(way)) = (origin, cutting_way(&movement)) {
-                let path = &parts[trace.occurrences[origin.occurrence as usize].id].path;
-                cuts.push((way, path.tool / 2.0));
-                origins.push(*origin);
-            }
+impl<'db> PlacedProgram<'db> {
+    /// Adds a path with all that it embeds.
+    fn add(
+        &mut self,
+        instance: Instance<'db>,
+        placement: Placement,
+        raised: f64,
+        parent: Option<(usize, &'db Origin)>,
+    ) {
+        let Some(cuts) = path_cuts(self.db, instance) else { return };
+        let is_known = |part: &&_| self.is_known(instance, &placement, part);
+        let own = if parent.is_some() { parts_of(self.db, instance) } else { Vec::new() };
+        let parts = own.into_iter().filter(|part| !is_known(part)).collect();
+        let number = self.paths.len();
+        self.paths.push(PlacedPath {
+            instance,
+            cuts: PlacedCuts::new(cuts, parts, placement, raised),
+            parent,
+        });
+        for place in &cuts.embedded {
+            let mut embeddings = embeds(self.db, instance).iter();
+            let Some(embedding) = embeddings.find(|embedding| embedding.segment == place.segment) else {
+                continue;
+            };
+            let Outcome::Found { child, .. } = &embedding.outcome else { continue };
+            let Some(inner) = path_cuts(self.db, *child) else { continue };
+            let onto = (placement.place(place.ends.0), placement.place(place.ends.1));
+            let inner = Placement::aligning(inner.ends, onto, &placement);
+            self.add(*child, inner, raised + place.height, Some((number, &embedding.origin)));
         }
-        Self { db, traced, settings, cuts, origins }
+    }
+
+    /// Whether another path of the same drawing has brought a part to this place.
+    fn is_known(&self, instance: Instance<'db>, placement: &Placement, part: &pathbuild_path::Part) -> bool {
+        let is_same = |other: &PlacedPath<'_>| {
+            other.cuts.parts.iter().any(|known| std::ptr::eq(*known, part))
+                && self.is_at(other, instance, placement)
+        };
+        self.paths.iter().any(is_same)
+    }
+
+    /// Whether a path lies where the drawing of another one lies.
+    fn is_at(&self, other: &PlacedPath<'_>, instance: Instance<'db>, placement: &Placement) -> bool {
+        let corners = [Xy::new(0.0, 0.0), Xy::new(1000.0, 0.0)];
+        let is_near = |at| (other.cuts.placement.place(at) - placement.place(at)).norm() <= SAME_PLACE;
+        other.instance.file(self.db) == instance.file(self.db) && corners.into_iter().all(is_near)
     }
 
     fn findings(&self) -> Vec<Diagnostic> {
         let mut found = Vec::new();
-        for placed in self.placed() {
-            let others: Vec<usize> =
-                (0..self.cuts.len()).filter(|cut| self.is_foreign(&placed, self.origins[*cut])).collect();
-            let cuts: Vec<(Way, f64)> = others.iter().map(|cut| self.cuts[*cut]).collect();
-            let mut deepest: BTreeMap<(u32, Option<u32>), (Xy, f64, f64)> = BTreeMap::new();
-            for (number, at, depth, _) in
-                cuts_into(&placed.part, &cuts, placed.raised, self.settings.tolerance)
-            {
-                let occurrences = Occurrences { db: self.db, traced: self.traced };
-                let origin = self.origins[others[number]];
-                let tool = 2.0 * cuts[number].1;
-                let place = occurrences.common(origin, placed.occurrence);
-                let deepest = deepest.entry(place).or_insert((at, depth, tool));
-                if depth > deepest.1 {
-                    *deepest = (at, depth, tool);
+        for owner in 0..self.paths.len() {
+            let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
+            let mut bars = Vec::new();
+            for cutting in (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting)) {
+                let taken = self.paths[owner].cuts.taken_by(&self.paths[cutting].cuts, self.tolerance);
+                for gouge in taken.gouges {
+                    let (path, origin) = self.common(cutting, gouge.element, owner);
+                    let key = (gouge.part, path, origin.id.0);
+                    let deepest = gouges.entry(key).or_insert((gouge.clone(), cutting, origin));
+                    if gouge.depth > deepest.0.depth {
+                        *deepest = (gouge, cutting, origin);
+                    }
                 }
+                bars.extend(taken.bars.iter().map(|lost| {
+                    let (path, origin) = self.common(cutting, lost.element, owner);
+                    self.at(path, origin, lost.problem(self.paths[owner].cuts.cuts))
+                }));
             }
-            found.extend(deepest.iter().map(|(place, deepest)| self.finding(&placed, *place, *deepest)));
+            let gouges = gouges.into_iter();
+            found.extend(gouges.map(|((_, path, _), (gouge, cutting, origin))| {
+                self.at(path, origin, self.gouge_problem(owner, cutting, &gouge))
+            }));
+            found.append(&mut bars);
         }
         found
     }
 
-    /// The parts of the embedded paths, each place once, if the path cuts them.
-    fn placed(&self) -> Vec<PlacedPart> {
-        let mut all: Vec<PlacedPart> = Vec::new();
-        for (number, occurrence) in (0_u32..).zip(&self.traced.trace.occurrences).skip(1) {
-            let own = &self.traced.parts[occurrence.id];
-            for part in parts(self.db, own.file).iter().filter(|part| part.may_belong_to(&own.path.name)) {
-                let placed = PlacedPart {
-                    part: part.placed(&occurrence.placement),
-                    occurrence: number,
-                    file: own.file,
-                    placement: occurrence.placement,
-                    raised: occurrence.raised,
-                };
-                let is_own = |origin: &StepOrigin| origin.occurrence == number;
-                let mut cuts = self.cuts.iter().zip(&self.origins).filter(|(_, origin)| is_own(origin));
-                let is_cut = cuts.any(|((way, radius), _)| {
-                    let curves = placed.part.rings.iter().flat_map(|ring| &ring.curves);
-                    curves.into_iter().any(|curve| curve.distance(&way.curve) < 2.0 * radius)
-                });
-                let is_known = all
-                    .iter()
-                    .any(|other| other.is_at(placed.file, &placed.placement) && other.is_same(&placed));
-                if is_cut && !is_known {
-                    all.push(placed);
-                }
-            }
+    /// Whether a path has nothing to do with the parts of another: neither the same drawing in the same place, nor embedded in it.
+    fn is_foreign(&self, owner: usize, cutting: usize) -> bool {
+        let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
+        let is_within = self.outwards(cutting).any(|around| around == owner);
+        !is_within && !self.is_at(&self.paths[owner], *instance, &cuts.placement)
+    }
+
+    /// A path and the paths around it, from the inside out.
+    fn outwards(&self, path: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(path), |inner| self.paths[*inner].parent.map(|(outer, _)| outer))
+    }
+
+    /// The innermost path that contains both an element and another path, and its element that leads to the former.
+    fn common(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
+        let around: Vec<usize> = self.outwards(other).collect();
+        let mut origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;
+        while !around.contains(&path) {
+            let Some(parent) = self.paths[path].parent else { break };
+            (path, origin) = parent;
         }
-        all
+        (path, origin)
     }
 
-    /// Whether a cut has nothing to do with the path of a part: neither its own, nor of a path of the same drawing in the same place, nor
-    /// embedded in it.
-    fn is_foreign(&self, placed: &PlacedPart, origin: StepOrigin) -> bool {
-        let occurrences = Occurrences { db: self.db, traced: self.traced };
-        let occurrence = &self.traced.trace.occurrences[origin.occurrence as usize];
-        let file = self.traced.parts[occurrence.id].file;
-        let is_within = occurrences.outwards(origin.occurrence).any(|around| around == placed.occurrence);
-        !is_within && !placed.is_at(file, &occurrence.placement)
-    }
-
-    fn finding(
-        &self,
-        placed: &PlacedPart,
-        (occurrence, element): (u32, Option<u32>),
-        (at, depth, tool): (Xy, f64, f64),
-    ) -> Diagnostic {
-        let TracedProgram { trace, parts, .. } = self.traced;
-        let other = &parts[trace.occurrences[placed.occurrence as usize].id].path;
-        let start = placed.part.rings[0].curves[0].start();
+    fn gouge_problem(&self, owner: usize, cutting: usize, gouge: &NeighbourGouge) -> Diagnostic {
+        let owner = &self.paths[owner].cuts;
         let point = |at: Xy| Point::new(at.x, at.y);
-        let found = Diagnostic::new(&messages::GOUGED_NEIGHBOUR)
-            .with("tool", tool)
-            .with("depth", depth)
-            .quoting("other", other.name.as_str())
-            .with("place", point(start))
-            .with("point", point(at));
-        Occurrences { db: self.db, traced: self.traced }.at_element(occurrence, element, found)
-    }
-}
-
-impl PlacedPart {
-    /// Whether a drawing lies where the drawing of this part lies.
-    fn is_at(&self, file: SourceFile, placement: &Placement) -> bool {
-        let corners = [Xy::new(0.0, 0.0), Xy::new(1000.0, 0.0)];
-        let is_near = |corner| (self.placement.place(corner) - placement.place(corner)).norm() <= SAME_PLACE;
-        self.file == file && corners.into_iter().all(is_near)
+        Diagnostic::new(&messages::GOUGED_NEIGHBOUR)
+            .with("tool", 2.0 * self.paths[cutting].cuts.cuts.radius)
+            .with("depth", gouge.depth)
+            .quoting("other", owner.cuts.name.as_str())
+            .with("place", point(owner.start_of(gouge.part)))
+            .with("point", point(gouge.at))
     }
 
-    fn is_same(&self, other: &Self) -> bool {
-        self.part.layer == other.part.layer
-            && self.part.rings.len() == other.part.rings.len()
-            && (self.part.rings[0].curves[0].start() - other.part.rings[0].curves[0].start()).norm()
-                <= SAME_PLACE
+    /// A finding about an element of a path, with the embeddings that lead there.
+    fn at(&self, path: usize, origin: &Origin, problem: Diagnostic) -> Diagnostic {
+        let place = |path: usize| {
+            let PlacedPath { instance, cuts, .. } = &self.paths[path];
+            (instance.file(self.db).path(self.db), cuts.cuts.name.as_str())
+        };
+        let step = |inner: usize| {
+            let (outer, origin) = self.paths[inner].parent?;
+            let (file, name) = place(outer);
+            Some(TraceStep { file: file.clone(), path: name.into(), point: origin.point })
+        };
+        let mut trace: Vec<TraceStep> = self.outwards(path).filter_map(step).collect();
+        trace.reverse();
+        let (file, name) = place(path);
+        Diagnostic { trace, ..origin.at(problem.in_file(file).in_path(name)) }
     }
 }

@@ -1,48 +1,153 @@
 //! Findings about the cuts of a drawing's paths beside and into its parts. (book: language/part)
 
+use std::sync::Arc;
+
+use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_path::{DrawnParts, Part, PartFindings, Path, PathCuts, WalkedPath, check_parts, check_path};
+use pathbuild_path::{
+    Part, PartFindings, Path, PathCuts, PathName, WalkedPath, check_parts, check_path, parts as read_parts,
+};
 use pathbuild_toolpath::part_cuts;
 
 use crate::bugs::catch_bugs;
 use crate::database::Db;
-use crate::inputs::Settings;
+use crate::inputs::{Reading, Settings, SourceFile};
+use crate::queries::embedding::{Instance, chains, path};
+use crate::queries::index::{file_index, path_index};
+use crate::queries::raw::read_layers_as;
 
-/// The cuts of a sound path, if the drawing has parts. A panic was reported by the index already if the path gives no program either.
+/// What the part check needs of a drawing. Positions are left out, so that edits elsewhere in the drawing leave it equal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct FileParts {
+    /// The finished parts.
+    pub(super) parts: Vec<Part>,
+    /// The cuts of the sound paths for example values, in order of name.
+    pub(super) cuts: Vec<PathCuts>,
+    /// Whether the cuts of all its paths are known.
+    pub(super) is_complete: bool,
+}
+
+impl FileParts {
+    /// The place of a path among the cuts.
+    fn place(&self, name: &PathName) -> Option<usize> {
+        self.cuts.binary_search_by(|cuts| (*cuts.name).cmp(name)).ok()
+    }
+}
+
+/// The cuts of a sound path. A panic was reported by the index already if the path gives no program either.
 pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
-    let is_compatible = Settings::get(db).fold(db).compatible;
+    let is_compatible = Settings::get(db).reading(db).compatible;
     catch_bugs(|| part_cuts(path, walked, is_compatible)).ok()
 }
 
-/// Checks all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known.
-pub(super) fn judge(db: &dyn Db, drawn: &DrawnParts, cuts: &[PathCuts], is_complete: bool) -> PartFindings {
-    let Some(settings) = &Settings::get(db).language(db).part else { return PartFindings::default() };
-    let cuts: Vec<&PathCuts> = cuts.iter().collect();
-    let mut findings = check_parts(drawn, &cuts, is_complete, settings);
-    findings.of_file.extend(drawn.problems.iter().cloned());
-    let of_paths = findings.of_paths.iter_mut().flatten();
-    for problem in findings.of_file.iter_mut().chain(of_paths) {
-        soften(db, problem);
-    }
+/// The parts and cuts of a drawing; `None` without the setting.
+pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
+    // Most libraries have no parts; no query is needed then.
+    Settings::get(db).language(db).part.as_ref()?;
+    indexed_parts(db, file).as_deref()
+}
+
+/// The parts and cuts in a drawing's index, unaffected by edits of anything else in it.
+#[salsa::tracked]
+fn indexed_parts(db: &dyn Db, file: SourceFile) -> Option<Arc<FileParts>> {
+    file_index(db, file).parts.clone()
+}
+
+/// What the check of a drawing's parts finds for example values. `None` if it has no parts.
+pub(super) fn part_findings(db: &dyn Db, file: SourceFile) -> Option<&PartFindings> {
+    let has_parts = file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
+    has_parts.then(|| checked_parts(db, file))
+}
+
+#[salsa::tracked]
+fn checked_parts(db: &dyn Db, file: SourceFile) -> PartFindings {
+    let (Some(settings), Some(found)) = (&Settings::get(db).language(db).part, file_parts(db, file)) else {
+        return PartFindings::default();
+    };
+    let cuts: Vec<&PathCuts> = found.cuts.iter().collect();
+    let mut findings = check_parts(&found.parts, &cuts, found.is_complete, settings);
+    soften(db, findings.of_paths.iter_mut().flatten());
     findings
 }
 
-/// Checks one path against the parts of its drawing, for other values than those of its index.
-pub(super) fn judge_path(db: &dyn Db, parts: &[Part], path: &Path, walked: &WalkedPath) -> Vec<Diagnostic> {
-    let (Some(settings), false) = (&Settings::get(db).language(db).part, parts.is_empty()) else {
+/// Findings about a path beside and in the parts of its drawing.
+pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Diagnostic] {
+    let file = instance.file(db);
+    let Some(findings) = part_findings(db, file) else { return &[] };
+    if is_example(db, instance) {
+        let place = file_parts(db, file).and_then(|found| found.place(&instance.name(db).name(db)));
+        return place.map_or(&[], |place| &findings.of_paths[place]);
+    }
+    part_problems_with_values(db, instance)
+}
+
+#[salsa::tracked]
+fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Diagnostic> {
+    let (Some(settings), Some(found)) =
+        (&Settings::get(db).language(db).part, file_parts(db, instance.file(db)))
+    else {
         return Vec::new();
     };
-    let cuts = cuts_of(db, path, walked);
-    let mut found = cuts.map(|cuts| check_path(parts, &cuts, settings)).unwrap_or_default();
-    for problem in &mut found {
-        soften(db, problem);
+    let cuts = path_cuts(db, instance);
+    let mut problems = cuts.map(|cuts| check_path(&found.parts, cuts, settings)).unwrap_or_default();
+    soften(db, &mut problems);
+    problems
+}
+
+/// The cuts of a path with its values. `None` if it has errors, or without the setting.
+pub(super) fn path_cuts<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<&'db PathCuts> {
+    let found = file_parts(db, instance.file(db))?;
+    if is_example(db, instance) {
+        return Some(&found.cuts[found.place(&instance.name(db).name(db))?]);
     }
-    found
+    cuts_with_values(db, instance).as_ref()
+}
+
+#[salsa::tracked]
+fn cuts_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<PathCuts> {
+    cuts_of(db, path(db, instance).path.as_ref()?, chains(db, instance))
+}
+
+/// The parts of its drawing that a path cuts.
+pub(super) fn parts_of<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<&'db Part> {
+    let file = instance.file(db);
+    let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {
+        return Vec::new();
+    };
+    let place = found.place(&instance.name(db).name(db));
+    place
+        .map(|place| findings.parts[place].iter().map(|part| &found.parts[*part]).collect())
+        .unwrap_or_default()
+}
+
+fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {
+    let index = path_index(db, instance.file(db), instance.name(db));
+    index.as_ref().is_some_and(|index| index.examples == *instance.bindings(db))
+}
+
+/// PB220 for outlines that no path comes near. Their positions are read again.
+pub(super) fn uncut_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
+    let uncut = part_findings(db, file).map(|findings| findings.uncut.as_slice()).unwrap_or_default();
+    if uncut.is_empty() {
+        return Vec::new();
+    }
+    let language = Settings::get(db).language(db);
+    let reading = Reading { compatible: false, ..Settings::get(db).reading(db).clone() };
+    let drawn = read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
+    let problem = |(part, ring): &(usize, usize)| {
+        let place = drawn.places.get(*part)?.get(*ring)?.clone();
+        let mut problem = Diagnostic { place, ..Diagnostic::new(&messages::OUTLINE_NOT_CUT) };
+        soften(db, [&mut problem]);
+        Some(problem.in_file(file.path(db)))
+    };
+    uncut.iter().filter_map(problem).collect()
 }
 
 /// In compatible mode everything about parts is a warning.
-pub(super) fn soften(db: &dyn Db, problem: &mut Diagnostic) {
-    if Settings::get(db).fold(db).compatible {
-        problem.severity = Severity::Warning;
+pub(super) fn soften<'p>(db: &dyn Db, problems: impl IntoIterator<Item = &'p mut Diagnostic>) {
+    if Settings::get(db).reading(db).compatible {
+        for problem in problems {
+            problem.severity = Severity::Warning;
+        }
     }
 }

@@ -11,7 +11,7 @@ use pathbuild_path::{
 
 use crate::bugs::catch_bugs;
 use crate::database::{Db, abandon_query};
-use crate::inputs::{Settings, SourceFile};
+use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::index::{NameKey, file_index};
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
@@ -31,7 +31,16 @@ fn read_again<R>(db: &dyn Db, file: SourceFile, work: impl FnOnce(&[u8], &mut Dr
 
 /// The entities of an indexed drawing on some of its layers. Empty if it cannot be read.
 pub(super) fn read_layers(db: &dyn Db, file: SourceFile, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
-    let reading = Settings::get(db).reading(db);
+    read_layers_as(db, file, Settings::get(db).reading(db), keep_layer)
+}
+
+/// The same with another reading than that of the settings.
+pub(super) fn read_layers_as(
+    db: &dyn Db,
+    file: SourceFile,
+    reading: &Reading,
+    keep_layer: &dyn Fn(&str) -> bool,
+) -> Drawing {
     read_again(db, file, |bytes, _| entities(bytes, reading, keep_layer)).unwrap_or_default()
 }
 

@@ -13,7 +13,8 @@ use crate::inputs::{Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};
 use crate::queries::keep_outs::entered_keep_outs;
-use crate::queries::neighbours::gouged_neighbours;
+use crate::queries::neighbours::harmed_neighbours;
+use crate::queries::part::{part_findings, uncut_outlines};
 use crate::queries::programs::ClosurePaths;
 use crate::queries::raw::{locate_in, raw_file, read_layers};
 
@@ -23,8 +24,8 @@ use crate::queries::raw::{locate_in, raw_file, read_layers};
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     let closure = closure(db, target);
     let is_right = !closure.has_errors() && closure.missing_options.is_empty();
-    let is_gouging = || gouged_neighbours(db, target).iter().any(Diagnostic::is_error);
-    if !is_right || !entered_keep_outs(db, target).is_empty() || is_gouging() {
+    let is_harmful = || harmed_neighbours(db, target).iter().any(Diagnostic::is_error);
+    if !is_right || !entered_keep_outs(db, target).is_empty() || is_harmful() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
@@ -35,13 +36,20 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
 
 /// Findings about a file as a whole. Its paths are targets of their own.
 pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
-    file_index(db, file).diagnostics()
+    let has_uncut = part_findings(db, file).is_some_and(|findings| !findings.uncut.is_empty());
+    if has_uncut { problems_with_outlines(db, file) } else { file_index(db, file).diagnostics() }
+}
+
+#[salsa::tracked]
+fn problems_with_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
+    let uncut = uncut_outlines(db, file);
+    file_index(db, file).diagnostics().iter().cloned().chain(uncut).collect()
 }
 
 /// Findings about a path, everything it embeds, clamps in its way, and parts that it cuts into. They are not located yet.
 pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
     let found = closure(db, target).diagnostics.iter();
-    found.chain(entered_keep_outs(db, target)).chain(gouged_neighbours(db, target))
+    found.chain(entered_keep_outs(db, target)).chain(harmed_neighbours(db, target))
 }
 
 /// Fills in line and handle of the element that a diagnostic is about. Called last, so that no query depends on lines.

@@ -12,5 +12,6 @@ mod links;
 mod listing;
 mod memory;
 mod one_file;
+mod parts;
 mod settings;
 mod world;

@@ -204,6 +204,29 @@ fn neighbours_in_a_project_need_room_for_the_cutter() {
     }
 }
 
+/// A cut of another component beside the part does not enter it, but goes through its bar, down to Z0 or above the bar.
+#[test]
+fn bars_must_not_be_cut_by_other_components() {
+    let plate = format!(
+        "{}sweep -5,-5 0,0\nbars 0,0 42,0\nbars to 42,27 0,27 0,0\nsweep 0,0 50,-5\nend 50,-5\n\
+         layer Part\npolyline 1,1 41,1 41,26 1,26 closed\n",
+        START.replace("T2", "T2 Mx")
+    );
+    let cut = |bottom: f64| {
+        format!("layer 1300.1P\nstart 0,0 \"T2 O2 Mx I1 B{bottom} S5\"\nmill 0,0 42,0\nend 42,0\n")
+    };
+    let project = "layer 8001.1P\nstart 0,0 \"T2 O2 S20\"\nsubpath 0,0 55,0 \">1234.1P Mx\"\n\
+                   sweep 55,0 5,5\nsubpath 5,5 47,5 \">1300.1P Mx\"\nend 47,5\n";
+    let codes = |bottom: f64| {
+        let files = [("8001.1P.dxf", project), ("1234.1P.dxf", &plate), ("1300.1P.dxf", &cut(bottom))];
+        let found = PartTest::default().diagnostics(&files);
+        let found = found.iter().map(|found| found.code().to_string());
+        found.filter(|code| code == "PB214" || code == "PB218").collect::<Vec<_>>()
+    };
+    assert_eq!(codes(0.8), [""; 0], "at D of the bars");
+    assert_eq!(codes(0.77).len(), 6, "every bar of this side, by more than the tolerance");
+}
+
 /// A raised component is on a plate of its own: cuts of the other one go through it, but its own end above the other.
 #[test]
 fn heights_of_embeddings_raise_the_plate() {

@@ -5,32 +5,57 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
 
-use super::cuts::{CutIndex, StandingBar};
+use super::cuts::{CutIndex, PathCuts, StandingBar};
 use super::intervals::{GAP, Stretch, at as at_along, joined, within};
 use crate::element::shown;
-use crate::geometry::Curve;
+use crate::geometry::{Curve, Xy};
 use crate::keep_out::around;
 
 /// Share of a bar that may be cut away.
 const BAR_LOSS: f64 = 0.05;
 
-/// PB218 for each element that cuts a bar away, with its path.
-pub(super) fn bars_cut_away(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<(usize, Diagnostic)> {
+/// A support bar that an element takes away.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LostBar {
+    /// The number of the bar's path.
+    pub of: usize,
+    /// The number of the path that takes it away.
+    pub by: usize,
+    /// Index into [`PathCuts::elements`] of that path.
+    pub element: u32,
+    /// How much of the bar goes, in mm.
+    pub lost: f64,
+    /// The length of the bar in mm.
+    pub length: f64,
+    /// Its middle.
+    pub at: Xy,
+}
+
+/// The bars of all paths that cuts take away, once for each element that does.
+pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
-    for path in cuts.paths {
+    for (of, path) in cuts.paths.iter().enumerate() {
         for bar in &path.bars {
             let Some(middle) = &bar.middle else { continue };
-            for ((cutting, element), lost) in (BarLoss { bar, middle, cuts, tolerance }).elements() {
-                let problem = Diagnostic::new(&messages::BAR_CUT_AWAY)
-                    .with("lost", lost)
-                    .with("length", middle.length())
-                    .with("point", shown(at_along(middle, middle.length() / 2.0)))
-                    .quoting("other", path.name.as_str());
-                found.push((cutting, cuts.paths[cutting].at_element(element, problem)));
-            }
+            let length = middle.length();
+            let at = at_along(middle, length / 2.0);
+            let elements = BarLoss { bar, middle, cuts, tolerance }.elements();
+            let lost = |((by, element), lost)| LostBar { of, by, element, lost, length, at };
+            found.extend(elements.into_iter().map(lost));
         }
     }
     found
+}
+
+impl LostBar {
+    /// PB218. `path`: the path of the bar.
+    pub fn problem(&self, path: &PathCuts) -> Diagnostic {
+        Diagnostic::new(&messages::BAR_CUT_AWAY)
+            .with("lost", self.lost)
+            .with("length", self.length)
+            .with("point", shown(self.at))
+            .quoting("other", path.name.as_str())
+    }
 }
 
 /// A bar, and the cuts that may take it away.

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 
-use super::bars::bars_cut_away;
+use super::bars::lost_bars;
 use super::cuts::{CutIndex, PathCuts};
 use super::gouge::{Gouge, JudgedCut, gouges, judged};
 use super::leftover::{Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
-use super::{DrawnParts, Part, PartSettings};
+use super::{Part, PartSettings};
 use crate::element::shown;
 use crate::geometry::Curve;
 use crate::keep_out::around;
@@ -19,10 +19,12 @@ use crate::keep_out::around;
 /// What the check of a drawing's parts found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartFindings {
-    /// Findings about the drawing.
-    pub of_file: Vec<Diagnostic>,
+    /// The outlines that no path comes near: indices of their part, and of the ring in it.
+    pub uncut: Vec<(usize, usize)>,
     /// Findings about each path.
     pub of_paths: Vec<Vec<Diagnostic>>,
+    /// For each path, the indices of the parts that it cuts.
+    pub parts: Vec<Vec<usize>>,
 }
 
 /// Depth in mm up to which a cut into a part is a warning.
@@ -31,33 +33,38 @@ const SHALLOW: f64 = 0.1;
 /// Checks the cuts of all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known; otherwise what
 /// is not cut is not reported.
 pub fn check_parts(
-    drawn: &DrawnParts,
+    parts: &[Part],
     paths: &[&PathCuts],
     is_complete: bool,
     settings: &PartSettings,
 ) -> PartFindings {
-    let mut findings = PartFindings { of_file: Vec::new(), of_paths: vec![Vec::new(); paths.len()] };
-    if drawn.parts.is_empty() {
-        return findings;
+    let none = PartFindings {
+        uncut: Vec::new(),
+        of_paths: vec![Vec::new(); paths.len()],
+        parts: vec![Vec::new(); paths.len()],
+    };
+    if parts.is_empty() {
+        return none;
     }
+    let mut findings = none;
     let cuts = CutIndex::new(paths);
-    let embeds_others = paths.iter().any(|path| path.has_subpaths);
-    for (part, places) in drawn.parts.iter().zip(&drawn.places) {
+    let embeds_others = paths.iter().any(|path| !path.embedded.is_empty());
+    for (number, part) in parts.iter().enumerate() {
         let part = PreparedPart::new(part);
         let check = PartCheck::new(&part, &cuts, settings);
         if is_complete && !embeds_others {
-            let problem = || Diagnostic::new(&messages::OUTLINE_NOT_CUT);
-            let uncut = check.nests_without_cuts();
-            findings
-                .of_file
-                .extend(uncut.map(|ring| Diagnostic { place: places[ring].clone(), ..problem() }));
+            findings.uncut.extend(check.nests_without_cuts().map(|ring| (number, ring)));
         }
         for (path, problem) in check.problems(is_complete) {
             findings.of_paths[path].push(problem);
         }
+        for (path, _) in check.owners.iter().enumerate().filter(|(_, is_owner)| **is_owner) {
+            findings.parts[path].push(number);
+        }
     }
-    for (path, problem) in bars_cut_away(&cuts, settings.tolerance) {
-        findings.of_paths[path].push(problem);
+    for lost in lost_bars(&cuts, settings.tolerance) {
+        let problem = lost.problem(paths[lost.of]);
+        findings.of_paths[lost.by].push(paths[lost.by].at_element(lost.element, problem));
     }
     findings
 }
@@ -172,8 +179,8 @@ impl<'s> PartCheck<'s> {
         let outer = &self.part.part.rings[0].curves;
         let distance =
             |curve: &Curve| outer.iter().map(|ring| ring.distance(curve)).fold(f64::INFINITY, f64::min);
-        let first = through.iter().find(|(cut, curve)| distance(curve) < 2.0 * cut.radius);
-        let (cut, _) = first.or(through.first())?;
+        let near = through.iter().filter(|(cut, curve)| distance(curve) < 2.0 * cut.radius);
+        let (cut, _) = near.min_by_key(|(cut, _)| (cut.path, cut.cut.element)).or(through.first())?;
         let problem = Diagnostic::new(&messages::LOOSE_PART).with("point", shown(outer[0].start()));
         Some((cut.path, self.cuts.paths[cut.path].at_element(cut.cut.element, problem)))
     }
@@ -217,4 +224,86 @@ fn leftover_problem(stretches: &[Leftover]) -> Option<Diagnostic> {
     };
     let problem = problem.with("from", shown(left.from)).with("to", shown(left.to));
     Some(problem.with("length", left.length).with("count", stretches.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use pathbuild_diagnostic::{ElementId, EntityKind, Lang, Point};
+
+    use super::*;
+    use crate::element::Origin;
+    use crate::geometry::{Line, Xy};
+    use crate::keep_out::Way;
+    use crate::names::{LayerPattern, PathName};
+    use crate::part::{CutElement, PartCut, PartRing};
+
+    /// The sides of a rectangle, each in several pieces.
+    fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2], pieces: u32) -> Vec<Line> {
+        let corners = [[left, low], [right, low], [right, high], [left, high]].map(Xy::from);
+        let side = |number: usize| {
+            let (from, to) = (corners[number], corners[(number + 1) % 4]);
+            let at = move |piece: u32| from + (to - from) * (f64::from(piece) / f64::from(pieces));
+            (0..pieces).map(move |piece| Line { start: at(piece), end: at(piece + 1) })
+        };
+        (0..4).flat_map(side).collect()
+    }
+
+    /// A contour round a plate of 40 x 20, each side in four pieces and an element of its own, shifted 0.05 mm to the right.
+    fn contour() -> PathCuts {
+        let ways = rectangle([-0.95, -1.0], [41.05, 21.0], 4);
+        let element = |number: u32| CutElement {
+            origin: Origin {
+                id: ElementId(number),
+                entity: EntityKind::Line,
+                layer: "1.1P".into(),
+                point: Point::new(f64::from(number), 0.0),
+            },
+            is_mark: false,
+            lowest: 0.0,
+        };
+        let cut = |(number, line): (u32, Line)| PartCut {
+            way: Way { curve: Curve::Line(line), from_z: 0.0, to_z: 0.0 },
+            element: number / 4,
+        };
+        PathCuts {
+            name: PathName::new("1.1P").into(),
+            radius: 1.0,
+            elements: (0..4).map(element).collect(),
+            cuts: (0..).zip(ways).map(cut).collect(),
+            bars: Vec::new(),
+            ends: (Xy::origin(), Xy::origin()),
+            embedded: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_order_of_cuts_does_not_matter() {
+        let plate = rectangle([0.0, 0.0], [40.0, 20.0], 1).into_iter().map(Curve::Line).collect();
+        let rings = vec![PartRing { curves: plate, nest: 0 }];
+        let parts = [Part { layer: "Part".into(), paths: None, rings }];
+        let pattern = LayerPattern::new("Part").expect("a valid pattern");
+        let settings = PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false };
+        let check = |cuts: &PathCuts| {
+            let found = check_parts(&parts, &[cuts], true, &settings);
+            let mut texts: Vec<String> = found.of_paths[0].iter().map(|found| found.text(Lang::En)).collect();
+            texts.sort();
+            texts
+        };
+        let mut cuts = contour();
+        let expected = check(&cuts);
+        assert_eq!(
+            expected.len(),
+            3,
+            "a gouge on the left, a leftover on the right, and a loose part: {expected:?}"
+        );
+        let mut state = 1_u64;
+        for _ in 0..500 {
+            for last in (1..cuts.cuts.len()).rev() {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                let other = usize::try_from(state >> 33).unwrap_or_default() % (last + 1);
+                cuts.cuts.swap(last, other);
+            }
+            assert_eq!(check(&cuts), expected, "{:?}", cuts.cuts);
+        }
+    }
 }

@@ -6,7 +6,7 @@ use rstar::AABB;
 use super::boxes::BoxIndex;
 use super::intervals::GAP;
 use crate::element::Origin;
-use crate::geometry::Curve;
+use crate::geometry::{Curve, Xy};
 use crate::keep_out::{Way, around};
 use crate::names::SpeltName;
 
@@ -23,8 +23,21 @@ pub struct PathCuts {
     pub cuts: Vec<PartCut>,
     /// The support bars that it leaves.
     pub bars: Vec<StandingBar>,
-    /// Whether it embeds others, which may cut what it does not.
-    pub has_subpaths: bool,
+    /// Its start and its end.
+    pub ends: (Xy, Xy),
+    /// The paths that it embeds, which may cut what it does not.
+    pub embedded: Vec<EmbeddedPlace>,
+}
+
+/// The place of an embedded path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmbeddedPlace {
+    /// Index into [`Path::segments`](crate::Path::segments).
+    pub segment: usize,
+    /// Where it starts and ends.
+    pub ends: (Xy, Xy),
+    /// H in mm, by which it is raised.
+    pub height: f64,
 }
 
 /// An element that cuts.
@@ -63,7 +76,7 @@ pub(crate) const THROUGH: f64 = 0.001;
 
 impl PathCuts {
     /// A finding about an element, by its index into [`Self::elements`].
-    pub(super) fn at_element(&self, element: u32, problem: Diagnostic) -> Diagnostic {
+    pub fn at_element(&self, element: u32, problem: Diagnostic) -> Diagnostic {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }
 

@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::Part;
-use super::cuts::{CutIndex, IndexedCut, THROUGH};
+use super::cuts::{CutIndex, IndexedCut};
 use super::intervals::{GAP, Stretch};
 use super::prepared::{Passage, PreparedPart, Side};
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{Way, around};
 
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct JudgedCut<'c> {
@@ -65,7 +63,7 @@ pub(super) fn gouges<'j>(
             let (at, depth) = part.deepest(&cut.curve, *stretch, cut.cut.radius);
             let new = Gouge { at, depth, length: 0.0 };
             let gouge = found.entry((cut.cut.path, cut.cut.cut.element)).or_insert(new);
-            if depth > gouge.depth {
+            if gouge.is_exceeded_by(at, depth) {
                 (gouge.at, gouge.depth) = (at, depth);
             }
             gouge.length += stretch.1 - stretch.0;
@@ -74,22 +72,10 @@ pub(super) fn gouges<'j>(
     found
 }
 
-/// The cuts into a placed part, by their numbers. `level`: the height in mm of the plate below the part.
-pub fn cuts_into(part: &Part, cuts: &[(Way, f64)], level: f64, tolerance: f64) -> Vec<(usize, Xy, f64, f64)> {
-    let prepared = PreparedPart::new(part);
-    let extent = prepared.extent();
-    let mut found = Vec::new();
-    for (number, (way, radius)) in cuts.iter().enumerate() {
-        let Some(curve) = way.below(level + THROUGH) else { continue };
-        if !rstar::Envelope::intersects(&around(&curve, *radius), &extent) {
-            continue;
-        }
-        let Passage { entered, .. } = prepared.passage(&curve, *radius, tolerance, None);
-        let deepest = entered.iter().map(|stretch| prepared.deepest(&curve, *stretch, *radius));
-        let deepest = deepest.reduce(|best, next| if next.1 > best.1 { next } else { best });
-        if let Some((at, depth)) = deepest {
-            found.push((number, at, depth, entered.iter().map(|(from, to)| to - from).sum()));
-        }
+impl Gouge {
+    /// Whether another place is deeper. Of places that are equally deep, the leftmost counts, so that the order of the cuts does not matter.
+    fn is_exceeded_by(&self, at: Xy, depth: f64) -> bool {
+        let is_left = || (at.x, at.y) < (self.at.x, self.at.y);
+        depth > self.depth + GAP || (depth >= self.depth - GAP && is_left())
     }
-    found
 }

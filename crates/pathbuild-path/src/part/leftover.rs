@@ -325,7 +325,10 @@ impl<'s> LeftoverSearch<'s> {
         let point = Curve::Line(crate::geometry::Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near: self.cuts.near(square(at, 0.0)) };
         let distance = |judged: &JudgedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
-        self.beside(&curve).min_by(|one, other| distance(one).total_cmp(&distance(other)))
+        let element = |judged: &JudgedCut<'_>| (judged.cut.path, judged.cut.cut.element);
+        self.beside(&curve).min_by(|one, other| {
+            distance(one).total_cmp(&distance(other)).then_with(|| element(one).cmp(&element(other)))
+        })
     }
 
     /// The point of a ring at a distance along it, which may be below 0 for a stretch across its start.

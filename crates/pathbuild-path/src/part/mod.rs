@@ -8,17 +8,19 @@ mod gouge;
 mod intervals;
 mod leftover;
 mod loose;
+mod neighbours;
 mod prepared;
 
 use pathbuild_diagnostic::{Diagnostic, Place};
 use smol_str::SmolStr;
 
-use crate::geometry::{Curve, Placement};
+use crate::geometry::Curve;
 use crate::names::{LayerPattern, PathName};
 
+pub use bars::LostBar;
 pub use check::{PartFindings, check_parts, check_path};
-pub use cuts::{CutElement, PartCut, PathCuts, StandingBar};
-pub use gouge::cuts_into;
+pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar};
+pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts};
 
 /// Settings of the part check.
 #[derive(Clone, Debug)]
@@ -70,14 +72,5 @@ impl Part {
         let Some(name) = &self.paths else { return true };
         let path = path.folded();
         path.strip_prefix(name.as_str()).is_some_and(|rest| rest.chars().all(char::is_alphabetic))
-    }
-
-    /// The part after placing its drawing.
-    pub fn placed(&self, placement: &Placement) -> Self {
-        let ring = |ring: &PartRing| PartRing {
-            curves: ring.curves.iter().map(|curve| placement.place_curve(curve)).collect(),
-            nest: ring.nest,
-        };
-        Self { rings: self.rings.iter().map(ring).collect(), ..self.clone() }
     }
 }

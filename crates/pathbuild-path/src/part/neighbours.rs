@@ -1,0 +1,134 @@
+//! Cuts of one placed path into the parts and support bars of another. (book: language/part)
+
+use rstar::{AABB, Envelope as _};
+
+use super::bars::{LostBar, lost_bars};
+use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
+use super::gouge::{gouges, judged};
+use super::prepared::PreparedPart;
+use super::{Part, PartRing};
+use crate::geometry::{Curve, Placement, Xy};
+use crate::keep_out::{Way, around};
+
+/// A path at its place in a program.
+#[derive(Clone, Debug)]
+pub struct PlacedCuts<'c> {
+    /// The path, as drawn.
+    pub cuts: &'c PathCuts,
+    /// The parts that it brings, as drawn.
+    pub parts: Vec<&'c Part>,
+    /// Its place.
+    pub placement: Placement,
+    /// The height in mm by which it is raised.
+    pub raised: f64,
+    /// The box of what the cutter sweeps, as placed; `None` if it cuts nothing.
+    swept: Option<AABB<[f64; 2]>>,
+    /// The box of its parts and bars, as placed; `None` if it has none.
+    kept: Option<AABB<[f64; 2]>>,
+}
+
+/// A cut into a part of another path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NeighbourGouge {
+    /// Index into [`PlacedCuts::parts`] of the other path.
+    pub part: usize,
+    /// Index into [`PathCuts::elements`] of the path that cuts.
+    pub element: u32,
+    /// The centre of the cutter where it goes deepest into the part, as placed.
+    pub at: Xy,
+    /// How deep, in mm.
+    pub depth: f64,
+}
+
+/// What a path takes from another one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NeighbourCuts {
+    /// Cuts into its parts.
+    pub gouges: Vec<NeighbourGouge>,
+    /// Its bars that are cut away.
+    pub bars: Vec<LostBar>,
+}
+
+impl<'c> PlacedCuts<'c> {
+    /// Places a path.
+    pub fn new(cuts: &'c PathCuts, parts: Vec<&'c Part>, placement: Placement, raised: f64) -> Self {
+        let merged = |one: AABB<[f64; 2]>, other: AABB<[f64; 2]>| one.merged(&other);
+        let swept = cuts.cuts.iter().map(|cut| around(&cut.way.curve, cuts.radius)).reduce(merged);
+        let rims = parts.iter().flat_map(|part| &part.rings[0].curves);
+        let bars = cuts.bars.iter().filter_map(|bar| bar.middle.as_ref());
+        let kept = rims.chain(bars).map(|curve| around(curve, 0.0)).reduce(merged);
+        let placed = |extent: AABB<[f64; 2]>| placed_box(&placement, extent);
+        Self { cuts, parts, placement, raised, swept: swept.map(placed), kept: kept.map(placed) }
+    }
+
+    /// What another path takes from this one.
+    pub fn taken_by(&self, other: &Self, tolerance: f64) -> NeighbourCuts {
+        let is_near = self.kept.zip(other.swept).is_some_and(|(kept, swept)| kept.intersects(&swept));
+        if !is_near {
+            return NeighbourCuts::default();
+        }
+        let (own, cutting) = (self.placed(self.raised), other.placed(self.raised));
+        let paths = [&own, &cutting];
+        let cuts = CutIndex::new(&paths);
+        let mut gouged = Vec::new();
+        for (number, part) in self.parts.iter().enumerate() {
+            let part = placed_part(part, &self.placement);
+            let prepared = PreparedPart::new(&part);
+            let near = cuts.near(prepared.extent()).into_iter().filter(|cut| cuts.cuts[*cut].path == 1);
+            let judged = judged(&prepared, &cuts, near, tolerance);
+            gouged.extend(gouges(&prepared, judged.values()).into_iter().map(|((_, element), gouge)| {
+                NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }
+            }));
+        }
+        let is_taken = |lost: &LostBar| (lost.of, lost.by) == (0, 1);
+        let bars = lost_bars(&cuts, tolerance).into_iter().filter(is_taken).collect();
+        NeighbourCuts { gouges: gouged, bars }
+    }
+
+    /// The start of a part's rim, as placed.
+    pub fn start_of(&self, part: usize) -> Xy {
+        self.placement.place(self.parts[part].rings[0].curves[0].start())
+    }
+
+    /// The path as placed, with heights above a level.
+    fn placed(&self, level: f64) -> PathCuts {
+        let raised = self.raised - level;
+        let curve = |curve: &Curve| self.placement.place_curve(curve);
+        let way = |way: &Way| Way {
+            curve: curve(&way.curve),
+            from_z: way.from_z + raised,
+            to_z: way.to_z + raised,
+        };
+        let mut placed = self.cuts.clone();
+        placed.cuts.iter_mut().for_each(|cut| *cut = PartCut { way: way(&cut.way), ..*cut });
+        placed.elements.iter_mut().for_each(|element| element.lowest += raised);
+        placed.bars.iter_mut().for_each(|bar| {
+            let StandingBar { middle, foot, top } = *bar;
+            *bar = StandingBar {
+                middle: middle.map(|middle| curve(&middle)),
+                foot: curve(&foot),
+                top: top + raised,
+            };
+        });
+        placed
+    }
+}
+
+fn placed_part(part: &Part, placement: &Placement) -> Part {
+    let ring = |ring: &PartRing| PartRing {
+        curves: ring.curves.iter().map(|curve| placement.place_curve(curve)).collect(),
+        nest: ring.nest,
+    };
+    Part { rings: part.rings.iter().map(ring).collect(), ..part.clone() }
+}
+
+/// The box of a placed box.
+fn placed_box(placement: &Placement, extent: AABB<[f64; 2]>) -> AABB<[f64; 2]> {
+    let ([left, low], [right, high]) = (extent.lower(), extent.upper());
+    let corners = [[left, low], [right, low], [left, high], [right, high]];
+    let placed = corners.map(|[x, y]| {
+        let at = placement.place(Xy::new(x, y));
+        [at.x, at.y]
+    });
+    AABB::from_points(&placed)
+}
