@@ -2,6 +2,7 @@
 
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
+use pathbuild_gcode::native::FIRST_PARAMETER;
 use pathbuild_gcode::statistics::{Summary, statistics};
 use pathbuild_motion::{Axes, Move, Pace, Position, Step};
 use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
@@ -11,9 +12,6 @@ use super::drawn::{DrawnSource, curve_shape, pair};
 use crate::scene::{
     Bar, ElementKind, EmbeddedPath, MoveKind, NativeText, ProbeMark, SceneMove, ScenePath, Totals,
 };
-
-/// The number of the parameter for the first probe.
-const FIRST_PARAMETER: usize = 51;
 
 /// A program with the origin of its steps.
 #[derive(Clone, Copy, Debug)]

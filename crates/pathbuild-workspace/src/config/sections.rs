@@ -324,19 +324,23 @@ pub mod tables {
 
 /// `[warnings]`: thresholds beyond which something allowed is doubtful.
 pub mod warnings {
+    use pathbuild_path::DoubtThresholds;
+
     use crate::config::kinds::NOT_NEGATIVE;
+
+    const DEFAULT: DoubtThresholds = DoubtThresholds::DEFAULT;
 
     section! {
         /// mm: how far B may be below the plate (PB211)
-        below_plate: f64 = "below-plate", NOT_NEGATIVE, 0.5, "0.5", Check;
+        below_plate: f64 = "below-plate", NOT_NEGATIVE, DEFAULT.below_plate, "0.5", Check;
         /// how many times T an infeed I may be at most (PB211)
-        infeed: f64 = "infeed", NOT_NEGATIVE, 1.0, "1", Check;
+        infeed: f64 = "infeed", NOT_NEGATIVE, DEFAULT.infeed, "1", Check;
         /// how many times T a mark may be deep at most (PB211)
-        mark_depth: f64 = "mark-depth", NOT_NEGATIVE, 0.5, "0.5", Check;
+        mark_depth: f64 = "mark-depth", NOT_NEGATIVE, DEFAULT.mark_depth, "0.5", Check;
         /// mm: by how much a text must be nearer to its element than to another (PB116)
-        text_margin: f64 = "text-margin", NOT_NEGATIVE, 0.1, "0.1", Check;
+        text_margin: f64 = "text-margin", NOT_NEGATIVE, DEFAULT.text_margin, "0.1", Check;
         /// mm: up to how much larger than the cutter a circle looks like a hole to be drilled (PB118)
-        hole_margin: f64 = "hole-margin", NOT_NEGATIVE, 0.05, "0.05", Check;
+        hole_margin: f64 = "hole-margin", NOT_NEGATIVE, DEFAULT.hole_margin, "0.05", Check;
     }
 }
 

@@ -25,6 +25,7 @@ use crate::workspace::{Advance, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, Node};
+#[cfg(not(target_family = "wasm"))]
 pub(crate) use library::{IGNORE_FILES, is_ignore_file};
 pub use library::{by_name, by_place};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
