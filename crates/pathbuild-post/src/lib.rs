@@ -25,7 +25,6 @@ mod definition;
 mod findings;
 mod from_program;
 mod from_steps;
-mod guard;
 mod job;
 mod number;
 mod options;

@@ -10,7 +10,6 @@ mod mill;
 mod moves;
 mod part_cuts;
 mod program;
-mod statistics;
 mod z_model;
 
 pub use correction::{Correction, Outside};
@@ -23,5 +22,5 @@ pub use program::{
     Class, Comment, Count, ElementKind, Height, LeftOut, NameId, Names, Occurrence, PlannedMove, ProbePoint,
     Program, ProgramStep, StepOrigin, Trace, memory, own_moves,
 };
-pub use statistics::{Statistics, Total};
+pub use program::{Statistics, Total};
 pub use z_model::{OddProbe, Surface, ZModel, odd_probes};

@@ -5,22 +5,21 @@ use std::panic::resume_unwind;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Note, Point};
+use pathbuild_diagnostic::{Code, Diagnostic, Note, Point, Severity};
 use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
-    Bindings, DrawnParts, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Path, PathCuts, PathHeader,
-    PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
+    Bindings, DrawnParts, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
+    PathHeader, PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
     stray_findings,
 };
-use pathbuild_toolpath::own_moves;
+use pathbuild_toolpath::{own_moves, part_cuts};
 use smol_str::SmolStr;
 
 use crate::bugs::{TimeoutPanic, catch_bugs};
 use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::nearby_ends::LayerEnds;
-use crate::queries::part::{self, FileParts};
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
 /// The index of a drawing. It contains no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
@@ -200,7 +199,7 @@ impl FileIndex {
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         let mut diagnostics = raw.diagnostics;
         let DrawnParts { parts, mut problems, .. } = parts.unwrap_or_default();
-        part::soften(db, &mut problems);
+        soften(db, &mut problems);
         diagnostics.append(&mut problems);
         let parts = cuts.map(|cuts: Vec<PathCuts>| {
             let is_complete = cuts.len() == paths.len();
@@ -294,7 +293,7 @@ impl PathIndex {
         let mut of_path = None;
         let is_asked = cuts.is_some();
         let summary = PathSummary::new(db, raw, &examples, ends, &mut |path, walked| {
-            of_path = is_asked.then(|| part::cuts_of(db, path, walked)).flatten();
+            of_path = is_asked.then(|| cuts_of(db, path, walked)).flatten();
         });
         if let Some(cuts) = cuts {
             cuts.extend(of_path);
@@ -447,4 +446,37 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
         }
     };
     pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint)
+}
+
+/// What the part check needs of a drawing. Positions are left out, so that edits elsewhere in the drawing leave it equal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct FileParts {
+    /// The finished parts.
+    pub(super) parts: Vec<Part>,
+    /// The cuts of the sound paths for example values, in order of name.
+    pub(super) cuts: Vec<PathCuts>,
+    /// Whether the cuts of all its paths are known.
+    pub(super) is_complete: bool,
+}
+
+impl FileParts {
+    /// The place of a path among the cuts.
+    pub(super) fn place(&self, name: &PathName) -> Option<usize> {
+        self.cuts.binary_search_by(|cuts| (*cuts.name).cmp(name)).ok()
+    }
+}
+
+/// The cuts of a sound path. A panic was reported by the index already if the path gives no program either.
+pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
+    let is_compatible = Settings::get(db).reading(db).compatible;
+    catch_bugs(|| part_cuts(path, walked, is_compatible)).ok()
+}
+
+/// In compatible mode everything about parts is a warning.
+pub(super) fn soften<'p>(db: &dyn Db, problems: impl IntoIterator<Item = &'p mut Diagnostic>) {
+    if Settings::get(db).reading(db).compatible {
+        for problem in problems {
+            problem.severity = Severity::Warning;
+        }
+    }
 }

@@ -10,7 +10,8 @@ use crate::database::Db;
 use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
 use crate::queries::embedding::{Instance, Outcome, embeds};
-use crate::queries::part::{file_parts, parts_of, path_cuts, soften};
+use crate::queries::index::soften;
+use crate::queries::part::{file_parts, parts_of, path_cuts};
 
 /// PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
 /// element, reported in the path that contains both.

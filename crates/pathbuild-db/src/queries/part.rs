@@ -2,43 +2,15 @@
 
 use std::sync::Arc;
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_path::{
-    Part, PartFindings, Path, PathCuts, PathName, WalkedPath, check_parts, check_path, parts as read_parts,
-};
-use pathbuild_toolpath::part_cuts;
+use pathbuild_path::{Part, PartFindings, PathCuts, check_parts, check_path, parts as read_parts};
 
-use crate::bugs::catch_bugs;
 use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::embedding::{Instance, chains, path};
-use crate::queries::index::{file_index, path_index};
+use crate::queries::index::{FileParts, cuts_of, file_index, path_index, soften};
 use crate::queries::raw::read_layers_as;
-
-/// What the part check needs of a drawing. Positions are left out, so that edits elsewhere in the drawing leave it equal.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct FileParts {
-    /// The finished parts.
-    pub(super) parts: Vec<Part>,
-    /// The cuts of the sound paths for example values, in order of name.
-    pub(super) cuts: Vec<PathCuts>,
-    /// Whether the cuts of all its paths are known.
-    pub(super) is_complete: bool,
-}
-
-impl FileParts {
-    /// The place of a path among the cuts.
-    fn place(&self, name: &PathName) -> Option<usize> {
-        self.cuts.binary_search_by(|cuts| (*cuts.name).cmp(name)).ok()
-    }
-}
-
-/// The cuts of a sound path. A panic was reported by the index already if the path gives no program either.
-pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
-    let is_compatible = Settings::get(db).reading(db).compatible;
-    catch_bugs(|| part_cuts(path, walked, is_compatible)).ok()
-}
 
 /// The parts and cuts of a drawing; `None` without the setting.
 pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
@@ -141,13 +113,4 @@ pub(super) fn uncut_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
         Some(problem.in_file(file.path(db)))
     };
     uncut.iter().filter_map(problem).collect()
-}
-
-/// In compatible mode everything about parts is a warning.
-pub(super) fn soften<'p>(db: &dyn Db, problems: impl IntoIterator<Item = &'p mut Diagnostic>) {
-    if Settings::get(db).reading(db).compatible {
-        for problem in problems {
-            problem.severity = Severity::Warning;
-        }
-    }
 }

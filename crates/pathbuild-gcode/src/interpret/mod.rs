@@ -4,7 +4,6 @@
 //! units, distance mode, coordinate systems and cycles used by the program. Every problem is a diagnostic with its line. Lines that
 //! cannot be understood are omitted; later steps may be wrong in consequence.
 
-mod arc;
 mod calls;
 mod codes;
 mod cycle;

@@ -12,7 +12,6 @@ mod material;
 mod rapids;
 mod rules;
 mod stated;
-mod stock;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;
@@ -24,10 +23,10 @@ pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use machine::{Machine, MachineRules, Travel};
+pub use material::{Stock, StockSpan};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated::StatedStatistics;
-pub use stock::{Stock, StockSpan};
 pub use words::{PostWords, WordRules};
 
 use crate::interpret::Program;

@@ -17,8 +17,7 @@ use pathbuild_toolpath as toolpath;
 
 use super::machine::{Machine, MachineRules};
 use super::material;
-use super::material::cutting_piece;
-use super::stock::{Stock, StockSpan};
+use super::material::{Stock, StockSpan, cutting_piece};
 use crate::interpret::Program;
 use crate::read::Problems;
 

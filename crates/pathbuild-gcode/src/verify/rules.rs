@@ -8,7 +8,7 @@ use pathbuild_motion::{Action, Axes, Change, Move, MoveShape, Pace, Position, Sp
 
 use super::Checks;
 use super::machine::Limits;
-use super::stock::Stock;
+use super::material::Stock;
 use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::{BlockReader, Problems, Value, Word};

@@ -9,7 +9,6 @@ mod keep_outs;
 mod listing;
 mod parameters;
 mod parts;
-mod rings;
 mod stray;
 mod texts;
 
@@ -24,9 +23,9 @@ use crate::read::parameters::{Start, Starts};
 
 pub use entities::TextCircle;
 pub use keep_outs::keep_outs;
+pub(crate) use keep_outs::{Part, Ring, rings};
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
 pub use parts::{has_text_on_part, parts};
-pub(crate) use rings::{Part, Ring, rings};
 pub use stray::{NearNames, may_be_stray_text, stray_findings};
 
 /// Finds the paths of a drawing; none if the drawing itself has errors.

@@ -24,12 +24,12 @@ pub(super) use program::foreseen;
 use runner::Runner;
 
 use super::PostOptions;
-use super::guard::Guard;
 use super::job::{Job, Units};
 use super::shadow::{Shadow, TranslatedText};
 use super::target::Target;
 use crate::findings::LineOrigin;
 use crate::shadow::{CommentMarks, words};
+use crate::target::Guard;
 
 /// The output of the engine.
 pub(super) struct EngineOutput {

@@ -17,7 +17,7 @@ use crate::PostFiles;
 use crate::cad6::control_text::locate;
 use crate::cad6::term::Fault;
 use crate::findings::LineOrigin;
-use crate::guard::Guard;
+use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type Called = Result<(), Box<Diagnostic>>;

@@ -12,10 +12,10 @@ use super::section::Section;
 use super::template::{Template, TemplatePart};
 use crate::arcs::chords;
 use crate::findings::LineOrigin;
-use crate::guard::Guard;
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::number::NumberFormat;
 use crate::shadow::{CommentMarks, Shadow, TranslatedText, Word, Words, words};
+use crate::target::Guard;
 
 /// Success, or the diagnostic that aborts writing.
 pub(super) type WriteResult = Result<(), Box<Diagnostic>>;

@@ -7,7 +7,6 @@ mod convert;
 mod draft;
 pub mod model;
 mod place;
-mod tables;
 mod write;
 
 pub use convert::LINE_TYPES;

@@ -3,7 +3,6 @@
 //! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
 
 mod builder;
-mod drawings;
 mod store;
 
 use camino::Utf8Path;
@@ -17,8 +16,8 @@ use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
 use crate::memo::store::Scope;
-pub use drawings::{DrawingResult, is_transient};
-pub(crate) use drawings::{find, read_drawings, subject};
+pub use builder::{DrawingResult, is_transient};
+pub(crate) use builder::{find, read_drawings, subject};
 use store::Store;
 pub use store::{
     Answer, Dependencies, ExtraInput, FreshResult, GeneratedFile, Inputs, OutputState, hash_output,

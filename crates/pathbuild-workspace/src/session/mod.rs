@@ -4,7 +4,6 @@ mod argument_matches;
 mod graph;
 mod library;
 mod outputs;
-mod prefetch;
 mod resolve;
 mod scene;
 mod settings;
