@@ -113,18 +113,13 @@ impl Request<'_> {
         }
         let builder = self.builder(session);
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.clear_job()).collect();
-        let older = stale::older_programs(&builder, self.task, &selection.targets, &jobs, &mut diagnostics);
+        let StaleOutcome { older, removed, outdated } =
+            stale::clear(&builder, self.task, self.removes_stale, &selection, &jobs, &mut diagnostics);
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
         if let Some(file) = self.deps {
             diagnostics.extend(deps::write(session, file, jobs.iter().copied(), self.post_processor));
         }
-        let stale = match self.task {
-            Task::Print => Vec::new(),
-            _ => stale::stale(session, &selection, &jobs, self.post_processor, &mut diagnostics),
-        };
-        let StaleOutcome { removed, outdated } =
-            stale::settle(session, stale, self.removes_stale, &mut diagnostics);
         for answer in &mut plans {
             self.complete_inputs(session, answer);
         }

@@ -26,7 +26,7 @@ use crate::session::{OutputKind, Session};
 
 /// A program that must not be taken to the machine.
 #[derive(Debug)]
-pub(super) struct StaleProgram {
+struct StaleProgram {
     path: Utf8PathBuf,
     reason: Reason,
 }
@@ -73,16 +73,35 @@ impl StaleProgram {
     }
 }
 
-/// The outcome of handling stale programs.
+/// What became of programs of earlier runs.
 #[derive(Debug, Default)]
 pub(super) struct StaleOutcome {
+    /// Earlier programs of paths that could not be written now.
+    pub(super) older: Vec<ProgramOutcome>,
     pub(super) removed: Vec<Utf8PathBuf>,
     /// Programs whose paths have other moves now.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
+/// Finds programs of earlier runs that show another state of the drawings, and reports or removes those that no path yields any more.
+pub(super) fn clear(
+    builder: &JobBuilder<'_>,
+    task: Task,
+    is_removed: bool,
+    selection: &TargetSelection,
+    jobs: &[&Job],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> StaleOutcome {
+    let older = older_programs(builder, task, &selection.targets, jobs, diagnostics);
+    let stale = match task {
+        Task::Print => Vec::new(),
+        _ => stale(builder.session, selection, jobs, builder.post_processor, diagnostics),
+    };
+    StaleOutcome { older, ..settle(builder.session, stale, is_removed, diagnostics) }
+}
+
 /// Reports stale programs, or removes them.
-pub(super) fn settle(
+fn settle(
     session: &Session<'_>,
     stale: Vec<StaleProgram>,
     is_removed: bool,
@@ -108,7 +127,7 @@ pub(super) fn settle(
 }
 
 /// Finds the stale programs: among all files of the searched directories, and among the former files of paths that lie elsewhere.
-pub(super) fn stale(
+fn stale(
     session: &Session<'_>,
     selection: &TargetSelection,
     jobs: &[&Job],
@@ -378,7 +397,7 @@ impl Writers {
 
 /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison counts
 /// it as out of date.
-pub(super) fn older_programs(
+fn older_programs(
     builder: &JobBuilder<'_>,
     task: Task,
     targets: &[Target],
