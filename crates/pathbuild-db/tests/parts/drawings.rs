@@ -204,6 +204,20 @@ fn neighbours_in_a_project_need_room_for_the_cutter() {
     }
 }
 
+/// A path that only engraves leaves the outline to others; one that goes through somewhere should go through along the outline, too.
+#[test]
+fn only_paths_with_through_cuts_leave_material() {
+    let path = |other: &str| {
+        format!(
+            "{START}sweep -5,-5 0,0\nmill 0,0 40,0 \"B0.5\"\nsweep 40,0 0,-10\nmill 0,-10 20,-10 \"B{other}\"\n\
+             sweep 20,-10 50,-5\nend 50,-5\n{EDGE}"
+        )
+    };
+    let left = |other: &str| codes(&path(other)).contains(&"PB215".to_owned());
+    assert!(!left("0.5"), "it only engraves");
+    assert!(left("0"), "it goes through elsewhere");
+}
+
 /// A cut of another component beside the part does not enter it, but goes through its bar, down to Z0 or above the bar.
 #[test]
 fn bars_must_not_be_cut_by_other_components() {
