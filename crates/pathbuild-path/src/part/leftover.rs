@@ -156,16 +156,20 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
+        // Most gaps are feet of bars, for which nothing else need be asked.
+        let feet = self.feet(curve);
+        let gaps: Vec<Stretch> = gaps.iter().flat_map(|gap| rest(&clipped(&feet, *gap), *gap)).collect();
+        if gaps.is_empty() {
+            return;
+        }
         let close = self.close(curve);
-        let open = common(&close, gaps);
+        let open = common(&close, &gaps);
         all.never.extend(shifted(gaps.iter().flat_map(|gap| rest(&clipped(&close, *gap), *gap)).collect()));
         if open.is_empty() {
             return;
         }
         let corners = self.unreachable(curve);
-        let excused = joined([corners.clone(), self.feet(curve)].concat(), GAP);
-        let left = open.iter().flat_map(|open| rest(&clipped(&excused, *open), *open)).collect();
-        uncut.extend(shifted(left));
+        uncut.extend(shifted(open.iter().flat_map(|open| rest(&clipped(&corners, *open), *open)).collect()));
         all.unreachable.extend(shifted(common(&open, &corners)));
     }
 
