@@ -132,10 +132,9 @@ pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     all
 }
 
-/// Joined stretches within a range.
-pub(crate) fn clipped(stretches: &[Stretch], (from, to): Stretch) -> Vec<Stretch> {
-    let clip = stretches.iter().map(|stretch| (stretch.0.max(from), stretch.1.min(to)));
-    clip.filter(|(from, to)| to > from).collect()
+/// What is in the first of two sequences of joined stretches, but not in the second.
+pub(crate) fn without(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
+    one.iter().flat_map(|stretch| rest(other, *stretch)).collect()
 }
 
 /// Joins the last stretch of a ring with the first if they meet where it begins.

@@ -8,7 +8,7 @@ use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH};
 use super::gouge::JudgedCut;
 use super::intervals::{
-    BETWEEN_CURVES, GAP, Stretch, at as at_along, beside, clipped, closed, common, joined, rest, within,
+    BETWEEN_CURVES, GAP, Stretch, at as at_along, beside, closed, common, joined, rest, within, without,
 };
 use super::prepared::{PreparedPart, Side};
 use crate::geometry::{Curve, Xy};
@@ -156,20 +156,19 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
-        // Most gaps are feet of bars, for which nothing else need be asked.
-        let feet = self.feet(curve);
-        let gaps: Vec<Stretch> = gaps.iter().flat_map(|gap| rest(&clipped(&feet, *gap), *gap)).collect();
+        // First, since most gaps are the feet of bars.
+        let gaps = without(gaps, &self.feet(curve));
         if gaps.is_empty() {
             return;
         }
         let close = self.close(curve);
         let open = common(&close, &gaps);
-        all.never.extend(shifted(gaps.iter().flat_map(|gap| rest(&clipped(&close, *gap), *gap)).collect()));
+        all.never.extend(shifted(without(&gaps, &close)));
         if open.is_empty() {
             return;
         }
         let corners = self.unreachable(curve);
-        uncut.extend(shifted(open.iter().flat_map(|open| rest(&clipped(&corners, *open), *open)).collect()));
+        uncut.extend(shifted(without(&open, &corners)));
         all.unreachable.extend(shifted(common(&open, &corners)));
     }
 
