@@ -71,9 +71,8 @@ impl Provenance {
         (&self.moves, &self.options) == (&other.moves, &other.options)
     }
 
-    /// Parses the provenance in the first bytes of a program, and the text of the next comment line, which is the title. `None` if
-    /// pathbuild did
-    /// not write the program.
+    /// Parses the provenance in the first bytes of a program, and the text of the next comment line, which is the title. `None` if the
+    /// program was not written by pathbuild.
     pub fn of_head(head: &[u8]) -> Option<(Self, Box<str>)> {
         let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
         let mut lines = text.lines().take(HEAD_LINES).map(remark);

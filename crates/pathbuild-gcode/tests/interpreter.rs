@@ -179,6 +179,26 @@ fn half_circles_by_radius_are_doubtful() {
 }
 
 #[test]
+fn a_radius_that_is_too_short_is_no_half_circle() {
+    let found = |radius: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X19.999 Y0 R{radius} F10"));
+    assert_eq!(found("10.000"), ["3 doubtful-arc"]);
+    // LinuxCNC accepts a radius that is a little too short.
+    assert_eq!(found("9.999"), FINE);
+}
+
+/// XpertMILL knows no G91.
+#[test]
+fn arcs_that_leave_their_plane_are_doubtful_where_helices_are_unknown() {
+    let is_doubtful = |arc: &str| {
+        let program = format!("G0 X0 Y0 Z5\n{arc}\nM30\n");
+        faults(Xpertmill, &program).contains(&"2 doubtful-arc".to_owned())
+    };
+    assert!(!is_doubtful("G2 X2 Y0 I1 J0 F10"));
+    assert!(!is_doubtful("G2 X2 Y0 Z5 I1 J0 F10"));
+    assert!(is_doubtful("G2 X2 Y0 Z4.999 I1 J0 F10"));
+}
+
+#[test]
 fn arcs_that_nearly_close_are_doubtful() {
     assert_eq!(wrong(Native, "G0 X10 Y0 Z0\nG2 X10 Y0.001 I-10 F10"), ["3 doubtful-arc"]);
     assert_eq!(wrong(Native, "G0 X10 Y0 Z0\nG2 X10 Y0.003 I-10 F10"), FINE);
@@ -945,6 +965,13 @@ fn calls_that_cannot_be_followed_are_reported() {
     assert_eq!(unfollowed(Fanuc, "O7\nG0 X1.\nM98 P7\nM30"), 1, "the main program");
     // A subprogram that nobody calls is text behind the end.
     assert_eq!(wrong_of(Mach3, "M30\nO5\nG0 X1\nM99").len(), 1);
+}
+
+/// Only lines executed by calls and loops count toward the limit.
+#[test]
+fn a_long_program_without_calls_is_followed_to_its_end() {
+    let program = "(a)\n".repeat(1_000_001);
+    assert_eq!(wrong_of(LinuxCnc, &format!("{program}M2")), FINE);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Tests of the header line that identifies the origin of programs. (book: program/gcode)
 
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::provenance::Provenance;
+use pathbuild_gcode::provenance::{Provenance, is_same_program};
 
 fn provenance() -> Provenance {
     Provenance {
@@ -52,4 +52,19 @@ fn it_is_found_in_the_head_of_a_program_in_any_comment() {
     let late = format!("{}({})\n", "G0 X0\n".repeat(40), provenance());
     assert_eq!(Provenance::of_head(late.as_bytes()), None);
     assert_eq!(Provenance::of_head(b"G0 X1\n"), None);
+}
+
+#[test]
+fn only_the_version_may_differ_between_files_of_the_same_program() {
+    let program = |before: &str, version: &str, after: &str| {
+        let written = Provenance { version: version.into(), ..provenance() };
+        format!("%\n{before}({written})\n{after}\nM30\n")
+    };
+    let is_same =
+        |other: &str| is_same_program(program("O1\n", "0.1.0", "G0 X1").as_bytes(), other.as_bytes());
+    assert!(is_same(&program("O1\n", "0.1.0", "G0 X1")));
+    assert!(is_same(&program("O1\n", "0.12.0", "G0 X1")), "another version");
+    assert!(!is_same(&program("O2\n", "0.1.0", "G0 X1")), "a line before the version");
+    assert!(!is_same(&program("O1\n", "0.1.0", "G0 X2")), "a line after the version");
+    assert!(!is_same("%\nO1\nG0 X1\nM30\n"), "no version");
 }

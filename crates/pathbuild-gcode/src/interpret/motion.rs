@@ -368,13 +368,11 @@ impl Interpreter<'_> {
             let axes = plane_words(plane, ["X", "Y", "Z"]);
             self.report(block, &say::ARC_WITHOUT_END, whole_line(block), |d| d.quoting("axes", axes));
         }
-        if !self.rules.arcs.helix
-            && coordinates[plane.third()].is_some_and(|slot| self.leaves_plane(slot, plane))
-        {
-            self.report(block, &say::HELIX_DOUBTFUL, whole_line(block), |d| d);
-        }
         let from = self.state.position;
         let to = self.target(coordinates);
+        if !self.rules.arcs.helix && from.at[plane.third()] != to.at[plane.third()] {
+            self.report(block, &say::HELIX_DOUBTFUL, whole_line(block), |d| d);
+        }
         let extra_turns = self.turns(block);
         let Some(centre) = self.centre(block, plane, clockwise, &from, &to) else {
             return self.leave_out(to);
@@ -397,12 +395,6 @@ impl Interpreter<'_> {
     fn leave_out(&mut self, to: Position) {
         self.state.position = to;
         self.use_all_words();
-    }
-
-    fn leaves_plane(&self, slot: Slot, plane: Plane) -> bool {
-        self.state.incremental && slot.value != 0.0
-            || self.millimetres(slot) + self.state.offsets.shift(plane.third())
-                != self.state.position.at[plane.third()]
     }
 
     /// Number of full turns in addition to the arc, from P.

@@ -98,6 +98,9 @@ fn circles_must_overlap() {
     assert!(finds(circle, &text("56.5999,50", "F100")));
     assert!(!finds(circle, &text("56.6001,50", "F100")));
     assert!(finds(circle, &text("50,50", "F100")));
+    let circle = "circle 0,0 d 8";
+    assert!(finds(circle, &mtext("5.399999,0", "F100")));
+    assert!(!finds(circle, &mtext("5.4,0", "F100")), "circles that touch do not overlap");
 }
 
 #[test]
@@ -145,6 +148,10 @@ fn the_projection_lies_on_the_arc() {
             assert_eq!(finds(arc, &mtext(at, "F100")), is_found, "{arc} {at}");
         }
     }
+    assert!(
+        finds("mill arc centre 0,0 r 10 from 0 to 90", &mtext("10.5,0", "F100")),
+        "the arc's start is on it"
+    );
     let across_zero = "mill arc centre 0,0 r 10 from 270 to 90";
     assert!(finds(across_zero, &mtext("10.5,0", "F100")));
     assert!(!finds(across_zero, &mtext("-10.5,0", "F100")));

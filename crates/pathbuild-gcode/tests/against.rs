@@ -1,0 +1,87 @@
+//! Tests which programs do what their drawing says. (book: program/reading, `verify --against`)
+
+mod common;
+
+use common::fault_text;
+use pathbuild_gcode::dialect::Dialect::{self, Native, Xpertmill};
+use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_gcode::verify::{Against, Drawn, PostWords, ToolUse};
+use pathbuild_motion::Position;
+
+const FINE: [&str; 0] = [];
+
+/// Height of S0 in all programs, in mm.
+const CLEARANCE: f64 = 5.0;
+
+/// The differences of a program from these moves, which begin above the zero of the path.
+fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
+    let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
+    let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
+    let program = format!("{program}\nM30\n");
+    let words = PostWords::of_programs([&program], dialect);
+    let drawn = Drawn {
+        moves: moves.into_iter().skip(1),
+        start: Position::known(0.0, 0.0, CLEARANCE),
+        clearance: CLEARANCE,
+        tool: ToolUse::default(),
+        number: None,
+        spin_up: 0.0,
+    };
+    let mut comparison = Against::new(drawn, dialect, &words);
+    for step in &interpret(program.as_bytes(), dialect, &Options::default()).steps {
+        comparison.step(step);
+    }
+    comparison.finish().differences.iter().map(fault_text).collect()
+}
+
+#[test]
+fn a_program_pauses_only_above_the_material() {
+    let paused_at = |height: &str| {
+        let program = format!("G0 {height}\nM0\nG0 X0 Y0 Z5");
+        let found = differences(Native, &format!("G17 G21 G90 G94 F100\nT1\n{program}"), "");
+        found.contains(&"4 moves-differ".to_owned())
+    };
+    assert!(!paused_at("Z5"));
+    assert!(!paused_at("Z4.998"));
+    assert!(paused_at("Z4.997"));
+    assert!(!paused_at("X0"), "the height is unknown");
+}
+
+/// A helix of this radius from (radius, 0), for a control that accepts none, replaced by chords to the directions and heights.
+fn chords(radius: f64, [degrees, depth]: [f64; 2], ends: &[[f64; 2]]) -> Vec<String> {
+    let place = |degrees: f64| {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        format!("X{:.6} Y{:.6}", radius * cos, radius * sin)
+    };
+    let start = format!("G0 Z5\nG0 {}\nG1 Z0 F100\n", place(0.0));
+    let lines = ends.iter().map(|[degrees, depth]| format!("G1 {} Z{depth} F100\n", place(*degrees)));
+    let program = format!("{start}{}G0 Z5", lines.collect::<String>());
+    let helix = format!("G3 {} Z{depth} I{:.6} J0", place(degrees), -radius);
+    differences(Xpertmill, &program, &format!("{start}{helix}\nG0 Z5"))
+}
+
+/// A chord of a circle of 10 mm whose middle is 0.01 mm from the circle covers 5.125 degrees.
+#[test]
+fn chords_stay_within_a_hundredth_of_their_helix() {
+    assert_eq!(chords(10.0, [5.12, -1.0], &[[5.12, -1.0]]), FINE);
+    assert_eq!(chords(10.0, [5.14, -1.0], &[[5.14, -1.0]]), ["4 moves-differ"]);
+    assert_eq!(chords(10.0, [5.14, -1.0], &[[2.57, -0.5], [5.14, -1.0]]), FINE);
+}
+
+/// All of a circle of 0.005 mm is within 0.01 mm of its diameter.
+#[test]
+fn a_chord_replaces_less_than_half_a_turn() {
+    assert_eq!(chords(0.005, [270.0, -3.0], &[[90.0, -1.0], [180.0, -2.0], [270.0, -3.0]]), FINE);
+    assert_eq!(chords(0.005, [270.0, -3.0], &[[180.0, -2.0], [270.0, -3.0]]), ["4 moves-differ"]);
+}
+
+/// A helix of 10 mm that falls by 5 mm in 5 degrees, 5.73 mm per mm: its height is known to 0.0202 mm.
+#[test]
+fn heights_of_chords_are_those_of_their_places_on_a_steep_helix() {
+    let middle = |depth: f64| chords(10.0, [5.0, -5.0], &[[2.5, depth], [5.0, -5.0]]);
+    assert_eq!(middle(-2.5), FINE);
+    assert_eq!(middle(-2.52), FINE);
+    assert_eq!(middle(-2.48), FINE);
+    assert_eq!(middle(-2.5205), ["4 moves-differ"]);
+    assert_eq!(middle(-2.4795), ["4 moves-differ"]);
+}
