@@ -257,6 +257,7 @@ fn limits_of_values_are_where_the_page_says() {
     let cases = [
         ("feed = 0.001", "feed = 0.0"),
         ("approximate-curves = 0", "approximate-curves = -0.001"),
+        ("part-tolerance = 0.005", "part-tolerance = 0.00499"),
         ("[limits]\nentities = 1", "[limits]\nentities = 0"),
         ("[limits]\nfile-size = \"1 B\"", "[limits]\nfile-size = \"0 B\""),
         ("[limits]\nfile-size = 1", "[limits]\nfile-size = 0"),

@@ -112,8 +112,8 @@ fn grooves_and_marks_above_the_plate_may_cross_the_part() {
     let codes = |cut: &str| codes(&with(cut)).into_iter().filter(|code| code != "PB212").collect::<Vec<_>>();
     assert_eq!(codes("mill 20,5 20,15 \"B0.5\""), [""; 0], "a groove");
     assert_eq!(codes("mark 20,5 20,15 \"D1.5\""), [""; 0], "a mark");
-    assert_eq!(codes("mill 20,5 20,15 \"B0.01\""), [""; 0], "just above the plate");
-    assert_eq!(codes("mill 20,5 20,15 \"B0\""), ["PB213"], "through");
+    assert_eq!(codes("mill 20,5 20,15 \"B0.002\""), [""; 0], "just above the plate");
+    assert_eq!(codes("mill 20,5 20,15 \"B0.001\""), ["PB213"], "through");
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn of_rings_in_each_other_one_must_be_cut() {
 #[test]
 fn a_group_in_the_expression_names_the_path() {
     let part = |layer: &str| plate("bars").replace("layer Part", &format!("layer \"{layer}\""));
-    let test = PartTest { pattern: "Part ([0-9_]+)", ..PartTest::default() };
+    let test = PartTest { pattern: Some("Part ([0-9_]+)"), ..PartTest::default() };
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_1"))]), [""; 0]);
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_2"))]), ["PB220"]);
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_"))]), ["PB220"], "digits follow");
@@ -361,4 +361,93 @@ fn places_and_directions_do_not_matter() {
         assert_eq!(codes(&drawing(0.022)), ["PB213"], "{degrees}");
         assert_eq!(codes(&drawing(-0.022)), ["PB215"], "{degrees}");
     }
+}
+
+#[test]
+fn a_part_belongs_to_paths_within_the_cutter_diameter() {
+    let beside = |y: f64| {
+        let found = codes(&format!(
+            "{START}sweep -5,-5 0,{y}\nmill 0,{y} 40,{y}\nsweep 40,{y} 50,-5\nend 50,-5\n{EDGE}"
+        ));
+        found.into_iter().filter(|code| code == "PB215" || code == "PB220").collect::<Vec<_>>()
+    };
+    assert_eq!(beside(-0.99), ["PB215"]);
+    assert_eq!(beside(-1.01), ["PB220"]);
+}
+
+/// The path that is too far outside leaves nothing where another one cuts; what both leave is said once.
+#[test]
+fn what_paths_leave_is_judged_on_their_union() {
+    let path = |letter: &str, y: f64| {
+        format!(
+            "layer 1234.1{letter}\nstart -5,-5 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -5,-5 0,{y}\n\
+             mill 0,{y} 40,{y}\nsweep 40,{y} 50,-5\nend 50,-5\n"
+        )
+    };
+    let left = |drawing: &str| {
+        let found = PartTest::default().diagnostics(&[("1234.1.dxf", drawing)]);
+        found.iter().filter(|found| found.code().to_string() == "PB215").count()
+    };
+    assert_eq!(left(&format!("{}{EDGE}", path("L", -0.5))), 1, "alone");
+    assert_eq!(left(&format!("{}{}{EDGE}", path("P", 0.0), path("L", -0.5))), 0, "beside a right one");
+    assert_eq!(left(&format!("{}{}{EDGE}", path("P", -0.6), path("L", -0.5))), 1, "beside a worse one");
+}
+
+#[test]
+fn marks_along_an_outline_leave_nothing() {
+    let along = |cut: &str| {
+        let drawing = format!(
+            "{START}sweep -5,-5 0,0\n{cut}\nsweep 40,0 0,-10\nmill 0,-10 20,-10 \"B0\"\n\
+             sweep 20,-10 50,-5\nend 50,-5\n{EDGE}"
+        );
+        codes(&drawing).contains(&"PB215".to_owned())
+    };
+    assert!(!along("mark 0,0 40,0 \"D1.5\""));
+    assert!(along("mill 0,0 40,0 \"B1.5\""));
+}
+
+/// An embedded path cuts across the outline that the project draws: it is for the project's own cuts.
+#[test]
+fn outlines_of_a_project_are_for_its_own_cuts() {
+    let component = component();
+    let drawing = |own: &str| {
+        let layer = "layer Part\npolyline 2,-14 28,-14 28,14 2,14 closed\n";
+        let project = project(2.0, 0.0).replace("end 30,24", own) + layer;
+        PartTest::default().codes(&[("8001.1P.dxf", &project), ("1234.1P.dxf", &component)])
+    };
+    let gouged = |codes: Vec<String>| codes.iter().any(|code| code == "PB213" || code == "PB214");
+    assert!(!gouged(drawing("end 30,24")));
+    assert!(gouged(drawing("sweep 30,24 2,0\nmill 2,0 28,0 \"I1 B0\"\nsweep 28,0 30,24\nend 30,24")));
+}
+
+#[test]
+fn nothing_is_compared_without_the_key() {
+    let drawing = plate("mill").replace("mill 0,0 42,0", "mill 0,0 42,0.5") + "line 50,50 60,60\n";
+    assert!(codes(&drawing).contains(&"PB213".to_owned()));
+    let unset = PartTest { pattern: None, ..PartTest::default() };
+    assert_eq!(unset.codes(&[("1234.1P.dxf", &drawing)]), ["PB212"]);
+}
+
+#[test]
+fn a_gouge_names_the_element_that_cuts() {
+    let drawing = plate("bars").replace("bars to 42,27 0,27 0,0", "bars to 41.5,27 0,27 0,0");
+    let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+    let gouges: Vec<_> = found.iter().filter(|found| found.code().to_string() == "PB213").collect();
+    let [gouge] = gouges[..] else { panic!("{found:?}") };
+    let point = gouge.place.point.as_ref().unwrap();
+    assert_eq!((point.x.0, point.y.0), (42.0, 0.0), "{gouge:?}");
+}
+
+/// The ring runs 10 mm away from the part, to which the path belongs because of its lower edge.
+#[test]
+fn a_part_is_loose_wherever_the_ring_runs() {
+    let drawing = |last: &str| {
+        format!(
+            "{START}sweep -5,-5 0,0\nmill 0,0 40,0\nsweep 40,0 -10,-10\nmill -10,-10 50,-10 50,30 -10,30\n\
+             {last} -10,30 -10,-10\nsweep -10,-10 -20,-20\nend -20,-20\n{EDGE}"
+        )
+    };
+    assert!(codes(&drawing("mill")).contains(&"PB217".to_owned()));
+    assert!(!codes(&drawing("bars")).contains(&"PB217".to_owned()));
+    assert!(!codes(&drawing("sweep")).contains(&"PB217".to_owned()));
 }

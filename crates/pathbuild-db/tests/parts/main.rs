@@ -24,7 +24,8 @@ use pathbuild_testkit::sheet;
 
 /// The settings of a check.
 struct PartTest<'t> {
-    pattern: &'t str,
+    /// `None`: the key is not set.
+    pattern: Option<&'t str>,
     tolerance: f64,
     is_held_otherwise: bool,
     is_compatible: bool,
@@ -32,7 +33,7 @@ struct PartTest<'t> {
 
 impl Default for PartTest<'_> {
     fn default() -> Self {
-        Self { pattern: "Part", tolerance: 0.02, is_held_otherwise: false, is_compatible: false }
+        Self { pattern: Some("Part"), tolerance: 0.02, is_held_otherwise: false, is_compatible: false }
     }
 }
 
@@ -71,15 +72,15 @@ impl PartTest<'_> {
             system.put(*name, sheet.to_dxf());
         }
         let db = Database::new(system);
-        let part = PartSettings {
-            pattern: LayerPattern::new(self.pattern).unwrap(),
+        let part = self.pattern.map(|pattern| PartSettings {
+            pattern: LayerPattern::new(pattern).unwrap(),
             tolerance: self.tolerance,
             is_held_otherwise: self.is_held_otherwise,
-        };
+        });
         let language = Language {
             path_pattern: PathPattern::default(),
             keep_out: None,
-            part: Some(part),
+            part,
             line_types: LineTypeAliases::default(),
             text_limit: 65_536,
             doubts: DoubtThresholds::default(),

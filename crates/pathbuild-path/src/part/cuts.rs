@@ -71,8 +71,8 @@ pub struct StandingBar {
     pub top: f64,
 }
 
-/// Height in mm above the plate up to which a cut counts as going through it.
-pub(crate) const THROUGH: f64 = 0.001;
+/// Height in mm above the plate below which a cut counts as going through it: one that ends at Z0.001 still does.
+pub(crate) const THROUGH: f64 = 0.001 + 1e-6;
 
 impl PathCuts {
     /// A finding about an element, by its index into [`Self::elements`].
