@@ -7,6 +7,8 @@ PYTHONPATH the absolute name of packaging/wheel/python.
 import dataclasses
 import json
 import os
+import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -15,6 +17,7 @@ import unittest
 
 import pathbuild
 
+PAGES = sorted(pathlib.Path(__file__).resolve().parents[2].glob("docs/*/src/howto/python.md"))
 BROKEN = "mistakes/3004.1P.dxf"
 
 
@@ -78,6 +81,13 @@ class Equal(unittest.TestCase):
         self.assertEqual(actual, expected)
         self.assertEqual(pathbuild.scene("2050.1P"), data)
 
+    def test_moves_of_a_path_that_its_drawing_does_not_name(self):
+        with self.assertRaises(pathbuild.Failed):
+            pathbuild.moves("2057.0Q")
+        self.assertGreater(len(pathbuild.moves("2057.0Q", drawing="components/2057.1-2057.2P_Q.dxf")), 0)
+        with self.assertRaisesRegex(pathbuild.Failed, "has no path 2050.1P"):
+            pathbuild.moves("2050.1P", drawing="components/2057.1-2057.2P_Q.dxf")
+
     def test_what_cannot_be_done(self):
         with self.assertRaisesRegex(pathbuild.Failed, "nosuch"):
             pathbuild.paths("nosuch.1P")
@@ -87,6 +97,12 @@ class Equal(unittest.TestCase):
         with self.assertRaisesRegex(pathbuild.Failed, "--no-such-option"):
             pathbuild.check(options=["--no-such-option"])
         self.assertFalse(pathbuild.check("--no-such-file").ok)
+
+    def test_the_examples_of_the_book_run(self):
+        examples = [code for page in PAGES for code in re.findall("^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)]
+        self.assertEqual(len(examples), 4)
+        for code in examples:
+            subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, check=True)
 
     def test_the_module_is_the_program(self):
         for arguments in (["list", "--format", "json"], ["check", BROKEN, "--format", "json"], ["--no-such-option"]):

@@ -240,19 +240,26 @@ def verify(
     return VerifyResult(_findings(rows), agreements, rows[-1].get("configuration"))
 
 
-def scene(path: Name, *, directory: Optional[Name] = None, options: Iterable[str] = ()) -> Dict[str, Any]:
-    """All that a picture of the path shows, as the book describes it under "The scene as data"."""
+def scene(path_or_drawing: Name, *, directory: Optional[Name] = None, options: Iterable[str] = ()) -> Dict[str, Any]:
+    """All that a picture of the path or drawing shows, as the book describes it under "The scene as data"."""
     with tempfile.TemporaryDirectory(prefix="pathbuild-") as place:
         file = os.path.join(place, "scene.json")
-        _raise_errors(_findings(_run("view", [path], ["-o", file, *options], directory)))
+        _raise_errors(_findings(_run("view", [path_or_drawing], ["-o", file, *options], directory)))
         with open(file, encoding="utf-8") as text:
             data: Dict[str, Any] = json.load(text)
     return data
 
 
-def moves(path: str, *, directory: Optional[Name] = None, options: Iterable[str] = ()) -> List[Move]:
-    """The moves of one path's program, in their order."""
-    return [_move(row) for row in scene(path, directory=directory, options=options)["paths"][0]["moves"]]
+def moves(
+    path: str, *, drawing: Optional[Name] = None, directory: Optional[Name] = None, options: Iterable[str] = ()
+) -> List[Move]:
+    """The moves of one path's program, in their order. `drawing` is needed if the name of the path's drawing does not cover the path."""
+    if drawing is None:
+        drawing = path
+    for row in scene(drawing, directory=directory, options=options)["paths"]:
+        if row["name"].casefold() == path.casefold():
+            return [_move(move) for move in row["moves"]]
+    raise Failed(f"{os.fspath(drawing)} has no path {path}")
 
 
 def program() -> str:
