@@ -278,7 +278,7 @@ def program() -> str:
 
 def _run(command: str, inputs: Iterable[Name], options: Iterable[str], directory: Optional[Name]) -> List[Dict[str, Any]]:
     # Behind `--`, an input that begins with a hyphen is no option.
-    arguments = [program(), command, "--format", "json", *options, "--", *map(os.fspath, inputs)]
+    arguments = [program(), command, "--format", "json", *options, "--", *(os.fspath(name) for name in inputs)]
     run = subprocess.run(arguments, cwd=directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if run.returncode not in (0, 1):
         raise Failed(run.stderr.decode("utf-8", "replace").strip() or f"pathbuild {command} ended with {run.returncode}")
