@@ -95,6 +95,14 @@ const text = (page, selector) => page.locator(selector).innerText();
   // Each parameter with where it comes from.
   assert.match(found, /\n[A-Z]\s+\S+ · (own text|first segment of the chain|text of the path|option --|default)/);
   await shot(page, "picked");
+  // The height of the stock under the pointer, until the stock is hidden.
+  const place = [box.x + box.width * 0.25, box.y + box.height * 0.59];
+  await page.mouse.move(...place);
+  await page.waitForFunction(() => document.getElementById("at").textContent.endsWith(" Z2.00"));
+  await page.keyboard.press("s");
+  await page.mouse.move(place[0] + 1, place[1]);
+  await page.waitForFunction(() => !document.getElementById("at").textContent.includes("Z"));
+  await page.keyboard.press("s");
   // Order numbers, rapids and arrows can be hidden.
   await page.keyboard.press("End");
   const numbers = await page.locator("#labels .order").count();
@@ -172,6 +180,12 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.ok(!above.equals(early));
   assert.ok(above.equals(await picture(23_456, 12_345)), "in space");
   await shot(page, "long");
+  // There is stock once the cutter's diameter is typed in.
+  assert.ok(await page.locator("#stock").isHidden());
+  await page.locator("#assumedTool").fill("2");
+  assert.ok(await page.locator("#stock").isVisible());
+  await page.waitForTimeout(300);
+  await shot(page, "long-stock");
   assert.deepEqual(faults, []);
   await page.close();
 }

@@ -27,6 +27,9 @@ pub struct Scene {
     pub version: u32,
     /// Its subject: the name of a path, drawing or program.
     pub title: String,
+    /// Height in mm above the plate below which a cut counts as going through it.
+    #[serde(serialize_with = "millimetres")]
+    pub through: f64,
     /// The paths, or the single program.
     pub paths: Vec<ScenePath>,
     /// Shapes on other layers, shown in grey.
@@ -351,6 +354,7 @@ impl Scene {
             schema: SCHEMA,
             version: VERSION,
             title: title.to_owned(),
+            through: pathbuild_path::THROUGH,
             paths: Vec::new(),
             other_layers: Vec::new(),
             keep_outs: Vec::new(),

@@ -72,7 +72,7 @@ pub struct StandingBar {
 }
 
 /// Height in mm above the plate below which a cut counts as going through it: one that ends at Z0.001 still does.
-pub(crate) const THROUGH: f64 = 0.001 + 1e-6;
+pub const THROUGH: f64 = 0.001 + 1e-6;
 
 impl PathCuts {
     /// A finding about an element, by its index into [`Self::elements`].

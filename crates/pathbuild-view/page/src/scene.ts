@@ -61,6 +61,7 @@ export interface Embedded {
   name: string;
   file: string;
   ends: [Point, Point];
+  raised: number;
   thickness: number;
   sweep_height: number;
 }
@@ -107,6 +108,8 @@ export interface Scene {
   schema: string;
   version: number;
   title: string;
+  /** Height in mm above the plate below which a cut counts as going through it. */
+  through: number;
   paths: Path[];
   other_layers: ({ type: "shape"; layer: string; shape: Shape } | { type: "text"; text: string; at: Point })[];
   keep_outs: KeepOut[];
@@ -116,8 +119,8 @@ export interface Scene {
 /** Degrees of an arc that one straight piece stands for. */
 const STEP = 6;
 
-/** The points of a move, from its beginning to its end; empty where it is not known where it leads. */
-export function pointsOfMove(move: Move): [number, number, number][] {
+/** The points of a move, from its beginning to its end; empty where it is not known where it leads. Chords stay within `sagitta` of an arc. */
+export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, number][] {
   const { from, to, arc } = move;
   const z = (place: Place) => place[2] ?? (from[2] ?? to[2] ?? 0);
   if (from[0] === null || from[1] === null || to[0] === null || to[1] === null) return [];
@@ -130,7 +133,8 @@ export function pointsOfMove(move: Move): [number, number, number][] {
   const [x, y] = spoke(begin);
   const [radius, last] = [Math.hypot(x, y), Math.hypot(...(spoke(end) as Point))];
   const start = Math.atan2(y, x);
-  const pieces = Math.max(2, Math.ceil(arc.degrees / STEP));
+  const fine = (360 / Math.PI) * Math.acos(Math.max(-1, 1 - sagitta / Math.max(radius, last)));
+  const pieces = Math.max(2, Math.ceil(arc.degrees / Math.min(STEP, fine || STEP)));
   const way = ((arc.clockwise ? -1 : 1) * arc.degrees * Math.PI) / 180;
   const points = [begin];
   for (let piece = 1; piece < pieces; piece++) {

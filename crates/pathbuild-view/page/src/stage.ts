@@ -11,6 +11,9 @@ import { Kept } from "./kept.js";
 import { Labels, Spot } from "./labels.js";
 import { Model, Pieces } from "./model.js";
 import { KeepOut, Point, Scene, Shape, pointsOfShape } from "./scene.js";
+import { Texels } from "./stock/heights.js";
+import { StockPicture } from "./stock/picture.js";
+import { Stock } from "./stock/stock.js";
 
 /** Strokes of which a number can be drawn. */
 interface Strokes {
@@ -32,10 +35,15 @@ export function isThick(model: Model): boolean {
 /** From where a picture is looked at. */
 export interface View {
   position: THREE.Vector3;
-  up: THREE.Vector3;
   target: THREE.Vector3;
   zoom: number;
 }
+
+/** Width of cuts in px. */
+const CUT_WIDTH = 2.2;
+
+/** Largest angle in radians between the line of sight and a look from above. */
+const MOST_TILT = 1.5;
 
 /** Clicks and hovers reach so many px. */
 const REACH = 9;
@@ -56,6 +64,8 @@ export class Stage {
   private other!: THREE.LineSegments;
   private tool!: THREE.Mesh;
   private mark!: LineSegments2;
+  private bars!: LineSegments2;
+  private stock: StockPicture | null = null;
   private labels: Labels;
   /** From where labels were put into their places, and how large the picture was; `null`: they were not. */
   private labelled: [THREE.Matrix4, number, number] | null = null;
@@ -78,9 +88,13 @@ export class Stage {
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    // Orbits are round the axis that is up now.
+    this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
     this.controls.zoomToCursor = true;
+    // The stock is a map of heights, which has no underside.
+    this.controls.maxPolarAngle = MOST_TILT;
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(host);
   }
@@ -96,11 +110,12 @@ export class Stage {
     this.scene.add(this.thin(elementShapes(scene), dark ? 0x6c7a86 : 0x8794a0));
     for (const height of [false, true]) this.scene.add(this.thin(keepOuts(scene, height), 0xd55e00));
     for (const it of scene.keep_outs) this.scene.add(clamp(it));
-    this.scene.add(this.fat(bars(scene), 6));
+    this.bars = this.fat(bars(scene), 6);
+    this.scene.add(this.bars);
     this.holes = this.discs(model.holes);
     this.rapids = this.strokes(model.rapids, 1.1);
     this.rapidArrows = this.strokes(model.rapidArrows, 1.2);
-    this.cuts = this.strokes(model.cuts, 2.2);
+    this.cuts = this.strokes(model.cuts, CUT_WIDTH);
     this.arrows = this.strokes(model.arrows, 1.4);
     this.mark = this.fat({ points: [0, 0, 0, 0, 0, 0], colors: [1, 0.2, 0.1, 1, 0.2, 0.1], until: [], step: [0] }, 5);
     this.mark.visible = false;
@@ -124,7 +139,28 @@ export class Stage {
     this.renderer.domElement.remove();
   }
 
+  /** Shows the stock under the moves, or none. */
+  showStock(stock: Stock | null): void {
+    if (this.stock) this.scene.remove(this.stock.object);
+    this.stock?.dispose();
+    this.stock = stock && new StockPicture(stock.map, stock.colors);
+    if (this.stock) this.scene.add(this.stock.object);
+    // The stock shows bars and grooves at their true width: lines as wide as usual would cover them.
+    this.bars.visible = !stock;
+    if (this.cuts.object instanceof LineSegments2) this.cuts.object.material.linewidth = stock ? 0.8 : CUT_WIDTH;
+    else this.cuts.object.visible = !stock;
+    this.draw();
+  }
+
+  /** These texels of the stock were cut. */
+  cut(texels: Texels): void {
+    this.stock?.change(texels);
+    this.draw();
+  }
+
   private empty(): void {
+    this.stock?.dispose();
+    this.stock = null;
     this.scene.traverse((object) => {
       if (!(object instanceof THREE.Mesh || object instanceof THREE.LineSegments)) return;
       object.geometry.dispose();
@@ -139,14 +175,13 @@ export class Stage {
 
   /** From where it is looked at. */
   view(): View {
-    const { position, up, zoom } = this.camera;
-    return { position: position.clone(), up: up.clone(), target: this.controls.target.clone(), zoom };
+    const { position, zoom } = this.camera;
+    return { position: position.clone(), target: this.controls.target.clone(), zoom };
   }
 
   /** Looks from there. */
-  restore({ position, up, target, zoom }: View): void {
+  restore({ position, target, zoom }: View): void {
     this.camera.position.copy(position);
-    this.camera.up.copy(up);
     this.controls.target.copy(target);
     this.camera.zoom = zoom;
     this.camera.updateProjectionMatrix();
@@ -171,7 +206,6 @@ export class Stage {
     const middle = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0);
     this.controls.target.copy(middle);
     const away = space ? new THREE.Vector3(-0.5, -1, 0.9) : new THREE.Vector3(0, 0, 1);
-    this.camera.up.set(0, space ? 0 : 1, space ? 1 : 0);
     this.camera.position.copy(middle).addScaledVector(away.normalize(), this.unit * 2);
     this.camera.zoom = this.whole() * (space ? 0.8 : 1);
     this.camera.updateProjectionMatrix();
@@ -291,6 +325,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isDue = false;
       this.camera.updateMatrixWorld();
+      this.stock?.prepare(this.renderer, this.camera);
       for (const strokes of this.all) if (strokes.object.visible) strokes.prepare?.(this.renderer, this.camera);
       this.renderer.render(this.scene, this.camera);
       this.label();

@@ -3,8 +3,11 @@
 import { visible } from "./visible.js";
 import { Spot } from "./labels.js";
 import { Model, model } from "./model.js";
-import { Finding, Parameter, Path, Scene, pointsOfShape } from "./scene.js";
+import { Finding, Parameter, Path, Scene, isCut, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
+import { NOTHING } from "./stock/heights.js";
+import { Assumed } from "./stock/pieces.js";
+import { Stock } from "./stock/stock.js";
 import { Lang, Word, mm, say, sayKind, sayOption } from "./words.js";
 
 const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -21,7 +24,7 @@ const MOST_SPOTS = 600;
 
 export let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
 let dark = matchMedia("(prefers-color-scheme: dark)").matches;
-let scene: Scene = { schema: "", version: 1, title: "", paths: [], other_layers: [], keep_outs: [], findings: [] };
+let scene: Scene = { schema: "", version: 1, title: "", through: 0, paths: [], other_layers: [], keep_outs: [], findings: [] };
 let made: Model = model(scene, dark);
 /** Whether there is something to see: without, keys are for others. */
 let isOpen = false;
@@ -30,13 +33,15 @@ let drawStill: () => void = () => {};
 /** Who hears of another language. */
 const hearers: (() => void)[] = [];
 let stage: Stage | null = null;
+/** The stock of the scene; `undefined` until it is shown. */
+let stock: Stock | null | undefined;
 let space = false;
 let count = made.steps.length;
 let chosen: number | null = null;
 let timer = 0;
 let measured: [number, number][] | null = null;
 /** On a telephone texts would cover the picture. */
-const shown = { rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true };
+const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true };
 /** Whether the native program is listed where a post writes another one. */
 let isNative = false;
 let lines: string[] = [];
@@ -52,6 +57,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   const atEnd = count === made.steps.length;
   const same = isSame ? marked(chosen) : null;
   scene = next;
+  stock = undefined;
   drawStill = still;
   isOpen = true;
   number();
@@ -165,10 +171,39 @@ function start(keepsView: boolean): void {
     drawStill();
   }
   for (const what of ["rapids", "arrows", "other"] as const) stage?.toggle(what, shown[what]);
+  placeStock();
   if (view) stage?.restore(view);
   else stage?.fit(space);
   spots();
   go(count);
+}
+
+/** What is typed for values that the program does not give. */
+function assumed(): Assumed {
+  const typed = (id: string) => $<HTMLInputElement>(id).valueAsNumber;
+  const [tool, thickness] = [typed("assumedTool"), typed("assumedThickness")];
+  return { tool: tool > 0 ? tool : null, thickness: thickness > 0 ? thickness : null };
+}
+
+/** Puts the stock under the moves, or takes it away. */
+function placeStock(): void {
+  const cuts = scene.paths.filter(({ moves }) => moves.some((move) => isCut(move.kind)));
+  const hasTool = assumed().tool !== null;
+  $("assumed").hidden = !cuts.some(({ tool }) => tool === null);
+  $("stock").hidden = !cuts.some(({ tool }) => tool !== null || hasTool);
+  if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed());
+  stage?.showStock(shown.stock ? stock! : null);
+  $("flat").hidden = stage !== null || !shown.stock || !stock;
+  picture.classList.toggle("still", stage === null);
+  cutStock();
+}
+
+/** Cuts the stock up to the current move. */
+function cutStock(): void {
+  if (!shown.stock || !stock) return;
+  const changed = stock.seek(Math.min(count, made.steps.length));
+  if (!stage) stock.paint($("flat"));
+  else if (changed) stage.cut(changed);
 }
 
 /** Sets the colours of everything but the picture. */
@@ -238,6 +273,7 @@ function go(to: number): void {
   slider.value = String(count);
   $("where").textContent = `${say("step", lang)} ${count} ${say("of", lang)} ${made.steps.length}`;
   stage?.show(count);
+  cutStock();
   listing(true);
 }
 
@@ -435,6 +471,7 @@ const acts = {
     speak();
   },
   play,
+  stock: () => switchLayer("stock"),
   rapids: () => switchLayer("rapids"),
   arrows: () => switchLayer("arrows"),
   order: () => switchLayer("order"),
@@ -449,6 +486,7 @@ function switchLayer(what: keyof typeof shown): void {
   shown[what] = !shown[what];
   $(what).setAttribute("aria-pressed", String(shown[what]));
   if (what === "order" || what === "texts") spots();
+  else if (what === "stock") placeStock();
   else stage?.toggle(what, shown[what]);
 }
 for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
@@ -464,6 +502,7 @@ const keys: Record<string, () => void> = {
   "2": acts.view2,
   "3": acts.view3,
   f: acts.fit,
+  s: acts.stock,
   r: acts.rapids,
   a: acts.arrows,
   n: acts.order,
@@ -485,6 +524,12 @@ addEventListener("keydown", (event) => {
 });
 
 slider.addEventListener("input", () => go(Number(slider.value)));
+for (const id of ["assumedTool", "assumedThickness"]) {
+  $(id).addEventListener("input", () => {
+    stock = undefined;
+    placeStock();
+  });
+}
 code.addEventListener("scroll", () => listing(false));
 rows.addEventListener("click", (event) => {
   const line = (event.target as HTMLElement).closest<HTMLElement>(".row")?.dataset.line;
@@ -513,7 +558,8 @@ picture.addEventListener("pointermove", (event) => {
     const box = picture.getBoundingClientRect();
     const [x, y] = [event.clientX - box.left, event.clientY - box.top];
     const at = stage!.plane(x, y, 0);
-    $("at").textContent = `X${at[0].toFixed(2)} Y${at[1].toFixed(2)}`;
+    const height = shown.stock && !space && stock ? stock.map.at(...at) : NOTHING;
+    $("at").textContent = `X${at[0].toFixed(2)} Y${at[1].toFixed(2)}${height === NOTHING ? "" : ` Z${height.toFixed(2)}`}`;
     const step = stage!.pick(x, y, count);
     if (step !== null || chosen === null) describe(step);
   });

@@ -6,6 +6,7 @@ const words = {
   view2: ["Top", "Oben"],
   view3: ["3D", "3D"],
   fit: ["Fit", "Einpassen"],
+  stock: ["Stock", "Rohteil"],
   rapids: ["Rapids", "Eilgänge"],
   arrows: ["Arrows", "Pfeile"],
   order: ["Order", "Reihenfolge"],
@@ -40,8 +41,8 @@ const words = {
   feed: ["feed", "Vorschub"],
   pick: ["Click two points to measure.", "Zum Messen zwei Punkte anklicken."],
   keys: [
-    "← → one move · PgUp PgDn ten · Home End · space runs · 2 3 view · F fit · R rapids · A arrows · N order · T texts · O other layers · M measure · L language · D dark",
-    "← → eine Bewegung · Bild↑ Bild↓ zehn · Pos1 Ende · Leertaste läuft · 2 3 Ansicht · F einpassen · R Eilgänge · A Pfeile · N Reihenfolge · T Texte · O andere Layer · M messen · L Sprache · D dunkel",
+    "← → one move · PgUp PgDn ten · Home End · space runs · 2 3 view · F fit · S stock · R rapids · A arrows · N order · T texts · O other layers · M measure · L language · D dark",
+    "← → eine Bewegung · Bild↑ Bild↓ zehn · Pos1 Ende · Leertaste läuft · 2 3 Ansicht · F einpassen · S Rohteil · R Eilgänge · A Pfeile · N Reihenfolge · T Texte · O andere Layer · M messen · L Sprache · D dunkel",
   ],
   nowebgl: [
     "This browser has no WebGL2: the picture stands still.",

@@ -1,0 +1,212 @@
+// The heights of the stock after any number of moves, over a grid of square texels.
+//
+// A step from one move to another can only change texels that the moves between them touch: forwards these moves are cut, backwards the
+// box round them is copied from a keyframe and cut again.
+
+import { Blank, Box, Cutting, EMPTY, WIDTH, joined } from "./pieces.js";
+
+/** Texels of the longer side, and of the whole map. */
+const [MOST_LONG, MOST_TEXELS] = [2048, 1_200_000];
+/** Memory for keyframes in bytes. */
+const MOST_BYTES = 64_000_000;
+/** Height of a texel without stock. */
+export const NOTHING = -1e9;
+/** A rapid move is held this much higher in mm, so that one along the floor of a cut does not count as cutting. */
+const RAPID_RAISE = 0.002;
+
+/** Texels: first column, first row, and the column and row behind the last ones. */
+export type Texels = Box;
+
+interface Keyframe {
+  heights: Float32Array;
+  rapid: Uint8Array;
+  /** Number of pieces that are cut. */
+  count: number;
+}
+
+export class Heights {
+  readonly columns: number;
+  readonly rows: number;
+  /** Side of a texel in mm. */
+  readonly texel: number;
+  readonly heights: Float32Array;
+  /** Heights of the uncut stock. */
+  readonly tops: Float32Array;
+  /** Heights at or below which the stock is cut through. */
+  readonly through: Float32Array;
+  /** 255 where a rapid move has cut. */
+  readonly rapid: Uint8Array;
+  private count = 0;
+  private keyframes: Keyframe[] = [];
+  private mostKeyframes: number;
+
+  constructor(readonly cutting: Cutting) {
+    const [left, lower, right, upper] = cutting.box;
+    const [wide, tall] = [right - left, upper - lower];
+    this.texel = Math.max(Math.max(wide, tall) / MOST_LONG, Math.sqrt((wide * tall) / MOST_TEXELS));
+    [this.columns, this.rows] = [Math.ceil(wide / this.texel), Math.ceil(tall / this.texel)];
+    this.tops = new Float32Array(this.columns * this.rows).fill(NOTHING);
+    this.through = new Float32Array(this.columns * this.rows);
+    for (const blank of cutting.blanks) this.lay(blank);
+    this.heights = this.tops.slice();
+    this.rapid = new Uint8Array(this.columns * this.rows);
+    this.mostKeyframes = Math.floor(MOST_BYTES / (5 * this.columns * this.rows));
+  }
+
+  whole(): Texels {
+    return [0, 0, this.columns, this.rows];
+  }
+
+  /** Cuts the first so many moves. Returns the texels that may have changed. */
+  seek(moves: number): Texels | null {
+    const wanted = moves === 0 ? 0 : this.cutting.until[moves - 1];
+    if (wanted === this.count) return null;
+    const changed = this.touched(Math.min(wanted, this.count), Math.max(wanted, this.count));
+    const keyframe = this.keyframes.filter((it) => it.count <= wanted).at(-1);
+    const isBack = wanted < this.count;
+    if (isBack || (keyframe && keyframe.count > this.count)) {
+      if (changed) this.restore(keyframe, changed);
+      if (changed) this.cut(keyframe?.count ?? 0, wanted, changed);
+      this.count = wanted;
+    }
+    this.advance(wanted);
+    return changed;
+  }
+
+  /** Height at a place in mm. */
+  at(x: number, y: number): number {
+    const [left, lower] = this.cutting.box;
+    const [column, row] = [Math.floor((x - left) / this.texel), Math.floor((y - lower) / this.texel)];
+    const isInside = column >= 0 && row >= 0 && column < this.columns && row < this.rows;
+    return isInside ? this.heights[row * this.columns + column] : NOTHING;
+  }
+
+  /** Cuts onwards, and keeps a keyframe after each equal part of the pieces. */
+  private advance(wanted: number): void {
+    const part = Math.ceil(this.cutting.pieces.length / WIDTH / (this.mostKeyframes + 1));
+    while (this.count < wanted) {
+      const next = Math.floor(this.count / part) + 1;
+      const until = Math.min(wanted, next * part);
+      this.cut(this.count, until, this.whole());
+      this.count = until;
+      if (until === next * part && this.keyframes.length < next && next <= this.mostKeyframes) {
+        this.keyframes.push({ heights: this.heights.slice(), rapid: this.rapid.slice(), count: until });
+      }
+    }
+  }
+
+  /** Lays stock into the uncut map. Where several overlap, the highest counts. */
+  private lay({ box, top, through }: Blank): void {
+    const { columns, rows, texel } = this;
+    const [left, lower] = this.cutting.box;
+    const begin = Math.floor((box[0] - left) / texel);
+    const end = Math.min(columns, Math.ceil((box[2] - left) / texel));
+    const last = Math.min(rows, Math.ceil((box[3] - lower) / texel));
+    for (let row = Math.floor((box[1] - lower) / texel); row < last; row++) {
+      for (let at = row * columns + begin; at < row * columns + end; at++) {
+        if (this.tops[at] >= top) continue;
+        this.tops[at] = top;
+        this.through[at] = through;
+      }
+    }
+  }
+
+  /** Copies texels from a keyframe, or from the uncut stock. */
+  private restore(keyframe: Keyframe | undefined, [x0, y0, x1, y1]: Texels): void {
+    const heights = keyframe?.heights ?? this.tops;
+    for (let row = y0; row < y1; row++) {
+      const [from, to] = [row * this.columns + x0, row * this.columns + x1];
+      this.heights.set(heights.subarray(from, to), from);
+      if (keyframe) this.rapid.set(keyframe.rapid.subarray(from, to), from);
+      else this.rapid.fill(0, from, to);
+    }
+  }
+
+  /** Texels that pieces may touch. */
+  private touched(from: number, to: number): Texels | null {
+    const { pieces, top } = this.cutting;
+    const [left, lower] = this.cutting.box;
+    let box = EMPTY;
+    for (let at = from * WIDTH; at < to * WIDTH; at += WIDTH) {
+      if (Math.min(pieces[at + 2], pieces[at + 5]) >= top) continue;
+      const radius = pieces[at + 6];
+      for (const end of [at, at + 3]) {
+        box = joined(box, [pieces[end] - radius, pieces[end + 1] - radius, pieces[end] + radius, pieces[end + 1] + radius]);
+      }
+    }
+    const first = (side: number, origin: number) => Math.max(0, Math.floor((side - origin) / this.texel) - 1);
+    const behind = (side: number, origin: number, most: number) => Math.min(most, Math.ceil((side - origin) / this.texel) + 1);
+    const texels: Texels = [first(box[0], left), first(box[1], lower), behind(box[2], left, this.columns), behind(box[3], lower, this.rows)];
+    return texels[0] < texels[2] && texels[1] < texels[3] ? texels : null;
+  }
+
+  /** Cuts pieces where they touch these texels. Each piece is the area within a radius of a segment, filled row by row. */
+  private cut(from: number, to: number, [x0, y0, x1, y1]: Texels): void {
+    const { pieces, top, box } = this.cutting;
+    const { heights, rapid, columns } = this;
+    const scale = 1 / this.texel;
+    for (let at = from * WIDTH; at < to * WIDTH; at += WIDTH) {
+      const isRapid = pieces[at + 7] > 0;
+      const raise = isRapid ? RAPID_RAISE : 0;
+      const [begin, end] = [pieces[at + 2] + raise, pieces[at + 5] + raise];
+      if (Math.min(begin, end) >= top) continue;
+      // In texels, whose centres have whole numbers.
+      const ax = (pieces[at] - box[0]) * scale - 0.5;
+      const ay = (pieces[at + 1] - box[1]) * scale - 0.5;
+      const bx = (pieces[at + 3] - box[0]) * scale - 0.5;
+      const by = (pieces[at + 4] - box[1]) * scale - 0.5;
+      const radius = pieces[at + 6] * scale;
+      const square = radius * radius;
+      const [dx, dy] = [bx - ax, by - ay];
+      const length = Math.sqrt(dx * dx + dy * dy);
+      const isPoint = length < 1e-6;
+      const [ux, uy] = isPoint ? [1, 0] : [dx / length, dy / length];
+      const slope = isPoint ? 0 : (end - begin) / length;
+      const low = Math.min(begin, end);
+      const last = Math.min(y1 - 1, Math.floor(Math.max(ay, by) + radius));
+      for (let row = Math.max(y0, Math.ceil(Math.min(ay, by) - radius)); row <= last; row++) {
+        // The row's least and greatest column: those of the discs at both ends and of the two sides between them.
+        let [least, most] = [Infinity, -Infinity];
+        const [va, vb] = [row - ay, row - by];
+        if (va * va <= square) {
+          const half = Math.sqrt(square - va * va);
+          least = ax - half;
+          most = ax + half;
+        }
+        if (vb * vb <= square) {
+          const half = Math.sqrt(square - vb * vb);
+          least = Math.min(least, bx - half);
+          most = Math.max(most, bx + half);
+        }
+        if (dy !== 0) {
+          for (let side = -radius; ; side = radius) {
+            const share = (va - ux * side) / dy;
+            const x = ax + dx * share - uy * side;
+            if (share >= 0 && share <= 1) {
+              least = Math.min(least, x);
+              most = Math.max(most, x);
+            }
+            if (side === radius) break;
+          }
+        }
+        const first = row * columns + Math.max(x0, Math.ceil(least));
+        const final = row * columns + Math.min(x1 - 1, Math.floor(most));
+        for (let cell = first; cell <= final; cell++) {
+          let z = low;
+          if (slope !== 0) {
+            // The cutter is over this texel from `along - half` to `along + half`, and lowest at one of both ends.
+            const across = cell - row * columns - ax;
+            const along = across * ux + va * uy;
+            const beside = va * ux - across * uy;
+            const half = Math.sqrt(Math.max(0, square - beside * beside));
+            z = begin + slope * (slope > 0 ? Math.max(along - half, 0) : Math.min(along + half, length));
+          }
+          if (heights[cell] > z) {
+            heights[cell] = z;
+            if (isRapid) rapid[cell] = 255;
+          }
+        }
+      }
+    }
+  }
+}

@@ -1,0 +1,90 @@
+// The moves as straight pieces of a cutter's way, and the stock that they are cut from.
+
+import { Move, Path, Scene, isCut, pointsOfMove } from "../scene.js";
+
+/** Numbers of a piece: from x y z, to x y z, the cutter's radius, and 1 for a rapid move. */
+export const WIDTH = 8;
+
+/** A rectangle in mm: left, lower, right, upper side. */
+export type Box = [number, number, number, number];
+
+/** Stock of paths with the same heights, as large as their cuts need. */
+export interface Blank {
+  box: Box;
+  /** Z of the upper face in mm. */
+  top: number;
+  /** Z in mm at or below which a cut goes through; with Z = 0 on the upper face, none does. */
+  through: number;
+}
+
+/** Values that a program read from a file does not give. */
+export interface Assumed {
+  tool: number | null;
+  thickness: number | null;
+}
+
+export interface Cutting {
+  pieces: Float32Array;
+  /** Number of pieces up to the end of each move. */
+  until: Uint32Array;
+  blanks: Blank[];
+  box: Box;
+  /** Highest upper face and deepest cut in mm. */
+  top: number;
+  low: number;
+}
+
+/** Distance in mm by which a chord may miss its arc. */
+const SAGITTA = 0.004;
+
+export function joined(a: Box, b: Box): Box {
+  return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+}
+
+export const EMPTY: Box = [Infinity, Infinity, -Infinity, -Infinity];
+
+/** The pieces of all moves; `null` if no cutter is known or nothing is cut. */
+export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
+  const numbers: number[] = [];
+  const until: number[] = [];
+  const blanks = new Map<string, Blank>();
+  let low = Infinity;
+  for (const path of scene.paths) {
+    const tool = path.tool ?? assumed.tool;
+    const radius = (tool ?? 0) / 2;
+    for (const move of path.moves) {
+      const isRapid = move.kind === "sweep" || move.kind === "lift";
+      const points = tool === null || move.kind === "probe" ? [] : pointsOfMove(move, SAGITTA);
+      for (const at of points) for (const axis of [0, 1]) at[axis] += path.zero[axis];
+      for (let index = 1; index < points.length; index++) numbers.push(...points[index - 1], ...points[index], radius, isRapid ? 1 : 0);
+      until.push(numbers.length / WIDTH);
+      if (!isCut(move.kind) || points.length === 0) continue;
+      const [top, raised] = faces(path, move, assumed);
+      const through = top > raised ? raised + scene.through : -Infinity;
+      const name = `${top} ${through}`;
+      let box = blanks.get(name)?.box ?? EMPTY;
+      for (const [x, y, z] of points) {
+        box = joined(box, [x - 2 * radius, y - 2 * radius, x + 2 * radius, y + 2 * radius]);
+        low = Math.min(low, z);
+      }
+      blanks.set(name, { box, top, through });
+    }
+  }
+  if (blanks.size === 0) return null;
+  const all = [...blanks.values()];
+  return {
+    pieces: new Float32Array(numbers),
+    until: new Uint32Array(until),
+    blanks: all,
+    box: all.map((it) => it.box).reduce(joined),
+    top: Math.max(...all.map((it) => it.top)),
+    low,
+  };
+}
+
+/** Z of the upper face and of the plate where a move cuts: components may be raised. */
+function faces(path: Path, move: Move, assumed: Assumed): [number, number] {
+  const element = move.element === undefined ? undefined : path.elements[move.element];
+  const component = path.embedded[element?.path ?? 0];
+  return [component?.thickness ?? path.thickness ?? assumed.thickness ?? 0, component?.raised ?? 0];
+}

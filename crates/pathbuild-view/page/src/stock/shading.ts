@@ -1,0 +1,63 @@
+// Colours of the stock as seen from above, for the GPU's texture and for a 2D canvas alike.
+
+import { Heights, NOTHING, Texels } from "./heights.js";
+
+type Color = [number, number, number];
+
+const UNTOUCHED: Color = [219, 189, 133];
+const [SHALLOW, DEEP]: Color[] = [[189, 148, 92], [115, 77, 41]];
+export const PLATE: Color = [204, 214, 224];
+export const RAPID: Color = [229, 13, 26];
+
+/** Direction of the light. */
+const LIGHT = normal(-0.42, 0.55, 0.72);
+/** Steps steeper than this, in texels, and higher than this, in mm, are walls: they get a dark edge and no slope. */
+const [WALL_STEEP, WALL_HIGH] = [1.8, 0.02];
+/** A texel's colour depends on neighbours this far away. */
+const REACH = 1;
+
+function normal(x: number, y: number, z: number): Color {
+  const length = Math.hypot(x, y, z);
+  return [x / length, y / length, z / length];
+}
+
+/** Paints these texels and their neighbours. Returns the texels that were painted. */
+export function shade(map: Heights, [x0, y0, x1, y1]: Texels, into: Uint8ClampedArray): Texels {
+  const { heights, tops, through, rapid, columns, rows, texel, cutting } = map;
+  const painted: Texels = [Math.max(0, x0 - REACH), Math.max(0, y0 - REACH), Math.min(columns, x1 + REACH), Math.min(rows, y1 + REACH)];
+  const depth = Math.max(cutting.top - cutting.low, 1e-6);
+  for (let row = painted[1]; row < painted[3]; row++) {
+    const [down, up] = [row > 0 ? -columns : 0, row < rows - 1 ? columns : 0];
+    for (let column = painted[0]; column < painted[2]; column++) {
+      const at = row * columns + column;
+      const height = heights[at];
+      const out = at * 4;
+      if (height === NOTHING) {
+        into[out + 3] = 0;
+        continue;
+      }
+      // Beyond the edge of the stock there is no wall to draw.
+      const near = (step: number) => (heights[at + step] === NOTHING ? height : heights[at + step]);
+      const [l, r, d, u] = [near(column > 0 ? -1 : 0), near(column < columns - 1 ? 1 : 0), near(down), near(up)];
+      const steep = Math.max(Math.abs(l - height), Math.abs(r - height), Math.abs(d - height), Math.abs(u - height));
+      const isWall = steep > WALL_STEEP * texel && steep > WALL_HIGH;
+      let light = LIGHT[2];
+      if (!isWall && steep > 0) {
+        const [nx, ny, nz] = [l - r, d - u, 2 * texel];
+        light = Math.max(0, (nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2]) / Math.sqrt(nx * nx + ny * ny + nz * nz));
+      }
+      light = light * 0.75 + 0.46;
+      if (isWall && height - Math.min(l, r, d, u) > WALL_HIGH) light *= 0.45;
+      const share = Math.min(Math.max((cutting.top - height) / depth, 0), 1);
+      const isThrough = height <= through[at];
+      const isUntouched = height >= tops[at] - 1e-4;
+      for (let part = 0; part < 3; part++) {
+        const base = isThrough ? PLATE[part] : isUntouched ? UNTOUCHED[part] : SHALLOW[part] + (DEEP[part] - SHALLOW[part]) * share;
+        const lit = base * light;
+        into[out + part] = rapid[at] ? lit * 0.25 + RAPID[part] * 0.75 : lit;
+      }
+      into[out + 3] = 255;
+    }
+  }
+  return painted;
+}

@@ -1,0 +1,34 @@
+// The stock of a scene under the slider: heights after the current move, and their colours.
+
+import { Scene } from "../scene.js";
+import { Heights, Texels } from "./heights.js";
+import { Assumed, cutting } from "./pieces.js";
+import { shade } from "./shading.js";
+
+export class Stock {
+  readonly colors: Uint8ClampedArray<ArrayBuffer>;
+
+  private constructor(readonly map: Heights) {
+    this.colors = new Uint8ClampedArray(map.columns * map.rows * 4);
+    shade(map, map.whole(), this.colors);
+  }
+
+  /** The uncut stock; `null` if no cutter is known or nothing is cut. */
+  static of(scene: Scene, assumed: Assumed): Stock | null {
+    const cuts = cutting(scene, assumed);
+    return cuts && new Stock(new Heights(cuts));
+  }
+
+  /** Cuts the first so many moves. Returns the texels that were painted anew. */
+  seek(moves: number): Texels | null {
+    const changed = this.map.seek(moves);
+    return changed && shade(this.map, changed, this.colors);
+  }
+
+  /** Paints the stock on a 2D canvas, for browsers without WebGL2. */
+  paint(canvas: HTMLCanvasElement): void {
+    const { columns, rows } = this.map;
+    if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows });
+    canvas.getContext("2d")?.putImageData(new ImageData(this.colors, columns, rows), 0, 0);
+  }
+}

@@ -1,0 +1,212 @@
+// Heights of the stock, without a browser: node stock-test.mjs PATHBUILD LIBRARY.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import assert from "node:assert/strict";
+import { build } from "esbuild";
+
+const [pathbuild, library] = process.argv.slice(2).map((argument) => resolve(argument));
+const directory = mkdtempSync(join(tmpdir(), "pathbuild-stock-"));
+await build({ entryPoints: ["src/stock/stock.ts"], bundle: true, format: "esm", outfile: join(directory, "stock.mjs"), logLevel: "error" });
+const { Stock } = await import(join(directory, "stock.mjs"));
+const given = { tool: null, thickness: null };
+
+function sceneOf(path) {
+  const file = join(directory, "scene.json");
+  execFileSync(pathbuild, ["view", path, "-o", file], { cwd: library, stdio: "pipe" });
+  return JSON.parse(readFileSync(file, "utf8"));
+}
+
+/** Numbers from 0 to 1, the same ones on every run. */
+let seed = 12345;
+const random = () => (seed = (seed * 1103515245 + 12345) & 0x7fffffff) / 0x7fffffff;
+
+/** The moves that may reach a point or a neighbour of it, each with its path. */
+function movesNear({ paths }, [x, y]) {
+  const found = [];
+  for (const path of paths) {
+    const [px, py] = [x - path.zero[0], y - path.zero[1]];
+    for (const move of path.moves) {
+      const { kind, from, to, arc } = move;
+      if (kind === "probe" || [from[0], from[1], to[0], to[1]].includes(null)) continue;
+      const reach = path.tool / 2 + 0.02 + (arc ? 2 * Math.hypot(from[0] - arc.centre[0], from[1] - arc.centre[1]) : 0);
+      const isNear = (at, a, b) => at > Math.min(a, b) - reach && at < Math.max(a, b) + reach;
+      if (isNear(px, from[0], to[0]) && isNear(py, from[1], to[1])) found.push({ path, move });
+    }
+  }
+  return found;
+}
+
+/** The height at a point by the true shape of each move, without pieces and texels. */
+function exact(moves, top, [x, y]) {
+  let height = top;
+  for (const { path, move } of moves) {
+    const { kind, from, to, arc } = move;
+    const r = path.tool / 2;
+    const raise = kind === "sweep" || kind === "lift" ? 0.002 : 0;
+    const [a, b] = [from[2] ?? to[2] ?? 0, to[2] ?? from[2] ?? 0];
+    if (Math.min(a, b) >= height) continue;
+    const [px, py] = [x - path.zero[0], y - path.zero[1]];
+    // The stretch of the move, from 0 to 1, from which the cutter reaches the point.
+    for (const [begin, end] of arc ? stretchesOfArc(from, arc, px, py, r) : stretchOfLine(from, to, px, py, r)) {
+      height = Math.min(height, a + (b - a) * begin + raise, a + (b - a) * end + raise);
+    }
+  }
+  return height;
+}
+
+function stretchOfLine(from, to, x, y, r) {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const length = Math.hypot(dx, dy);
+  if (length < 1e-9) return Math.hypot(x - from[0], y - from[1]) <= r ? [[0, 1]] : [];
+  const along = ((x - from[0]) * dx + (y - from[1]) * dy) / length;
+  const beside = ((y - from[1]) * dx - (x - from[0]) * dy) / length;
+  if (Math.abs(beside) > r) return [];
+  const half = Math.sqrt(r * r - beside * beside);
+  const [begin, end] = [Math.max(along - half, 0) / length, Math.min(along + half, length) / length];
+  return begin <= end ? [[begin, end]] : [];
+}
+
+function stretchesOfArc(from, { axes, centre, clockwise, degrees }, x, y, r) {
+  assert.deepEqual(axes, [0, 1], "arcs lie in the plane");
+  const radius = Math.hypot(from[0] - centre[0], from[1] - centre[1]);
+  const away = Math.hypot(x - centre[0], y - centre[1]);
+  if (away > radius + r || away < radius - r) return [];
+  const sweep = (degrees * Math.PI) / 180;
+  const cosine = away === 0 ? -1 : (away * away + radius * radius - r * r) / (2 * away * radius);
+  const half = cosine <= -1 ? Math.PI : Math.acos(Math.min(1, cosine));
+  const angle = Math.atan2(y - centre[1], x - centre[0]) - Math.atan2(from[1] - centre[1], from[0] - centre[0]);
+  const turned = (clockwise ? -1 : 1) * angle;
+  const middle = turned - 2 * Math.PI * Math.floor(turned / (2 * Math.PI));
+  return [-1, 0, 1]
+    .map((turn) => [Math.max(middle + turn * 2 * Math.PI - half, 0) / sweep, Math.min(middle + turn * 2 * Math.PI + half, sweep) / sweep])
+    .filter(([begin, end]) => begin <= end);
+}
+
+/** A move in the form of a scene. */
+const move = (kind, from, to) => ({ kind, from, to, length: 0 });
+const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, thickness, zero: [0, 0], embedded: [], elements: [], moves }] });
+
+{
+  // Texel centres, since only their heights are known.
+  const around = Array.from({ length: 64 }, (_, turn) => [turn % 2 ? 0.01 : 0.005, (turn * Math.PI) / 32]);
+  const beside = around.map(([away, angle]) => [away * Math.cos(angle), away * Math.sin(angle)]);
+  const lines = execFileSync(pathbuild, ["list", "--format", "json"], { cwd: library, encoding: "utf8" }).trim().split("\n");
+  const paths = lines.map((line) => JSON.parse(line)).filter(({ type, path }) => type === "path" && path.endsWith("P"));
+  let [programs, worst] = [0, 0];
+  for (const { path: name } of paths) {
+    const scene = sceneOf(name);
+    const stock = Stock.of(scene, given);
+    assert.ok(stock, name);
+    stock.seek(stock.map.cutting.until.length);
+    const { columns, rows, texel, heights, tops, cutting } = stock.map;
+    for (let turn = 0; turn < 1000; turn++) {
+      const [column, row] = [Math.floor(random() * columns), Math.floor(random() * rows)];
+      const [x, y] = [cutting.box[0] + (column + 0.5) * texel, cutting.box[1] + (row + 0.5) * texel];
+      const [height, top] = [heights[row * columns + column], tops[row * columns + column]];
+      const moves = movesNear(scene, [x, y]);
+      // Beside a wall the height lies between those on either side of it.
+      let heightsThere = [exact(moves, top, [x, y])];
+      const differs = () => Math.max(Math.min(...heightsThere) - height, height - Math.max(...heightsThere), 0);
+      if (differs() > 0.01) heightsThere = beside.map(([dx, dy]) => exact(moves, top, [x + dx, y + dy]));
+      assert.ok(differs() <= 0.01, `${name} at ${x} ${y}: ${height} differs by ${differs()}`);
+      worst = Math.max(worst, differs());
+    }
+    programs++;
+  }
+  assert.ok(programs >= 30, `${programs} programs`);
+  console.log(`heights: 1000 points of each of ${programs} programs, worst ${worst.toFixed(5)} mm`);
+}
+
+{
+  // Jumps to and fro leave the same heights and colours as fresh maps.
+  const scene = sceneOf("8001.1P");
+  const stock = Stock.of(scene, given);
+  const total = stock.map.cutting.until.length;
+  for (let jump = 0; jump < 60; jump++) {
+    const to = Math.floor(random() * (total + 1));
+    stock.seek(to);
+    const fresh = Stock.of(scene, given);
+    fresh.seek(to);
+    assert.ok(Buffer.from(stock.colors.buffer).equals(Buffer.from(fresh.colors.buffer)), `jump ${jump} to move ${to}`);
+    assert.ok(Buffer.from(stock.map.heights.buffer).equals(Buffer.from(fresh.map.heights.buffer)), `heights after jump ${jump}`);
+  }
+  console.log("60 jumps: each as a fresh map");
+}
+
+{
+  // A bar 3 mm long between two cuts of a cutter of 2 mm, whose centres are 5 mm apart.
+  const z = -0.2;
+  const scene = plain(2, 2, [move("plunge", [0, 0, 5], [0, 0, z]), move("mill", [0, 0, z], [20, 0, z]), move("mill", [20, 0, z], [20, 0, 1]), move("mill", [20, 0, 1], [25, 0, 1]), move("mill", [25, 0, 1], [25, 0, z]), move("mill", [25, 0, z], [45, 0, z])]);
+  const stock = Stock.of(scene, given);
+  stock.seek(6);
+  const { texel } = stock.map;
+  let wide = 0;
+  for (let x = 15; x < 30; x += texel) if (stock.map.at(x, 0) > 0.9) wide += texel;
+  assert.ok(Math.abs(wide - 3) <= 2 * texel, `the bar is ${wide} mm wide`);
+  assert.ok(stock.map.rapid.every((it) => it === 0), "no rapid move cuts");
+  console.log(`bar: ${wide.toFixed(3)} mm of 3 mm, texels of ${texel.toFixed(3)} mm`);
+}
+
+{
+  // A rapid move through material is marked; along the floor of a cut it is not.
+  const cut = [move("plunge", [0, 0, 5], [0, 0, -1]), move("mill", [0, 0, -1], [20, 0, -1])];
+  const marks = (scene) => {
+    const stock = Stock.of(scene, given);
+    stock.seek(scene.paths[0].moves.length);
+    return stock.map.rapid.reduce((sum, it) => sum + (it ? 1 : 0), 0);
+  };
+  assert.equal(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [0, 0, -1])])), 0);
+  assert.ok(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [20, 1, -1])])) > 0);
+  assert.equal(Stock.of(plain(null, 2, cut), given), null, "without a cutter there is no stock");
+  const typed = Stock.of(plain(null, null, cut), { tool: 2, thickness: 3 });
+  assert.equal(typed.map.cutting.top, 3, "a cutter and a thickness that are typed count");
+}
+
+{
+  // A cut goes through at the plate or below: not if Z0 is the upper face, and for a raised component where that lies.
+  const cut = (z) => [move("plunge", [0, 0, 9], [0, 0, z]), move("mill", [0, 0, z], [20, 0, z])];
+  const isThrough = (scene) => {
+    const stock = Stock.of(scene, given);
+    stock.seek(scene.paths[0].moves.length);
+    const { columns, rows, heights, through } = stock.map;
+    const middle = (rows >> 1) * columns + (columns >> 1);
+    return heights[middle] <= through[middle];
+  };
+  assert.ok(isThrough(plain(2, 2, cut(0.001))));
+  assert.ok(!isThrough(plain(2, 2, cut(0.0011))));
+  assert.ok(!isThrough(plain(2, 0, cut(-1))));
+  const raised = (z) => {
+    const scene = plain(2, 2, cut(z).map((it) => ({ ...it, element: 0 })));
+    Object.assign(scene.paths[0], { embedded: [{ thickness: 2, raised: 0 }, { thickness: 7, raised: 5 }], elements: [{ path: 1 }] });
+    return scene;
+  };
+  assert.ok(isThrough(raised(5.001)));
+  assert.ok(!isThrough(raised(5.0011)));
+}
+
+{
+  // Long programs: zigzags on growing circles, pass by pass.
+  const moves = [move("plunge", [20, 0, 5], [20, 0, -1])];
+  for (let step = 1; step < 200_000; step++) {
+    const [angle, radius] = [step * 0.013, 20 + (step % 20_000) / 200 + (step % 2) * 3];
+    moves.push(move("mill", moves.at(-1).to, [radius * Math.cos(angle), radius * Math.sin(angle), -(1 + Math.floor(step / 20_000))]));
+  }
+  const timed = (act) => {
+    const begun = performance.now();
+    act();
+    return performance.now() - begun;
+  };
+  let stock;
+  const made = timed(() => (stock = Stock.of(plain(2, 0, moves), given)));
+  const first = timed(() => stock.seek(200_000));
+  const spread = (steps) => steps.map((to) => timed(() => stock.seek(to))).sort((a, b) => a - b);
+  const said = (all) => `median ${all[all.length >> 1].toFixed(0)} ms, worst ${all.at(-1).toFixed(0)} ms`;
+  console.log(`200,000 moves: made ${made.toFixed(0)} ms, first cut ${first.toFixed(0)} ms, ${stock.map.columns} x ${stock.map.rows} texels`);
+  console.log("  jumps:", said(spread(Array.from({ length: 60 }, () => Math.floor(random() * 200_001)))));
+  stock.seek(60_000);
+  console.log("  forwards by 40:", said(spread(Array.from({ length: 100 }, (_, step) => 60_000 + step * 40))));
+  console.log("  backwards by 40:", said(spread(Array.from({ length: 100 }, (_, step) => 64_000 - step * 40))));
+}
+rmSync(directory, { recursive: true });
