@@ -250,6 +250,24 @@ fn a_drawing_that_was_touched_is_not_checked_again() {
     assert_eq!(held(&place), "5 / 5");
 }
 
+/// A path 0.5 mm too far outside leaves material, unless its cutter is for slots.
+#[test]
+fn the_shape_of_a_cutter_asks_another_question() {
+    let drawing = "layer 1234.1S\nstart 0,-0.5 \"T2 O2 I1 B0 S5\"\nmill 0,-0.5 40,-0.5\nend 40,-0.5\n\
+                   layer Part\npolyline 0,1 40,1 40,20 0,20 closed\n";
+    let drawing = sheet(drawing).unwrap().to_dxf();
+    let configured = |place: Place, paths: &str, shape: &str| {
+        let tool = format!("[tool.slot]\ndiameter = 2\npaths = '{paths}'\nshape = \"{shape}\"\n");
+        place.file("pathbuild.toml", format!("part = 'Part'\n{tool}"))
+    };
+    let place = configured(Place::new().file("1234.1S.dxf", drawing), "S$", "end-mill");
+    assert!(place.run("check .").stderr.contains("PB215"));
+    let place = configured(place, "S$", "slot");
+    assert!(!place.run("check .").stderr.contains("PB215"));
+    let place = configured(place, "L$", "slot");
+    assert!(place.run("check .").stderr.contains("PB215"));
+}
+
 #[test]
 fn settings_that_matter_ask_another_question() {
     let place = library();

@@ -67,6 +67,7 @@ debounce = "1 s"
 
 [tool."T 2"]
 diameter = 2
+shape = "slot"
 coolant = "mist"
 "#;
     assert_snapshot!(show(text, "--feed 120,5 --search parts --restrict a:b --lang=de"));

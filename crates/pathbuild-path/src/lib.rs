@@ -47,7 +47,8 @@ pub use names::files::{
 pub use names::{LayerPattern, PathLayer, PathName, PathPattern, PatternError, SpeltName};
 pub use part::{
     CutElement, DrawnParts, EmbeddedPlace, LostBar, NeighbourCuts, NeighbourGouge, Part, PartCut,
-    PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, StandingBar, THROUGH, check_parts, check_path,
+    PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, SlotPaths, StandingBar, THROUGH, check_parts,
+    check_path,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

@@ -276,7 +276,8 @@ impl ToolTable {
         self.position(path, diameter).map(|index| &self.entries[index])
     }
 
-    fn position(&self, path: &str, diameter: f64) -> Option<usize> {
+    /// The index of that tool.
+    pub fn position(&self, path: &str, diameter: f64) -> Option<usize> {
         let fits = |entry: &ToolEntry| near(entry.diameter, diameter);
         let is_named = |entry: &ToolEntry| entry.paths.as_ref().is_some_and(|paths| paths.is_match(path));
         let named = self.entries.iter().position(|entry| fits(entry) && is_named(entry));

@@ -12,8 +12,8 @@ use crate::fold::{Parts, fold_in_one_pass};
 use crate::mill::BarPlan;
 use crate::moves::way;
 
-/// The cuts of a path without those that it embeds, in the coordinates of its drawing.
-pub fn part_cuts(path: &Path, walked: &WalkedPath, is_compatible: bool) -> PathCuts {
+/// The cuts of a path without those that it embeds, in the coordinates of its drawing. `is_slot`: whether a slot cutter mills it.
+pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
     let options = PathOptions {
         feed: Some(1.0),
         sweep_height: Some(path.embedded_sweep_height()),
@@ -24,6 +24,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_compatible: bool) -> PathC
     let mut found = PathCuts {
         name: path.name.clone(),
         radius: path.tool / 2.0,
+        is_slot,
         elements: Vec::new(),
         cuts: Vec::new(),
         bars: bars(path),

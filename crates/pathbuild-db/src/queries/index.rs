@@ -468,8 +468,11 @@ impl FileParts {
 
 /// The cuts of a sound path. A panic was reported by the index already if the path gives no program either.
 pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
-    let is_compatible = Settings::get(db).reading(db).compatible;
-    catch_bugs(|| part_cuts(path, walked, is_compatible)).ok()
+    let settings = Settings::get(db);
+    let is_compatible = settings.reading(db).compatible;
+    let part = settings.language(db).part.as_ref();
+    let is_slot = part.is_some_and(|part| part.slots.contains(path.name.as_str(), path.tool));
+    catch_bugs(|| part_cuts(path, walked, is_slot, is_compatible)).ok()
 }
 
 /// In compatible mode everything about parts is a warning.

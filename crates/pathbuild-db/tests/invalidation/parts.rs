@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_db::{Role, Settings};
-use pathbuild_path::{Language, LayerPattern, PartSettings};
+use pathbuild_path::{Language, LayerPattern, PartSettings, SlotPaths};
 use salsa::Setter;
 
 use crate::world::World;
@@ -21,7 +21,12 @@ fn drawing(feed: &str, top: &str) -> String {
 fn name_parts(world: &mut World) {
     let settings = Settings::get(&world.db);
     let pattern = LayerPattern::new("Part").unwrap();
-    let part = Some(PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false });
+    let part = Some(PartSettings {
+        pattern,
+        tolerance: 0.02,
+        is_held_otherwise: false,
+        slots: SlotPaths::default(),
+    });
     let language = Language { part, ..Language::clone(settings.language(&world.db)) };
     settings.set_language(&mut world.db).to(Arc::new(language));
 }

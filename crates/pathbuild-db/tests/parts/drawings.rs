@@ -451,3 +451,26 @@ fn a_part_is_loose_wherever_the_ring_runs() {
     assert!(!codes(&drawing("bars")).contains(&"PB217".to_owned()));
     assert!(!codes(&drawing("sweep")).contains(&"PB217".to_owned()));
 }
+
+/// A slot cutter, by the name and O of its path, cuts beside what the outline shows: it leaves nothing, cuts nothing out, and holds back
+/// no remark about what others leave.
+#[test]
+fn slot_cutters_are_searched_for_gouges_only() {
+    let path = |letter: &str, tool: u32, y: f64| {
+        format!(
+            "layer 1234.1{letter}\nstart -5,-5 \"T2 O{tool} I0.5 B-0.2 S5\"\nsweep -5,-5 0,{y}\n\
+             mill 0,{y} 40,{y}\nsweep 40,{y} 50,-5\nend 50,-5\n"
+        )
+    };
+    let codes = |drawing: &str| PartTest::default().codes(&[("1234.1.dxf", drawing)]);
+    assert_eq!(codes(&format!("{}{EDGE}", path("P", 2, -0.5))), ["PB215"]);
+    assert_eq!(codes(&format!("{}{EDGE}", path("S", 2, -0.5))), [""; 0]);
+    assert_eq!(codes(&format!("{}{EDGE}", path("S", 3, -1.0))), ["PB215"], "another cutter");
+    assert_eq!(codes(&format!("{}{EDGE}", path("S", 2, 0.5))), ["PB213"]);
+    let both = format!("{}{}{EDGE}", path("P", 2, -0.5), path("S", 2, 0.0));
+    assert_eq!(codes(&both), ["PB215"], "what the slot cutter takes");
+
+    let ring = |letter: &str| plate("mill").replace("layer 1234.1P", &format!("layer 1234.1{letter}"));
+    assert_eq!(codes(&ring("L")), ["PB212", "PB217"]);
+    assert_eq!(codes(&ring("S")), ["PB212"]);
+}

@@ -18,7 +18,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_dxf::Units;
 use pathbuild_path::{
     DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
-    PathPattern,
+    PathPattern, SlotPaths,
 };
 use pathbuild_testkit::sheet;
 
@@ -76,6 +76,7 @@ impl PartTest<'_> {
             pattern: LayerPattern::new(pattern).unwrap(),
             tolerance: self.tolerance,
             is_held_otherwise: self.is_held_otherwise,
+            slots: SlotPaths::new(|path, diameter| path.ends_with('S') && (diameter - 2.0).abs() < 1e-9),
         });
         let language = Language {
             path_pattern: PathPattern::default(),

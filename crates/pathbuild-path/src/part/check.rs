@@ -91,6 +91,8 @@ struct PartCheck<'s> {
     near_paths: Vec<Vec<bool>>,
     /// For each path, whether it cuts the part.
     owners: Vec<bool>,
+    /// For each path, whether it cuts the part out.
+    contours: Vec<bool>,
     /// Cuts of the owners by number.
     judged: BTreeMap<usize, JudgedCut<'s>>,
 }
@@ -101,9 +103,10 @@ impl<'s> PartCheck<'s> {
             part.part.rings.iter().map(|ring| near_paths(part.part, &ring.curves, cuts)).collect();
         let is_owner = |path: usize| near_paths.iter().any(|near| near[path]);
         let owners: Vec<bool> = (0..cuts.paths.len()).map(is_owner).collect();
+        let contours = owners.iter().zip(&cuts.contours).map(|(own, contour)| *own && *contour).collect();
         let near = cuts.near(part.extent()).into_iter().filter(|cut| owners[cuts.cuts[*cut].path]);
         let judged = judged(part, cuts, near, settings.tolerance);
-        Self { part, cuts, settings, near_paths, owners, judged }
+        Self { part, cuts, settings, near_paths, owners, contours, judged }
     }
 
     /// One ring of each nest that no path comes near.
@@ -137,7 +140,7 @@ impl<'s> PartCheck<'s> {
     /// PB215, one for each element beside which material is left, and PB216.
     fn left_over(&self) -> Vec<(usize, Diagnostic)> {
         let tolerance = self.settings.tolerance;
-        let search = LeftoverSearch::new(self.part, self.cuts, &self.judged, &self.owners, tolerance);
+        let search = LeftoverSearch::new(self.part, self.cuts, &self.judged, &self.contours, tolerance);
         let Leftovers { stretches, unreachable } = search.leftovers();
         let mut of_elements: BTreeMap<(usize, u32, bool), Vec<Leftover>> = BTreeMap::new();
         for left in stretches {
@@ -164,13 +167,13 @@ impl<'s> PartCheck<'s> {
         if self.settings.is_held_otherwise {
             return None;
         }
-        let own = self.cuts.cuts.iter().filter(|cut| self.owners[cut.path]);
+        let own = self.cuts.cuts.iter().filter(|cut| self.contours[cut.path]);
         let through: Vec<_> = own.filter_map(|cut| Some((cut, cut.through?))).collect();
         let sweeps: Vec<(Curve, f64)> = through.iter().map(|(cut, curve)| (*curve, cut.radius)).collect();
         let near = |curve: &Curve, radius: f64| {
             rstar::Envelope::intersects(&around(curve, 2.0 * radius), &self.part.extent())
         };
-        let paths = self.cuts.paths.iter().zip(&self.owners).filter(|(_, is_owner)| **is_owner);
+        let paths = self.cuts.paths.iter().zip(&self.contours).filter(|(_, is_contour)| **is_contour);
         let bars = paths.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)));
         let near_bars = bars.filter(|(bar, radius)| near(&bar.foot, *radius));
         if !is_cut_out(self.part, &sweeps, near_bars) {
@@ -216,8 +219,7 @@ fn gouge_problem(gouge: &Gouge) -> Diagnostic {
 
 /// PB215 for what an element leaves, with the longest stretch. `None` without any.
 fn leftover_problem(stretches: &[Leftover]) -> Option<Diagnostic> {
-    let longer = |best: &'_ Leftover, next: &'_ Leftover| next.length > best.length;
-    let left = stretches.iter().reduce(|best, next| if longer(best, next) { next } else { best })?;
+    let left = stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
     let problem = match left.height {
         Some(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
         None => Diagnostic::new(&messages::LEFTOVER).with("thickness", left.thickness),
@@ -235,7 +237,7 @@ mod tests {
     use crate::geometry::{Line, Xy};
     use crate::keep_out::Way;
     use crate::names::{LayerPattern, PathName};
-    use crate::part::{CutElement, PartCut, PartRing};
+    use crate::part::{CutElement, PartCut, PartRing, SlotPaths};
 
     /// The sides of a rectangle, each in several pieces.
     fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2], pieces: u32) -> Vec<Line> {
@@ -268,6 +270,7 @@ mod tests {
         PathCuts {
             name: PathName::new("1.1P").into(),
             radius: 1.0,
+            is_slot: false,
             elements: (0..4).map(element).collect(),
             cuts: (0..).zip(ways).map(cut).collect(),
             bars: Vec::new(),
@@ -282,7 +285,8 @@ mod tests {
         let rings = vec![PartRing { curves: plate, nest: 0 }];
         let parts = [Part { layer: "Part".into(), paths: None, rings }];
         let pattern = LayerPattern::new("Part").expect("a valid pattern");
-        let settings = PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false };
+        let settings =
+            PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false, slots: SlotPaths::default() };
         let check = |cuts: &PathCuts| {
             let found = check_parts(&parts, &[cuts], true, &settings);
             let mut texts: Vec<String> = found.of_paths[0].iter().map(|found| found.text(Lang::En)).collect();

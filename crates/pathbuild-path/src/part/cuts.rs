@@ -17,6 +17,8 @@ pub struct PathCuts {
     pub name: SpeltName,
     /// Half of O in mm.
     pub radius: f64,
+    /// Whether a slot cutter mills it.
+    pub is_slot: bool,
     /// The elements that cut.
     pub elements: Vec<CutElement>,
     /// The moves in the material, as if each element were milled in a single pass.
@@ -80,9 +82,9 @@ impl PathCuts {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }
 
-    /// Whether any cut goes through the plate.
-    pub(super) fn is_through(&self) -> bool {
-        self.elements.iter().any(|element| element.lowest <= THROUGH)
+    /// Whether it cuts parts out: a cut goes through the plate, and not that of a slot cutter.
+    fn is_contour(&self) -> bool {
+        !self.is_slot && self.elements.iter().any(|element| element.lowest <= THROUGH)
     }
 }
 
@@ -100,6 +102,8 @@ pub(super) struct IndexedCut<'c> {
 /// The cuts of all paths of a drawing, with an index of their boxes, which are widened by the cutter's diameter.
 pub(super) struct CutIndex<'c> {
     pub(super) paths: &'c [&'c PathCuts],
+    /// For each path, whether it cuts parts out. Others are only searched for cuts into parts and bars.
+    pub(super) contours: Vec<bool>,
     pub(super) cuts: Vec<IndexedCut<'c>>,
     boxes: BoxIndex,
 }
@@ -116,7 +120,8 @@ impl<'c> CutIndex<'c> {
         };
         let cuts: Vec<IndexedCut<'c>> = paths.iter().enumerate().flat_map(of_path).collect();
         let boxes = cuts.iter().map(|cut| around(&cut.cut.way.curve, 2.0 * cut.radius + GAP));
-        Self { paths, boxes: BoxIndex::new(boxes), cuts }
+        let contours = paths.iter().map(|path| path.is_contour()).collect();
+        Self { paths, contours, boxes: BoxIndex::new(boxes), cuts }
     }
 
     /// The numbers of the cuts whose cutter may come within its diameter of a box, in ascending order.

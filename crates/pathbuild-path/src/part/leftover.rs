@@ -36,6 +36,15 @@ pub(super) struct Leftover {
     pub(super) height: Option<f64>,
 }
 
+impl Leftover {
+    /// Whether another stretch is longer. Of stretches that are equally long, the leftmost counts, as with cuts into the part.
+    pub(super) fn is_exceeded_by(&self, other: &Self) -> bool {
+        let is_left = || (other.from.x, other.from.y) < (self.from.x, self.from.y);
+        other.length > self.length + BETWEEN_CURVES
+            || (other.length >= self.length - BETWEEN_CURVES && is_left())
+    }
+}
+
 /// The outline that no cutter of this diameter reaches.
 #[derive(Clone, Debug)]
 pub(super) struct UnreachableOutline {
@@ -61,8 +70,8 @@ pub(super) struct LeftoverSearch<'s> {
     cuts: &'s CutIndex<'s>,
     /// The cuts near the part that go through the plate or shape an outline, by number.
     judged: &'s BTreeMap<usize, JudgedCut<'s>>,
-    /// The paths that cut the part.
-    owners: &'s [bool],
+    /// The paths that cut the part out.
+    contours: &'s [bool],
     tolerance: f64,
     /// The elements, with their paths, that enter the part above the plate: grooves, which say nothing about its outline.
     grooves: BTreeSet<(usize, u32)>,
@@ -92,13 +101,13 @@ impl<'s> LeftoverSearch<'s> {
         part: &'s PreparedPart<'s>,
         cuts: &'s CutIndex<'s>,
         judged: &'s BTreeMap<usize, JudgedCut<'s>>,
-        owners: &'s [bool],
+        contours: &'s [bool],
         tolerance: f64,
     ) -> Self {
         let enters =
             |judged: &&JudgedCut<'_>| !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH;
         let grooves = judged.values().filter(enters).map(|judged| (judged.cut.path, judged.cut.cut.element));
-        Self { part, cuts, judged, owners, tolerance, grooves: grooves.collect() }
+        Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
     }
 
     /// What is left of all rings. Of rings in the same nest, one must be cut.
@@ -184,7 +193,7 @@ impl<'s> LeftoverSearch<'s> {
                 Side::Material => false,
             };
             is_on_side
-                && self.cuts.paths[judged.cut.path].is_through()
+                && self.contours[judged.cut.path]
                 && !element.is_mark
                 && judged.cut.cut.way.lowest() <= element.lowest + GAP
                 && !self.grooves.contains(&(judged.cut.path, judged.cut.cut.element))
@@ -195,7 +204,7 @@ impl<'s> LeftoverSearch<'s> {
     fn covered(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for judged in curve.near.iter().filter_map(|number| self.judged.get(number)) {
-            if judged.cut.through.is_some() {
+            if judged.cut.through.is_some() && self.contours[judged.cut.path] {
                 within(curve.curve, &judged.curve, judged.cut.radius + self.tolerance, &mut found);
             }
         }
@@ -256,15 +265,15 @@ impl<'s> LeftoverSearch<'s> {
         joined(found, GAP)
     }
 
-    /// The bars of the paths that cut the part, with half of O.
+    /// The bars of the paths that cut the part out, with half of O.
     fn bars(&self) -> impl Iterator<Item = (&StandingBar, f64)> {
-        let owners = self.cuts.paths.iter().zip(self.owners).filter(|(_, is_owner)| **is_owner);
-        owners.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)))
+        let contours = self.cuts.paths.iter().zip(self.contours).filter(|(_, is_contour)| **is_contour);
+        contours.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)))
     }
 
-    /// The cuts with these numbers whose paths cut the part.
+    /// The cuts with these numbers whose paths cut the part out.
     fn own(&self, numbers: &[usize]) -> impl Iterator<Item = &IndexedCut<'s>> {
-        numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.owners[cut.path])
+        numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
     }
 
     /// Describes a stretch. `None` for the shoulder at the end of a cut, beyond which the edge of the plate is the edge of the part.

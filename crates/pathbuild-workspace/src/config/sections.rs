@@ -314,9 +314,10 @@ pub mod tables {
         severity: Vec<(Code, Level)> = "severity", SEVERITY, Vec::new(), "[severity]\nPB210 = \"ignore\"", Neither;
         /// the same for some drawings: globs, relative to this file
         severity_in: Vec<SeveritiesIn> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"", Neither;
-        /// a tool, for post-processors: found by O (and by paths, a pattern of path names)
+        /// a tool, for post-processors: found by O (and by paths, a pattern of path names); with shape = "slot" its paths
+        /// are compared with parts only for cuts into them
         tools: Vec<Tool> = "tool", TOOLS, Vec::new(),
-            "[tool.2mm]\ndiameter = 2\nnumber = 1\npaths = '[A-Z]$'\nspindle = 12000\ndirection = \"cw\"\ncoolant = \"off\"", Emit;
+            "[tool.2mm]\ndiameter = 2\nnumber = 1\npaths = '[A-Z]$'\nshape = \"end-mill\"\nspindle = 12000\ndirection = \"cw\"\ncoolant = \"off\"", Check;
         /// texts for post-processors: a macro {$name}, or ~name~ in control texts; they take precedence over the definition's
         macros: Vec<PostMacro> = "macros", MACROS, Vec::new(), "[macros]\noperator = \"anna\"", Emit;
     }

@@ -13,7 +13,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::kinds::{COUNT, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::reader::{Table, TomlReader, ValueType};
-use crate::config::types::{Level, LineTypeAlias, PostChoice, SeveritiesIn, Tool};
+use crate::config::types::{CutterShape, Level, LineTypeAlias, PostChoice, SeveritiesIn, Tool};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::PostMacro;
 
@@ -116,6 +116,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
             "properties": {
                 "diameter": (POSITIVE.schema)(),
                 "paths": (REGEX.schema)(),
+                "shape": choice_schema::<CutterShape>(),
                 "number": (COUNT.schema)(),
                 "spindle": (POSITIVE.schema)(),
                 "direction": choice_schema::<Turning>(),
@@ -254,11 +255,13 @@ fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Too
 fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let diameter = table.take("diameter", &POSITIVE).and_then(|value| value.value);
     let paths = table.take("paths", &REGEX).map(|value| value.value);
+    let shape =
+        table.take("shape", &choice::<CutterShape>()).map_or(CutterShape::EndMill, |value| value.value);
     let number = table.take("number", &COUNT).and_then(|value| u32::try_from(value.value).ok());
     let spindle = table.take("spindle", &POSITIVE).and_then(|value| value.value);
     let direction = table.take("direction", &choice::<Turning>()).map(|value| value.value);
     let coolant = table.take("coolant", &choice::<Coolant>()).map(|value| value.value);
-    Some(Tool { name: name.into(), diameter: diameter?, paths, number, spindle, direction, coolant })
+    Some(Tool { name: name.into(), diameter: diameter?, paths, shape, number, spindle, direction, coolant })
 }
 
 fn shown_tool(tool: &Tool) -> Option<String> {
@@ -266,6 +269,7 @@ fn shown_tool(tool: &Tool) -> Option<String> {
     inline([
         ("diameter", number(Some(tool.diameter))),
         ("paths", tool.paths.as_deref().map(quoted)),
+        ("shape", (tool.shape == CutterShape::Slot).then(|| name_of(tool.shape)).flatten().map(quoted)),
         ("number", tool.number.map(|number| number.to_string())),
         ("spindle", number(tool.spindle)),
         ("direction", tool.direction.and_then(name_of).map(quoted)),

@@ -70,6 +70,16 @@ choice! {
 }
 
 choice! {
+    /// What a cutter cuts. (book: language/part)
+    CutterShape {
+        /// The shape that its way draws.
+        EndMill = "end-mill",
+        /// A slot beside or below that shape: T-slot and side milling cutters.
+        Slot = "slot",
+    }
+}
+
+choice! {
     /// File format of the setup sheet. (book: program/sheet)
     SheetFormat {
         /// No setup sheet.
@@ -203,6 +213,8 @@ pub struct Tool {
     pub diameter: f64,
     /// Regular expression searched in the names of the paths that the tool is for; `None` means all paths with its diameter.
     pub paths: Option<Box<str>>,
+    /// What it cuts.
+    pub shape: CutterShape,
     /// Number of its place in the machine.
     pub number: Option<u32>,
     /// Spindle speed in 1/min.

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_path::{
     DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
-    PathPattern, Restriction,
+    PathPattern, Restriction, SlotPaths,
 };
 
 use super::normal;
 use crate::config::{self, types};
+use crate::posting::tool_table;
 use crate::workspace::Workspace;
 
 /// Sets the database's settings. The configuration has no errors at this point, so its patterns compile.
@@ -19,7 +20,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     let language = Language {
         path_pattern: PathPattern::new(&general.path_pattern.value).unwrap_or_default(),
         keep_out: general.keep_out.value.as_deref().and_then(|pattern| LayerPattern::new(pattern).ok()),
-        part: part(general),
+        part: part(context),
         line_types: aliases(context),
         join_tolerance: general.join_tolerance.value,
         text_limit: reading.text_length,
@@ -40,11 +41,17 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
-fn part(general: &config::sections::general::Settings) -> Option<PartSettings> {
+fn part(context: &Workspace) -> Option<PartSettings> {
+    let general = &context.settings.general;
+    let table = tool_table(context);
+    let tools = &context.settings.tables.tools.value;
+    let is_slot: Vec<bool> = tools.iter().map(|tool| tool.shape == types::CutterShape::Slot).collect();
+    let slots = move |path: &str, diameter| table.position(path, diameter).is_some_and(|tool| is_slot[tool]);
     Some(PartSettings {
         pattern: LayerPattern::new(general.part.value.as_deref()?).ok()?,
         tolerance: general.part_tolerance.value,
         is_held_otherwise: general.part_held.value == types::PartHolding::Otherwise,
+        slots: SlotPaths::new(slots),
     })
 }
 
