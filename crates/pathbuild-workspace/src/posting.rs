@@ -22,6 +22,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::config::types::Extent;
 use crate::config::{Origin, is_file_name, types};
+use crate::memo::ExtraInput;
 use crate::workspace::Workspace;
 
 /// A post definition with everything that its output depends on besides the program.
@@ -205,7 +206,7 @@ impl PostProcessor {
         &self,
         job: &Job,
         output: Option<&Utf8Path>,
-        inserted: &mut Vec<InsertedFile>,
+        inserted: &mut Vec<ExtraInput>,
     ) -> Result<Output, Vec<Diagnostic>> {
         self.write_with(job, output, self.manner.unchecked, inserted)
     }
@@ -256,7 +257,7 @@ impl PostProcessor {
         job: &Job,
         output: Option<&Utf8Path>,
         unchecked: bool,
-        inserted: &mut Vec<InsertedFile>,
+        inserted: &mut Vec<ExtraInput>,
     ) -> Result<Output, Vec<Diagnostic>> {
         let system = &*self.system;
         let below = self.directory.as_deref().map(|directory| DirectoryFiles { directory, system });
@@ -350,27 +351,18 @@ pub(super) struct DirectoryFiles<'a> {
     pub(super) system: &'a dyn System,
 }
 
-/// A file that a definition inserts.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct InsertedFile {
-    /// Path relative to the definition's directory.
-    pub name: Utf8PathBuf,
-    /// Hash of the content; `None` if it could not be read.
-    pub hash: Option<[u8; 32]>,
-}
-
 /// Like [`DirectoryFiles`], and records the files that were read.
 #[derive(Debug)]
 pub(super) struct RecordedFiles<'a> {
     pub(super) below: DirectoryFiles<'a>,
-    pub(super) read: RefCell<Vec<InsertedFile>>,
+    pub(super) read: RefCell<Vec<ExtraInput>>,
 }
 
 impl PostFiles for RecordedFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
         let read = self.below.read(path);
         let hash = read.as_ref().ok().map(|bytes| *blake3::hash(bytes).as_bytes());
-        self.read.borrow_mut().push(InsertedFile { name: path.to_owned(), hash });
+        self.read.borrow_mut().push(ExtraInput { path: self.below.directory.join(path), hash });
         read
     }
 }

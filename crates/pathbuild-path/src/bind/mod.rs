@@ -454,7 +454,7 @@ impl Binder<'_> {
         let Some(value) = values.text(Letter::Embed) else {
             return SubpathName::Missing { text: text.map(ParameterText::whole) };
         };
-        match self.language.path_pattern.find(value) {
+        match self.language.path_pattern.first_in(value) {
             None => SubpathName::Invalid { value: value.into() },
             Some((name, range)) => {
                 let has_more = range.len() < value.len();

@@ -301,7 +301,7 @@ fn promised(stem: &str, files: &FilePattern, paths: &PathPattern) -> Vec<PathNam
     let ranges = files.range_spans(stem);
     let mut promised: Vec<PathName> = Vec::new();
     let mut from = 0;
-    while let Some((name, found)) = stem.get(from..).and_then(|rest| paths.find(rest)) {
+    while let Some((name, found)) = stem.get(from..).and_then(|rest| paths.first_in(rest)) {
         let found = from + found.start..from + found.end;
         let is_end = ranges.iter().any(|range| range.start < found.end && found.start < range.end);
         let is_whole = !stem[..found.start].ends_with(char::is_alphanumeric)

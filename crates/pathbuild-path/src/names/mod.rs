@@ -114,7 +114,7 @@ impl PathPattern {
     }
 
     /// The first path name in the text of a subpath, with its byte range.
-    pub fn find(&self, text: &str) -> Option<(PathName, Range<usize>)> {
+    pub fn first_in(&self, text: &str) -> Option<(PathName, Range<usize>)> {
         let found = self.0.find(text)?;
         Some((PathName(text[found.clone()].into()), found))
     }

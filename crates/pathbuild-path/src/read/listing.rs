@@ -126,7 +126,11 @@ impl ProxyLine {
     /// The path that it represents; `None` if `>` is not followed by a path name.
     pub fn name(&self, language: &Language) -> Option<PathName> {
         let (value, _) = self.value(Letter::Embed)?;
-        language.path_pattern.find(value).map(|(name, _)| name).filter(|name| !name.is_part_of_word(value))
+        language
+            .path_pattern
+            .first_in(value)
+            .map(|(name, _)| name)
+            .filter(|name| !name.is_part_of_word(value))
     }
 
     /// The value of a letter. `None` if it refers to variables, which belong to the project it is copied into.

@@ -91,8 +91,9 @@ fn a_pattern_must_compile_and_match_something() {
 
 #[test]
 fn the_first_match_in_a_text_is_its_name() {
-    let find =
-        |text: &str| PathPattern::default().find(text).map(|(name, range)| (name.as_str().to_owned(), range));
+    let find = |text: &str| {
+        PathPattern::default().first_in(text).map(|(name, range)| (name.as_str().to_owned(), range))
+    };
     assert_eq!(find("2051.3P"), Some(("2051.3P".to_owned(), 0..7)));
     assert_eq!(find("8003.1LS"), Some(("8003.1L".to_owned(), 0..7)));
     assert_eq!(find("x8003.1L,8004.1L"), Some(("8003.1L".to_owned(), 1..8)));

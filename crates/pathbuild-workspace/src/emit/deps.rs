@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::iter::repeat_n;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use pathbuild_db::Db;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files as messages;
@@ -25,16 +25,13 @@ pub(super) fn write<'p>(
     let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
     let mut text = String::new();
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
-    let beside = post.as_deref().and_then(Utf8Path::parent).unwrap_or(Utf8Path::new(""));
     let file = session.normal(file);
     for job in jobs {
         let outputs: Vec<&Utf8Path> = job.files.iter().map(|(_, path)| path.as_path()).collect();
         let inserted = job.outcome.iter().flat_map(|outcome| &outcome.inserted);
-        let inserted: Vec<Utf8PathBuf> =
-            inserted.map(|inserted| session.normal(&beside.join(&inserted.name))).collect();
         let sources = job.sources.iter().map(|source| source.path(db).as_path());
         let sources = sources.chain(configuration.as_deref()).chain(post.as_deref());
-        let sources: Vec<&Utf8Path> = sources.chain(inserted.iter().map(Utf8PathBuf::as_path)).collect();
+        let sources: Vec<&Utf8Path> = sources.chain(inserted.map(|file| file.path.as_path())).collect();
         if let Some(name) = outputs.iter().chain(&sources).find(|name| has_no_spelling(name.as_str())) {
             let problem = Diagnostic::new(&messages::UNNAMEABLE).quoting("name", name.as_str());
             return Some(problem.in_file(&file));

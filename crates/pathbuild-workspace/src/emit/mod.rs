@@ -24,7 +24,7 @@ use pathbuild_diagnostic::Diagnostic;
 use crate::Inputs;
 use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
-use crate::memo::{Answer, ExtraInput, Memo, is_transient};
+use crate::memo::{Answer, Memo, is_transient};
 use crate::posting::PostProcessor;
 use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
@@ -39,7 +39,7 @@ use select::TargetSelection;
 use settle::deliver;
 pub use sheet::sheet_bytes;
 pub use shown::{SceneReport, SheetOutcome, ShownText, sheet_of};
-use stale::StaleOutcome;
+use stale::{EarlierPrograms, StaleOutcome};
 
 /// A request to emit programs.
 #[derive(Clone, Copy, Debug)]
@@ -111,17 +111,21 @@ impl Request<'_> {
             let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
             comparison::name_compatible(workspace, jobs, emit);
         }
-        let builder = self.builder(session);
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.clear_job()).collect();
-        let StaleOutcome { older, removed, outdated } =
-            stale::clear(&builder, self.task, self.removes_stale, &selection, &jobs, &mut diagnostics);
+        let earlier = EarlierPrograms {
+            session,
+            task: self.task,
+            post_processor: self.post_processor,
+            join: self.join,
+            out_dir: session.out_dir(),
+            selection: &selection,
+            jobs: &jobs,
+        };
+        let StaleOutcome { older, removed, outdated } = earlier.clear(self.removes_stale, &mut diagnostics);
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
         if let Some(file) = self.deps {
             diagnostics.extend(deps::write(session, file, jobs.iter().copied(), self.post_processor));
-        }
-        for answer in &mut plans {
-            self.complete_inputs(session, answer);
         }
         let drawings = selection.drawings().filter_map(Answer::fresh);
         memo.keep(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
@@ -141,7 +145,12 @@ impl Request<'_> {
         let mut diagnostics = matches.problems.clone();
         let workspace = session.workspace();
         let selection = TargetSelection::new(session, memo, matches, self.join.is_some(), &mut diagnostics)
-            .ok_or_else(|| nothing_to_emit(workspace))?;
+            .ok_or_else(|| {
+                workspace.choose(
+                    "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
+                    "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
+                )
+            })?;
         let is_printed = self.task == Task::Print;
         if is_printed && self.join.is_none() && selection.targets.len() > 1 {
             let reason = workspace.choose(
@@ -150,7 +159,9 @@ impl Request<'_> {
             );
             return Err(reason.to_owned());
         }
-        let mut plans = plan(&self.builder(session), self.task, memo, &selection.targets, &mut diagnostics)?;
+        let sheet = self.task.sheets(&workspace.settings);
+        let builder = JobBuilder { session, post_processor: self.post_processor, join: self.join, sheet };
+        let mut plans = plan(&builder, self.task, memo, &selection.targets, &mut diagnostics)?;
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         if is_printed && plans.iter().filter_map(|plan| plan.value.clear_job()).any(|job| job.files.len() > 1)
         {
@@ -162,13 +173,10 @@ impl Request<'_> {
         }
         let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
         deliver(session, jobs, self.task, self.post_processor);
+        for answer in &mut plans {
+            self.complete_inputs(answer);
+        }
         Ok(Run { selection, plans, diagnostics })
-    }
-
-    /// Turns the checked paths of this request into jobs.
-    fn builder<'s>(&'s self, session: &'s Session<'s>) -> JobBuilder<'s> {
-        let sheet = self.task.sheets(&session.workspace().settings);
-        JobBuilder { session, post_processor: self.post_processor, join: self.join, sheet }
     }
 
     /// Everything that a program depends on besides drawings and settings.
@@ -179,30 +187,20 @@ impl Request<'_> {
     }
 
     /// Adds to the inputs of a plan those of its program, and the files that were generated from it.
-    fn complete_inputs(&self, session: &Session<'_>, answer: &mut Answer<Plan>) {
+    fn complete_inputs(&self, answer: &mut Answer<Plan>) {
         let Some(inputs) = &mut answer.inputs else { return };
         let job = answer.value.clear_job();
         let outcome = job.and_then(|job| job.outcome.as_ref());
         let problems = outcome.into_iter().flat_map(|outcome| &outcome.problems);
         inputs.is_transient |= answer.value.problems().chain(problems).any(is_transient);
         let (Some(job), Some(outcome)) = (job, outcome) else { return };
-        inputs.further = self.inserted(session, outcome);
+        inputs.further.clone_from(&outcome.inserted);
         if outcome.is_complete(job.files.len()) {
             inputs.outputs = outcome.generated(self.task);
         } else {
             // The post-processor may accept the program once other files change. Writing that failed may succeed another time.
             inputs.is_transient |= !outcome.is_refused;
         }
-    }
-
-    /// The files that the post-processor inserted or failed to insert, with their hashes.
-    fn inserted(&self, session: &Session<'_>, outcome: &ProgramOutcome) -> Vec<ExtraInput> {
-        let Some(post) = self.post_processor.and_then(PostProcessor::file) else { return Vec::new() };
-        let beside = post.parent().unwrap_or(Utf8Path::new(""));
-        let inserted = outcome.inserted.iter();
-        inserted
-            .map(|file| ExtraInput { path: session.normal(&beside.join(&file.name)), hash: file.hash })
-            .collect()
     }
 }
 
@@ -290,12 +288,4 @@ pub fn write(
         diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
         Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })
     })
-}
-
-fn nothing_to_emit(workspace: &Workspace) -> String {
-    let reason = workspace.choose(
-        "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
-        "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
-    );
-    reason.to_owned()
 }

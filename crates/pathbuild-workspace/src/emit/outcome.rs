@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Settings;
 use crate::config::types::SheetFormat;
-use crate::memo::{GeneratedFile, OutputState};
-use crate::posting::InsertedFile;
+use crate::memo::{ExtraInput, GeneratedFile, OutputState};
 use crate::session::OutputKind;
 
 /// What to do with the generated files.
@@ -60,7 +59,7 @@ pub struct ProgramOutcome {
     pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
     /// Files that the post-processor inserted or failed to insert.
     #[serde(skip)]
-    pub(super) inserted: Vec<InsertedFile>,
+    pub(super) inserted: Vec<ExtraInput>,
 }
 
 impl ProgramOutcome {
@@ -82,13 +81,6 @@ impl ProgramOutcome {
             is_there: is_compared_whole && is_there(state),
         };
         self.files.iter().zip(&self.hashes).map(file).collect()
-    }
-
-    /// Adds the outcome of each file after writing.
-    pub(super) fn add(&mut self, written: Self) {
-        self.files.extend(written.files);
-        self.hashes.extend(written.hashes);
-        self.problems.extend(written.problems);
     }
 
     /// Whether the file on disk is now up to date.

@@ -106,12 +106,6 @@ impl Job {
         owners.extend(names().map(|name| (name, self.targets[0])));
         true
     }
-
-    /// The outcome of a job that was aborted.
-    pub(super) fn aborted(&self, session: &Session<'_>, problem: Diagnostic) -> ProgramOutcome {
-        let problem = problem.in_file(self.drawing(session.db()).path(session.db())).in_path(&self.path);
-        ProgramOutcome { problems: vec![problem], ..ProgramOutcome::default() }
-    }
 }
 
 /// Plans the programs of a request: as an earlier run did if that holds, otherwise from their checked paths.
@@ -278,7 +272,8 @@ impl JobBuilder<'_> {
         let Some(first) = checked.first().filter(|_| right().count() == checked.len()) else {
             return Ok(None);
         };
-        let directory = output_directory(self.session, first.target.file(self.session.db()));
+        let db = self.session.db();
+        let directory = output_directory(self.session.out_dir().as_deref(), first.target.file(db).path(db));
         let stem = named(name, name, &directory).map_err(|problem| vec![*problem])?;
         let title = joined_title(name, checked);
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
@@ -290,7 +285,7 @@ impl JobBuilder<'_> {
         let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
         let is_alone = path_names(db, file).len() == 1;
         let name = if is_alone { file.path(db).file_stem().unwrap_or_default() } else { &emitted.path };
-        let directory = output_directory(self.session, file);
+        let directory = output_directory(self.session.out_dir().as_deref(), file.path(db));
         let full = format!("{name}{}", emitted.suffix);
         let stem = named(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
@@ -354,11 +349,8 @@ pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String
 }
 
 /// Directory of the files of a drawing's paths: that of the drawing, unless the configuration names one.
-pub(super) fn output_directory(session: &Session<'_>, drawing: SourceFile) -> Utf8PathBuf {
-    match &session.workspace().settings.general.out_dir.value {
-        Some(directory) => session.normal(directory),
-        None => drawing.path(session.db()).parent().unwrap_or(Utf8Path::new("")).to_owned(),
-    }
+pub(super) fn output_directory(out_dir: Option<&Utf8Path>, drawing: &Utf8Path) -> Utf8PathBuf {
+    out_dir.or(drawing.parent()).unwrap_or(Utf8Path::new("")).to_owned()
 }
 
 /// Marks jobs of which two would write the same file (PB514). Case is ignored, as some file systems do.

@@ -47,7 +47,7 @@ pub(super) fn deliver<'j>(
             db.check_time_limit();
             // Without a receiver (the system had no thread left), write here.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
-                delivered.add(settled(outputs));
+                add_files(&mut delivered, settled(outputs));
             }
             delivered
         };
@@ -59,11 +59,18 @@ pub(super) fn deliver<'j>(
     });
     for (index, written) in written {
         if let Ok(generated) = &mut generated[index] {
-            generated.add(written);
+            add_files(generated, written);
         }
     }
+    let db = session.db();
     for (job, generated) in jobs.iter_mut().zip(generated) {
-        let outcome = generated.unwrap_or_else(|problem| job.aborted(session, *problem));
+        let mut outcome = generated.unwrap_or_else(|problem| {
+            let problem = problem.in_file(job.drawing(db).path(db)).in_path(&job.path);
+            ProgramOutcome { problems: vec![problem], ..ProgramOutcome::default() }
+        });
+        for file in &mut outcome.inserted {
+            file.path = session.normal(&file.path);
+        }
         job.outcome = Some(ProgramOutcome { path: job.path.clone(), ..outcome });
     }
 }
@@ -73,6 +80,13 @@ const QUEUE_LENGTH: usize = 32;
 
 /// The generated files of a job, with its index.
 type NumberedOutputs = (usize, Vec<Output>);
+
+/// Adds the outcome of each file after writing.
+fn add_files(generated: &mut ProgramOutcome, written: ProgramOutcome) {
+    generated.files.extend(written.files);
+    generated.hashes.extend(written.hashes);
+    generated.problems.extend(written.problems);
+}
 
 /// Writes, compares or prints the files of a program.
 fn settle(

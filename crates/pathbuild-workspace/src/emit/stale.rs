@@ -18,7 +18,7 @@ use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD, Provenance};
 
 use super::outcome::{ProgramOutcome, State, Task};
-use super::plan::{Job, JobBuilder, output_directory, program_name};
+use super::plan::{Job, output_directory, program_name};
 use super::select::TargetSelection;
 use crate::memo::{Answer, DrawingResult};
 use crate::posting::PostProcessor;
@@ -83,86 +83,143 @@ pub(super) struct StaleOutcome {
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
-/// Finds programs of earlier runs that show another state of the drawings, and reports or removes those that no path yields any more.
-pub(super) fn clear(
-    builder: &JobBuilder<'_>,
-    task: Task,
-    is_removed: bool,
-    selection: &TargetSelection,
-    jobs: &[&Job],
-    diagnostics: &mut Vec<Diagnostic>,
-) -> StaleOutcome {
-    let older = older_programs(builder, task, &selection.targets, jobs, diagnostics);
-    let stale = match task {
-        Task::Print => Vec::new(),
-        _ => stale(builder.session, selection, jobs, builder.post_processor, diagnostics),
-    };
-    StaleOutcome { older, ..settle(builder.session, stale, is_removed, diagnostics) }
+/// The programs of earlier runs that lie where those of this run do.
+pub(super) struct EarlierPrograms<'a> {
+    pub(super) session: &'a Session<'a>,
+    pub(super) task: Task,
+    pub(super) post_processor: Option<&'a PostProcessor>,
+    /// Name of the one program that all paths are joined into.
+    pub(super) join: Option<&'a str>,
+    /// The configured output directory.
+    pub(super) out_dir: Option<Utf8PathBuf>,
+    pub(super) selection: &'a TargetSelection,
+    pub(super) jobs: &'a [&'a Job],
 }
 
-/// Reports stale programs, or removes them.
-fn settle(
-    session: &Session<'_>,
-    stale: Vec<StaleProgram>,
-    is_removed: bool,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> StaleOutcome {
-    let mut dealt = StaleOutcome::default();
-    for stale in stale {
-        if !is_removed {
-            diagnostics.push(stale.diagnostic());
-            dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
-            continue;
+impl EarlierPrograms<'_> {
+    /// Finds those that show another state of the drawings, and reports or removes those that no path yields any more.
+    pub(super) fn clear(&self, is_removed: bool, diagnostics: &mut Vec<Diagnostic>) -> StaleOutcome {
+        if self.task == Task::Print {
+            return StaleOutcome::default();
         }
-        match session.db().system().remove(&stale.path) {
-            Ok(()) => dealt.removed.push(stale.path),
-            Err(reason) => {
-                let name = stale.path.file_name().unwrap_or_default();
-                let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", name);
-                diagnostics.push(problem.with("reason", reason).in_file(&stale.path));
+        let older = self.older(diagnostics);
+        let stale = self.stale(diagnostics);
+        StaleOutcome { older, ..self.settle(stale, is_removed, diagnostics) }
+    }
+
+    /// Reports stale programs, or removes them.
+    fn settle(
+        &self,
+        stale: Vec<StaleProgram>,
+        is_removed: bool,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> StaleOutcome {
+        let mut dealt = StaleOutcome::default();
+        for stale in stale {
+            if !is_removed {
+                diagnostics.push(stale.diagnostic());
+                dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
+                continue;
+            }
+            match self.session.db().system().remove(&stale.path) {
+                Ok(()) => dealt.removed.push(stale.path),
+                Err(reason) => {
+                    let name = stale.path.file_name().unwrap_or_default();
+                    let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", name);
+                    diagnostics.push(problem.with("reason", reason).in_file(&stale.path));
+                }
             }
         }
+        dealt
     }
-    dealt
+
+    /// Finds the stale programs: among all files of the searched directories, and among the former files of paths that lie elsewhere.
+    fn stale(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
+        let Self { selection, jobs, .. } = *self;
+        let is_wide = !selection.covered.is_empty() || !selection.directories.is_empty();
+        let directories: &[Utf8PathBuf] = match &self.out_dir {
+            _ if !is_wide => &[],
+            Some(directory) => std::slice::from_ref(directory),
+            None => &selection.directories,
+        };
+        let finding = StaleSearch {
+            run: self,
+            outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
+            by_stem: LazyCell::new(Box::new(|| {
+                jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
+            })),
+            writers: LazyCell::new(Box::new(|| Writers::new(self))),
+        };
+        let mut stale = Vec::new();
+        for directory in directories {
+            match self.session.file_names_in(directory) {
+                Ok(names) => stale.extend(
+                    finding
+                        .candidates(directory, &names)
+                        .filter_map(|path| finding.judge(path, Some(&names))),
+                ),
+                Err(problem) => diagnostics.push(*problem),
+            }
+        }
+        stale.extend(finding.former_files(directories).filter_map(|path| finding.judge(path, None)));
+        stale
+    }
+
+    /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison
+    /// counts it as out of date.
+    fn older(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<ProgramOutcome> {
+        let targets = &self.selection.targets;
+        let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
+        if let (Some(name), Some(post_processor)) = (self.join, self.post_processor) {
+            let joined = targets.first().filter(|_| !self.jobs.iter().any(|job| is_done(&job)));
+            let program = joined.and_then(|first| self.of_joined(*first, name, post_processor));
+            return program.map(|program| older(program, name, self.task)).into_iter().collect();
+        }
+        let done = self.jobs.iter().filter(is_done);
+        let done: HashSet<Target> = done.flat_map(|job| job.targets.iter().copied()).collect();
+        let open = targets.iter().filter(|target| !done.contains(target));
+        let mut listings = Listings::default();
+        let older = |target: &Target| {
+            let programs = self.of_target(*target, &mut listings).into_iter();
+            let name = target.name(self.session.db());
+            programs.map(|program| older(program, name, self.task)).collect::<Vec<_>>()
+        };
+        let older = open.flat_map(older).collect();
+        diagnostics.append(&mut listings.problems);
+        older
+    }
+
+    /// The programs of a target. Their names begin with that of the drawing or of the path, whatever R was; the head of each program names
+    /// its path.
+    fn of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
+        let db = self.session.db();
+        let (drawing, path) = (target.file(db).path(db), &**target.name(db));
+        let directory = output_directory(self.out_dir.as_deref(), drawing);
+        let stems = [drawing.file_stem().unwrap_or_default(), path];
+        let drawing = drawing.file_name().unwrap_or_default();
+        let is_of_target = |program: &Utf8PathBuf| {
+            provenance(self.session, program)
+                .is_some_and(|(_, found)| native::is_title(&found, drawing, path))
+        };
+        let mut programs = BTreeSet::new();
+        for stem in stems {
+            programs.extend(listings.beginning(self, &directory, stem).cloned());
+        }
+        programs.into_iter().filter(is_of_target).collect()
+    }
+
+    /// The program that the targets were joined into earlier.
+    fn of_joined(&self, first: Target, name: &str, post_processor: &PostProcessor) -> Option<Utf8PathBuf> {
+        let db = self.session.db();
+        let directory = output_directory(self.out_dir.as_deref(), first.file(db).path(db));
+        let program = join(&directory, program_name(name, post_processor));
+        provenance(self.session, &program).map(|_| program)
+    }
 }
 
-/// Finds the stale programs: among all files of the searched directories, and among the former files of paths that lie elsewhere.
-fn stale(
-    session: &Session<'_>,
-    selection: &TargetSelection,
-    jobs: &[&Job],
-    post_processor: Option<&PostProcessor>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<StaleProgram> {
-    let settings = &session.workspace().settings;
-    let out_dir = settings.general.out_dir.value.as_ref().map(|directory| session.normal(directory));
-    let is_wide = !selection.covered.is_empty() || !selection.directories.is_empty();
-    let directories: &[Utf8PathBuf] = match &out_dir {
-        _ if !is_wide => &[],
-        Some(directory) => std::slice::from_ref(directory),
-        None => &selection.directories,
-    };
-    let finding = StaleSearch {
-        session,
-        post_processor,
-        jobs,
-        outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
-        by_stem: LazyCell::new(Box::new(|| {
-            jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
-        })),
-        writers: LazyCell::new(Box::new(|| Writers::new(session, selection, jobs))),
-    };
-    let mut stale = Vec::new();
-    for directory in directories {
-        match session.file_names_in(directory) {
-            Ok(names) => stale.extend(
-                finding.candidates(directory, &names).filter_map(|path| finding.judge(path, Some(&names))),
-            ),
-            Err(problem) => diagnostics.push(*problem),
-        }
-    }
-    stale.extend(finding.former_files(directories).filter_map(|path| finding.judge(path, None)));
-    stale
+/// Provenance and title from the head of a program.
+fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, Box<str>)> {
+    Provenance::of_head(&session.db().system().head(program, HEAD).ok()?)
 }
 
 /// A former file of a job's path, or one adjusted from it: `_Milling` beside `_Clean`, or `_Clean` and `_Probing` from when the path had
@@ -178,9 +235,7 @@ struct FormerFile<'a> {
 type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 
 struct StaleSearch<'a> {
-    session: &'a Session<'a>,
-    post_processor: Option<&'a PostProcessor>,
-    jobs: &'a [&'a Job],
+    run: &'a EarlierPrograms<'a>,
     outputs: HashSet<&'a Utf8Path>,
     /// Index of each job by the stem of its file names.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
@@ -190,7 +245,7 @@ struct StaleSearch<'a> {
 impl<'a> StaleSearch<'a> {
     /// The programs and setup sheets in a directory that the run does not generate.
     fn candidates(&self, directory: &Utf8Path, names: &Names) -> impl Iterator<Item = Utf8PathBuf> {
-        let programs = names.iter().filter(|name| is_gcode(name, self.post_processor) || is_sheet(name));
+        let programs = names.iter().filter(|name| is_gcode(name, self.run.post_processor) || is_sheet(name));
         let programs = programs.map(|name| join(directory, name));
         let mut programs: Vec<Utf8PathBuf> =
             programs.filter(|path| !self.outputs.contains(&**path)).collect();
@@ -201,7 +256,7 @@ impl<'a> StaleSearch<'a> {
     /// The names that former files of paths outside the searched directories would have.
     fn former_files(&self, directories: &[Utf8PathBuf]) -> impl Iterator<Item = Utf8PathBuf> {
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
-        let stems = self.jobs.iter().map(|job| &job.stem);
+        let stems = self.run.jobs.iter().map(|job| &job.stem);
         let stems = stems.filter(move |stem| stem.parent().is_none_or(|parent| !searched.contains(parent)));
         let paths = stems.flat_map(|stem| {
             let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
@@ -214,9 +269,11 @@ impl<'a> StaleSearch<'a> {
 
     /// Whether a program is stale. `beside` lists the files in its directory if programs of removed paths count.
     fn judge(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
-        let (found, title) = self.provenance(&path)?;
+        let (found, title) = provenance(self.run.session, &path)?;
         match self.own(&path) {
-            Some(own) if is_of(own.job, self.session, &title) => own.stale(self.session, path, &found),
+            Some(own) if is_of(own.job, self.run.session, &title) => {
+                own.stale(self.run.session, path, &found)
+            }
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
                 let directory = path.parent().unwrap_or(Utf8Path::new(""));
                 let is_left = self.writers.are_gone(directory, &title, beside?.iter());
@@ -230,29 +287,24 @@ impl<'a> StaleSearch<'a> {
         let name = path.with_extension("");
         let stem = PROGRAMS.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
-        let job = self.jobs[number];
+        let job = self.run.jobs[number];
         let now = job.outcome.as_ref()?.provenance.as_ref()?;
-        let is_meant = is_of(job, self.session, title) && now.moves != found.moves;
+        let is_meant = is_of(job, self.run.session, title) && now.moves != found.moves;
         let program = job.files.first()?.1.clone();
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
 
     /// The native job whose path may have produced this file earlier.
     fn own(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
-        if self.post_processor.is_some() {
+        if self.run.post_processor.is_some() {
             return None;
         }
         let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
         let (kind, stem) = OutputKind::ALL.into_iter().find_map(of_kind)?;
         let number = *self.by_stem.get(Utf8Path::new(stem))?;
-        let job = self.jobs[number];
+        let job = self.run.jobs[number];
         let provenance = job.outcome.as_ref()?.provenance.as_ref()?;
         job.files.iter().all(|(present, _)| *present != kind).then_some(FormerFile { job, kind, provenance })
-    }
-
-    /// Provenance and title from the head of a program.
-    fn provenance(&self, path: &Utf8Path) -> Option<(Provenance, Box<str>)> {
-        Provenance::of_head(&self.session.db().system().head(path, HEAD).ok()?)
     }
 }
 
@@ -344,14 +396,10 @@ fn file_name(drawing: &Utf8Path) -> &str {
 type Title = (Utf8PathBuf, String);
 
 impl Writers {
-    fn new(session: &Session<'_>, selection: &TargetSelection, jobs: &[&Job]) -> Self {
+    fn new(run: &EarlierPrograms<'_>) -> Self {
+        let EarlierPrograms { session, out_dir, selection, jobs, .. } = run;
         let db = session.db();
-        let out_dir = session.workspace().settings.general.out_dir.value.as_ref();
-        let out_dir = out_dir.map(|directory| session.normal(directory));
-        let place = |drawing: &Utf8Path| {
-            let beside = || drawing.parent().unwrap_or(Utf8Path::new("")).to_owned();
-            out_dir.clone().unwrap_or_else(beside)
-        };
+        let place = |drawing: &Utf8Path| output_directory(out_dir.as_deref(), drawing);
         let written = |drawing: &Utf8Path| (place(drawing), plain_title(file_name(drawing)));
         let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
         let generated: BTreeSet<Title> =
@@ -395,40 +443,6 @@ impl Writers {
     }
 }
 
-/// Finds the programs on disk of targets for which nothing was written or compared. Each becomes an outcome of its own; a comparison counts
-/// it as out of date.
-fn older_programs(
-    builder: &JobBuilder<'_>,
-    task: Task,
-    targets: &[Target],
-    jobs: &[&Job],
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<ProgramOutcome> {
-    let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
-    let session = builder.session;
-    match (task, builder.join, builder.post_processor) {
-        (Task::Print, ..) => Vec::new(),
-        (task, Some(name), Some(post_processor)) => {
-            let joined = targets.first().filter(|_| !jobs.iter().any(|job| is_done(&job)));
-            let program = joined.and_then(|first| of_joined(session, *first, name, post_processor));
-            program.map(|program| older(program, name, task)).into_iter().collect()
-        }
-        (task, _, post_processor) => {
-            let done = jobs.iter().filter(is_done);
-            let done: HashSet<Target> = done.flat_map(|job| job.targets.iter().copied()).collect();
-            let open = targets.iter().filter(|target| !done.contains(target));
-            let mut listings = Listings::default();
-            let older = |target: &Target| {
-                let programs = of_target(session, *target, post_processor, &mut listings).into_iter();
-                programs.map(|program| older(program, target.name(session.db()), task)).collect::<Vec<_>>()
-            };
-            let older = open.flat_map(older).collect();
-            diagnostics.append(&mut listings.problems);
-            older
-        }
-    }
-}
-
 /// Programs in output directories, each of which is listed once.
 #[derive(Default)]
 struct Listings {
@@ -440,16 +454,16 @@ impl Listings {
     /// Programs in a directory with names that begin with `stem`, ignoring case.
     fn beginning(
         &mut self,
-        (session, post_processor): (&Session<'_>, Option<&PostProcessor>),
+        run: &EarlierPrograms<'_>,
         directory: &Utf8PathBuf,
         stem: &str,
     ) -> impl Iterator<Item = &Utf8PathBuf> {
         let programs = self.programs.entry(directory.clone()).or_insert_with(|| {
-            let names = session.file_names_in(directory).unwrap_or_else(|problem| {
+            let names = run.session.file_names_in(directory).unwrap_or_else(|problem| {
                 self.problems.push(*problem);
                 Names::default()
             });
-            let programs = names.iter().filter(|name| is_gcode(name, post_processor));
+            let programs = names.iter().filter(|name| is_gcode(name, run.post_processor));
             let mut programs: Vec<_> =
                 programs.map(|name| (name.to_lowercase(), join(directory, name))).collect();
             programs.sort_unstable();
@@ -472,40 +486,4 @@ fn older(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutcome {
     let is_compared = matches!(task, Task::Compare { .. });
     let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();
     ProgramOutcome { path: path.into(), files, problems: vec![problem], ..ProgramOutcome::default() }
-}
-
-/// The names begin with that of the drawing or of the path, whatever R was; the head of each program names its path.
-fn of_target(
-    session: &Session<'_>,
-    target: Target,
-    post_processor: Option<&PostProcessor>,
-    listings: &mut Listings,
-) -> Vec<Utf8PathBuf> {
-    let (db, system) = (session.db(), session.db().system());
-    let (drawing, path) = (target.file(db).path(db), &**target.name(db));
-    let directory = output_directory(session, target.file(db));
-    let stems = [drawing.file_stem().unwrap_or_default(), path];
-    let drawing = drawing.file_name().unwrap_or_default();
-    let is_of_target = |program: &Utf8PathBuf| {
-        let head = system.head(program, HEAD).unwrap_or_default();
-        Provenance::of_head(&head).is_some_and(|(_, found)| native::is_title(&found, drawing, path))
-    };
-    let mut programs = BTreeSet::new();
-    for stem in stems {
-        programs.extend(listings.beginning((session, post_processor), &directory, stem).cloned());
-    }
-    programs.into_iter().filter(is_of_target).collect()
-}
-
-/// The program that the targets were joined into earlier.
-fn of_joined(
-    session: &Session<'_>,
-    first: Target,
-    name: &str,
-    post_processor: &PostProcessor,
-) -> Option<Utf8PathBuf> {
-    let directory = output_directory(session, first.file(session.db()));
-    let program = join(&directory, program_name(name, post_processor));
-    let head = session.db().system().head(&program, HEAD).unwrap_or_default();
-    Provenance::of_head(&head).map(|_| program)
 }

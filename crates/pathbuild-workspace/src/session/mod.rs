@@ -126,6 +126,11 @@ impl<'a> Session<'a> {
         normal(path, &self.context.working_directory)
     }
 
+    /// The configured output directory of all programs.
+    pub fn out_dir(&self) -> Option<Utf8PathBuf> {
+        self.context.settings.general.out_dir.value.as_ref().map(|directory| self.normal(directory))
+    }
+
     /// Like [`normal`](Self::normal), without a copy if the path is normal already.
     fn normalised(&self, path: Utf8PathBuf) -> Utf8PathBuf {
         if self.is_normal(&path) { path } else { self.normal(&path) }

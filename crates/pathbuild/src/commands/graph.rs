@@ -18,21 +18,15 @@ use crate::render::Format;
 
 /// Runs `graph`: lists all embeddings of the given paths; without arguments, those of the library.
 pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
-    let mut session = Session::new(context);
-    if args.inputs.inputs.is_empty() && !session.has_library() {
-        return context.refuse_empty_input();
-    }
-    let (arguments, graph) = session.with_stable_files(|session| {
-        let arguments = GraphArguments::new(session, session.select(&args.inputs));
-        let graph = session.graph(&arguments.targets);
-        (arguments, graph)
-    });
-    print(context, &graph, |graph| list(graph, context.lang()));
-    arguments.finish(context, &graph)
+    show(context, args, list)
 }
 
 /// Runs `deps`: shows what paths embed, level by level.
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
+    show(context, args, |graph, words| tree(graph, Direction::Down, words))
+}
+
+fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, &Words) -> String) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
@@ -42,7 +36,7 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
         let graph = session.graph(&arguments.targets);
         (arguments, graph)
     });
-    print(context, &graph, |graph| tree(graph, Direction::Down, context.lang()));
+    print(context, &graph, text);
     arguments.finish(context, &graph)
 }
 
@@ -72,7 +66,7 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
         }
     }
     let graph = whole.part(&roots, Direction::Up);
-    print(context, &graph, |graph| tree(graph, Direction::Up, context.lang()));
+    print(context, &graph, |graph, words| tree(graph, Direction::Up, words));
     arguments.finish(context, &whole)
 }
 
@@ -131,12 +125,12 @@ impl GraphArguments {
     }
 }
 
-fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph) -> String) {
+fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &Words) -> String) {
     match context.format {
         Format::Dot => context.printer.result(dot(graph)),
         Format::Mermaid => context.printer.result(mermaid(graph)),
         Format::Json => context.row("graph", json(context, graph)),
-        _ => context.printer.result(text(graph)),
+        _ => context.printer.result(text(graph, Words::of(context.lang()))),
     }
 }
 
@@ -174,9 +168,8 @@ fn with_values(name: &str, bindings: &Bindings) -> String {
 }
 
 /// A tree for each root.
-fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {
+fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
     let neighbours = graph.neighbours(direction);
-    let words = Words::of(lang);
     let mut text = String::new();
     let mut is_shown = vec![false; graph.nodes.len()];
     // Not recursive: a library may nest deeper than the stack.
@@ -224,6 +217,7 @@ impl Step {
     }
 }
 
+/// The words of lists and trees in one language.
 struct Words {
     times: &'static str,
     shown: &'static str,
@@ -262,23 +256,19 @@ impl Words {
 }
 
 /// `8001.1P > 2051.1P :A0,5`, sorted by embedding path. Paths without any embeddings are listed on their own.
-fn list(graph: &Graph, lang: Lang) -> String {
+fn list(graph: &Graph, words: &Words) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
-    let (times, example) = match lang {
-        Lang::En => ("times", "example values"),
-        Lang::De => ("mal", "Beispielwerte"),
-    };
     let mut text = String::new();
     for (index, node) in graph.nodes.iter().enumerate() {
         if below[index].is_empty() && above[index].is_empty() {
-            let remark = if node.is_example { format!("  ({example})") } else { String::new() };
+            let remark = if node.is_example { format!("  ({})", words.example) } else { String::new() };
             _ = writeln!(text, "{}{remark}", path(node));
         }
         for embedding in below[index].iter().map(|embedding| &graph.embeddings[*embedding]) {
             _ = write!(text, "{} > {}", path(node), end(graph, &embedding.to));
             _ = match embedding.count {
                 1 => writeln!(text),
-                count => writeln!(text, "  ({count} {times})"),
+                count => writeln!(text, "  ({count} {})", words.times),
             };
         }
     }
