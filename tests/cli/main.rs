@@ -30,6 +30,7 @@ mod gcode;
 mod german;
 mod german_messages;
 mod growth;
+mod headers;
 mod help;
 mod hostile;
 mod hostile_projects;

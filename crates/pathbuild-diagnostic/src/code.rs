@@ -241,6 +241,7 @@ codes! {
     777 Disagreement "disagreement" Warning "two places say different things: header and tool table, option and drawing, comments and moves";
     778 ForeignWord "foreign-word" Warning "a word that the post does not write and that is not followed";
     779 UnnamedDialect "unnamed-dialect" Warning "a word on which dialects disagree, in a program whose dialect is not named";
+    780 HeaderContradiction "header-contradiction" Warning "comments that describe a tool or the stock in two ways";
 }
 
 impl Code {

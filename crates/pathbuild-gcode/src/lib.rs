@@ -4,6 +4,7 @@
 pub mod adjust;
 pub mod dialect;
 pub mod estimate;
+pub mod header;
 pub mod interpret;
 pub mod native;
 pub mod provenance;

@@ -74,11 +74,17 @@ impl Provenance {
     /// Parses the provenance in the first bytes of a program, and the text of the next comment line, which is the title. `None` if the
     /// program was not written by pathbuild.
     pub fn of_head(head: &[u8]) -> Option<(Self, Box<str>)> {
-        let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
-        let mut lines = text.lines().take(HEAD_LINES).map(remark);
+        let mut lines = head_remarks(head);
         let provenance = lines.find_map(|line| line.parse().ok())?;
         Some((provenance, lines.next().unwrap_or_default().into()))
     }
+}
+
+/// The first lines of a program, without block numbers and comment marks.
+pub(crate) fn head_remarks(head: &[u8]) -> impl Iterator<Item = String> {
+    let text = String::from_utf8_lossy(&head[..head.len().min(HEAD)]);
+    let lines: Vec<String> = text.lines().take(HEAD_LINES).map(|line| remark(line).to_owned()).collect();
+    lines.into_iter()
 }
 
 /// The value, if all items are equal.

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
-use pathbuild_gcode::verify::{Checks, Machine, Stock, StockSpan, Travel, coarse_arcs, verify};
+use pathbuild_gcode::verify::{Checks, Cutter, Machine, Stock, StockSpan, Travel, coarse_arcs, verify};
 
 const FINE: [&str; 0] = [];
 
@@ -111,7 +111,7 @@ fn the_centre_of_a_small_helix_may_be_reached_by_rapid() {
 
 #[test]
 fn the_surface_is_that_of_the_line() {
-    let piece = |line, surface| StockSpan { line, surface, cutter: 2.0 };
+    let piece = |line, surface| StockSpan { line, surface, cutter: Cutter::flat(2.0) };
     let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\nG0 X50\nG0 Z5\nG1 Z1\nG0 Z10";
     let verified = |pieces: Vec<StockSpan>| {
         wrong(program, &Checks { stock: Some(&Stock::of_pieces(pieces)), machine: None })
@@ -124,10 +124,10 @@ fn the_surface_is_that_of_the_line() {
 #[test]
 fn the_surface_of_native_text_is_where_plunges_hand_over() {
     let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\n(START Subpath 1)\nG0 X50\nG0 Z2\nG1 Z1\nG0 Z10\n(END Subpath 1)\nG0 X0";
-    let stock = Stock::of_native_text(&run(program).steps, 2.0).expect("plunges");
-    let piece = |line, surface| StockSpan { line, surface, cutter: 2.0 };
+    let stock = Stock::of_native_text(&run(program).steps, Cutter::flat(2.0)).expect("plunges");
+    let piece = |line, surface| StockSpan { line, surface, cutter: Cutter::flat(2.0) };
     assert_eq!(stock, Stock::of_pieces(vec![piece(0, 5.0), piece(6, 2.0)]));
-    assert_eq!(Stock::of_native_text(&run("G0 Z5\nG0 X1 Y1").steps, 2.0), None);
+    assert_eq!(Stock::of_native_text(&run("G0 Z5\nG0 X1 Y1").steps, Cutter::flat(2.0)), None);
 }
 
 #[test]
@@ -389,7 +389,7 @@ fn recordings() -> Vec<PathBuf> {
 fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let result = interpret(text, Native, &options);
-    let stock = Stock::of_native_text(&result.steps, cutter);
+    let stock = Stock::of_native_text(&result.steps, Cutter::flat(cutter));
     let mut problems = result.problems;
     problems.extend(verify(&result.steps, &Checks { stock: stock.as_ref(), machine: None }));
     (problems, stock.is_some())

@@ -1,4 +1,4 @@
-//! Messages about verifying G-code. (PB739 to PB777; book: program/reading)
+//! Messages about verifying G-code. (PB739 to PB780; book: program/reading)
 
 messages! {
     /// `verify --against`: no T word before the first cut.
@@ -234,17 +234,17 @@ messages! {
     }
     /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
-        en: "the header says O{header}; T{index} of `[tool]` is {table} mm wide",
-        de: "der Kopf sagt O{header}; T{index} in `[tool]` ist {table} mm breit",
-        help_en: "use the cutter named in the header, or correct `[tool]`",
-        help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen",
+        en: "the header says that the cutter has {header} mm; T{index} of `[tool]` has {table} mm",
+        de: "laut Kopf hat der Fräser {header} mm; T{index} in `[tool]` hat {table} mm",
+        help_en: "use the cutter named in the header, or correct `[tool]`: for rapid moves, the smaller one removes material and the larger one hits it",
+        help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen: für Eilgänge trägt der kleinere Material ab, und der größere stößt an",
     }
-    /// A cutter in the header that differs from that of an option.
+    /// A cutter in the header or the tool table that differs from that of an option.
     OTHER_CUTTER_GIVEN: Disagreement {
-        en: "the header says O{header}, --cutter says {given}",
-        de: "der Kopf sagt O{header}, --cutter sagt {given}",
-        help_en: "the rapid moves were checked with --cutter",
-        help_de: "die Eilgänge wurden mit --cutter geprüft",
+        en: "{place} says that the cutter has {found} mm, --cutter says {given} mm",
+        de: "{place} sagt, der Fräser hat {found} mm, --cutter sagt {given} mm",
+        help_en: "correct the wrong one: for rapid moves, the smaller one removes material and the larger one hits it",
+        help_de: "das Falsche berichtigen: für Eilgänge trägt der kleinere Material ab, und der größere stößt an",
     }
     /// A cutter in the header or an option that differs from that of the drawing.
     OTHER_CUTTER_DRAWN: Disagreement {
@@ -259,6 +259,27 @@ messages! {
         de: "{place} sagt, die Oberfläche liegt bei {found}, die Zeichnung sagt {drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+    }
+    /// Two comments that describe a tool differently.
+    TOOL_STATED_TWICE: HeaderContradiction {
+        en: "comments describe T{number} with {one} mm and with {other} mm, or with different tips",
+        de: "Kommentare beschreiben T{number} mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
+        help_en: "find out which tool is meant: for rapid moves, the smaller one removes material",
+        help_de: "klären, welches Werkzeug gemeint ist: für Eilgänge trägt das kleinere Material ab",
+    }
+    /// The same for a tool without a number.
+    CURRENT_TOOL_STATED_TWICE: HeaderContradiction {
+        en: "comments describe the tool with {one} mm and with {other} mm, or with different tips",
+        de: "Kommentare beschreiben das Werkzeug mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
+        help_en: "find out which tool is meant: for rapid moves, the smaller one removes material",
+        help_de: "klären, welches Werkzeug gemeint ist: für Eilgänge trägt das kleinere Material ab",
+    }
+    /// Two comments that place a corner of the stock differently.
+    STOCK_STATED_TWICE: HeaderContradiction {
+        en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
+        de: "Kommentare geben eine Ecke des Rohteils mit {axis} {one} und mit {axis} {other} an",
+        help_en: "correct the wrong one: the higher one was used",
+        help_de: "das Falsche berichtigen: benutzt wurde die höhere",
     }
     /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {

@@ -241,6 +241,14 @@ pub struct Options {
     pub milliseconds: bool,
 }
 
+impl Options {
+    /// The words for inches and for millimetres, times ten.
+    pub fn unit_words(&self, rules: &Rules) -> [u16; 2] {
+        let [inch, mm] = rules.unit_words;
+        if rules.layers && self.unit_codes == UnitCodes::Table { [mm, inch] } else { [inch, mm] }
+    }
+}
+
 /// The height that `Z1.023(==1.000+0.5*[#51-2.000])` represents.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Heights {

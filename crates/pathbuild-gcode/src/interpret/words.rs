@@ -7,7 +7,6 @@ use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 use super::codes::{self, Command, Motion};
 use super::evaluate::{name_of, parameter_number};
 use super::execute::{Interpreter, Setting, Slot, ValueFault, limits};
-use super::state::UnitCodes;
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::dialect::Acceptance;
 use crate::read::{At, Block, Span, Target, Value, Word};
@@ -182,10 +181,7 @@ impl Interpreter<'_> {
     }
 
     fn unit_word(&self, code: u16) -> Option<Command> {
-        let [mut inch, mut mm] = self.rules.unit_words;
-        if self.rules.layers && self.options.unit_codes == UnitCodes::Table {
-            std::mem::swap(&mut inch, &mut mm);
-        }
+        let [inch, mm] = self.options.unit_words(self.rules);
         (code == inch || code == mm).then_some(Command::Inches(code == inch))
     }
 

@@ -25,6 +25,9 @@ const FEWEST_ACROSS: f64 = 4.0;
 /// The distance of chords from their arc is at most the side of a cell divided by this.
 const CHORDS: f64 = 4.0;
 
+/// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
+const CENTRE_LINE: f64 = 0.75;
+
 /// Number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
 const VISITS: f64 = 3.0;
 
@@ -82,7 +85,7 @@ pub(super) fn has_room<'c>(
     let Some(piece) = stock.at(line) else { return true };
     let mut bench = Bench::new(stock, stock.resolution(), cells);
     for part in bench.parts(movement) {
-        bench.map.add(&capsule(&part, piece.cutter / 2.0), surface);
+        bench.map.add(&capsule(&part, piece.cutter.diameter / 2.0), surface);
     }
     let height = movement.from.z().min(movement.to.z()) + RESIDUE;
     for (line, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
@@ -121,17 +124,17 @@ struct Extent {
 impl Extent {
     fn add(&mut self, line: u32, movement: &Move, stock: &Stock) {
         if let Some(piece) = stock.at(line).filter(|_| is_low_rapid(movement, stock)) {
-            self.passed += covered_area(movement, piece.cutter);
+            self.passed += covered_area(movement, piece.cutter.diameter);
             self.passes += 1.0;
         }
         let Some(piece) = cutting_piece(line, movement, stock) else { return };
         self.line = line;
-        self.area += covered_area(movement, piece.cutter);
+        self.area += covered_area(movement, piece.cutter.diameter);
         self.pieces += u64::from(count(movement, stock.resolution() / CHORDS)) - 1;
         let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
         for (side, extent) in sides.iter_mut().zip(movement.extent()) {
             let Some((low, high)) = extent else { continue };
-            *side = (side.0.min(low - piece.cutter), side.1.max(high + piece.cutter));
+            *side = (side.0.min(low - piece.cutter.diameter), side.1.max(high + piece.cutter.diameter));
         }
     }
 
@@ -168,7 +171,7 @@ impl<'s> Bench<'s> {
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         for part in self.parts(movement) {
             if part.lowest() < piece.surface {
-                self.map.add(&capsule(&part, piece.cutter), piece.surface);
+                self.map.add(&capsule(&part, piece.cutter.diameter), piece.surface);
             }
         }
     }
@@ -183,7 +186,7 @@ impl<'s> Bench<'s> {
         let Some(piece) = self.stock.at(line).filter(|_| stays && to < from) else { return };
         let below = to < piece.surface - RESIDUE;
         let place = [movement.to.x(), movement.to.y()];
-        let tip = Capsule::new(place, place, piece.cutter / 2.0);
+        let tip = Capsule::new(place, place, piece.cutter.diameter / 2.0);
         if below && self.map.highest_above(&tip, f64::NEG_INFINITY).is_none() {
             self.dip = Some((line, *movement));
         }
@@ -195,7 +198,7 @@ impl<'s> Bench<'s> {
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
         for part in self.parts(movement).filter(|part| part.lowest() < highest) {
-            self.map.cut(&capsule(&part, piece.cutter / 2.0 + self.slack()), part.lowest());
+            self.map.cut(&capsule(&part, piece.cutter.removed / 2.0 + self.slack()), part.lowest());
         }
     }
 
@@ -208,7 +211,9 @@ impl<'s> Bench<'s> {
         let is_plunge = movement.from.at[..2] == movement.to.at[..2];
         let met = self.parts(movement).find_map(|part| {
             let z = if is_plunge { part.lowest() } else { part.highest() };
-            let cutter = capsule(&part, piece.cutter / 2.0 - self.slack());
+            // The centre line touches at least one cell, and less than what a cut along it removes.
+            let least = CENTRE_LINE * self.slack();
+            let cutter = capsule(&part, (piece.cutter.colliding / 2.0 - self.slack()).max(least));
             self.map.highest_above(&cutter, z + RESIDUE).map(|(height, place)| (z, height, place))
         });
         if let Some((z, height, [x, y])) = met {
@@ -341,14 +346,47 @@ pub struct StockSpan {
     pub line: u32,
     /// Height of the upper face T of the material, in mm.
     pub surface: f64,
-    /// Diameter of the cutter O, in mm.
-    pub cutter: f64,
+    /// Widths of the cutter.
+    pub cutter: Cutter,
+}
+
+/// Widths of a cutter, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutter {
+    /// The diameter. Material is assumed this far around a cut.
+    pub diameter: f64,
+    /// Width that a cut certainly clears to its full depth; if it is 0, only the centre line.
+    pub removed: f64,
+    /// Width that hits material at the height of the tip; if it is 0, only the centre line.
+    pub colliding: f64,
+}
+
+impl Cutter {
+    /// A cutter that is flat over its whole diameter.
+    pub fn flat(diameter: f64) -> Self {
+        Self { diameter, removed: diameter, colliding: diameter }
+    }
+
+    /// The width that the map of the material must resolve.
+    fn smallest_detail(&self) -> f64 {
+        if self.removed < self.colliding { self.removed.max(self.diameter / 4.0) } else { self.diameter }
+    }
+
+    /// The cutter if another source gives it another diameter: the smaller one removes material, the larger one hits it.
+    #[must_use]
+    pub fn or_diameter(self, diameter: f64) -> Self {
+        Self {
+            diameter: self.diameter.max(diameter),
+            removed: self.removed.min(diameter),
+            colliding: self.colliding.max(diameter),
+        }
+    }
 }
 
 impl Stock {
     /// Stock with a single surface and cutter for an entire program, both in mm.
     pub fn uniform(surface: f64, cutter: f64) -> Self {
-        Self::of_pieces(vec![StockSpan { line: 0, surface, cutter }])
+        Self::of_pieces(vec![StockSpan { line: 0, surface, cutter: Cutter::flat(cutter) }])
     }
 
     /// Stock whose surface or cutter changes; the pieces must be in the order of their lines.
@@ -361,7 +399,7 @@ impl Stock {
 
     /// The stock of a program, for the moves returned by [`moves`](toolpath::Program::moves).
     pub fn of(program: &toolpath::Program) -> Self {
-        let piece = |line, surface, cutter| StockSpan { line, surface, cutter };
+        let piece = |line, surface, cutter| StockSpan { line, surface, cutter: Cutter::flat(cutter) };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
             Emitted::Comment(Comment::Element { surface, cutter, .. }) => {
                 Some(piece(number, *surface, *cutter))
@@ -373,7 +411,7 @@ impl Stock {
 
     /// The stock of a native program whose drawing is not available. T is the height at which a downward move changes from rapid to feed
     /// (book: program/gcode), separately for each embedded path. `None` if there is no such move.
-    pub fn of_native_text(program: &(impl Program + ?Sized), cutter: f64) -> Option<Self> {
+    pub fn of_native_text(program: &(impl Program + ?Sized), cutter: Cutter) -> Option<Self> {
         let mut pieces = Vec::new();
         let mut section = Section { line: 0, surface: None };
         let mut before: Option<Move> = None;
@@ -418,14 +456,14 @@ impl Stock {
         self.cells
     }
 
-    /// Diameter of the narrowest cutter, in mm.
+    /// The smallest width in mm that matters.
     pub(super) fn narrowest(&self) -> Option<f64> {
-        self.pieces.iter().map(|piece| piece.cutter).reduce(f64::min)
+        self.pieces.iter().map(|piece| piece.cutter.smallest_detail()).reduce(f64::min)
     }
 
     /// Diameter of the widest cutter in mm; 0 if nothing is known.
     pub(super) fn widest(&self) -> f64 {
-        self.pieces.iter().map(|piece| piece.cutter).fold(0.0, f64::max)
+        self.pieces.iter().map(|piece| piece.cutter.diameter).fold(0.0, f64::max)
     }
 
     /// The highest surface.
@@ -461,7 +499,7 @@ impl Section {
         }
     }
 
-    fn piece(&self, cutter: f64) -> Option<StockSpan> {
+    fn piece(&self, cutter: Cutter) -> Option<StockSpan> {
         self.surface.map(|surface| StockSpan { line: self.line, surface, cutter })
     }
 }

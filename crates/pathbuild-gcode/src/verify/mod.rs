@@ -23,7 +23,7 @@ pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use machine::{Machine, MachineRules, Travel};
-pub use material::{Stock, StockSpan};
+pub use material::{Cutter, Stock, StockSpan};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated::StatedStatistics;

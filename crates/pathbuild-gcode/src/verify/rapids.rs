@@ -61,7 +61,7 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
             let is_dip = last.is_some_and(|(line, down)| is_dip(line, &down, &it, stock));
             let has_room = || {
                 let Some((piece, surface)) = low_at(line, &it, stock, &tops) else { return true };
-                is_in_circle(&it, piece.cutter, &recent)
+                is_in_circle(&it, piece.cutter.diameter, &recent)
                     || material::has_room(line, &it, surface, &recent, stock, MOST_CELLS)
             };
             if is_dip || !has_room() {
@@ -93,7 +93,7 @@ fn low_at<'s>(
         return None;
     }
     let piece = stock.at(line)?;
-    let surface = tops.along(it, piece.cutter / 2.0);
+    let surface = tops.along(it, piece.cutter.diameter / 2.0);
     (low < surface).then_some((piece, surface))
 }
 
@@ -258,7 +258,7 @@ fn cuts(drawn: &toolpath::Program, stock: &Stock) -> impl Iterator<Item = Cut> {
     drawn.moves().filter_map(|(line, it)| {
         let piece = cutting_piece(line, &it, stock)?;
         let [Some((left, right)), Some((low, high)), _] = it.extent() else { return None };
-        let cutter = piece.cutter;
+        let cutter = piece.cutter.diameter;
         Some(([(left - cutter, right + cutter), (low - cutter, high + cutter)], piece.surface))
     })
 }

@@ -149,6 +149,11 @@ impl Program {
         Text { text: self.code(), dialect: self.dialect, options }
     }
 
+    /// The number of the word for inches, times ten.
+    pub(super) fn inch_word(&self) -> u16 {
+        self.options.unit_words(self.dialect.rules())[0]
+    }
+
     /// The text that is read in its dialect.
     pub(super) fn code(&self) -> &[u8] {
         self.by_definition.as_ref().map_or(&self.text, |by| by.translated.text.as_bytes())

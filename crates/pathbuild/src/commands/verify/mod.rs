@@ -8,6 +8,7 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::HeaderReader;
 use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
@@ -86,12 +87,12 @@ fn check(
     reading.dialect = writers.dialect();
     let machine = machine(context);
     let mut limits = machine.as_ref().map(MachineRules::new);
-    let mut tools = stock::Tools::default();
+    let mut header = HeaderReader::default();
     let mut stated = StatedStatistics::default();
     let mut has_probed = false;
     let by_definition = |text: &[u8], guess: Option<&Guess>| writers.translate(text, guess);
     let program = Program::open_each(context, file, &reading, &by_definition, &mut |step| {
-        tools.step(&step);
+        header.step(&step);
         stated.step(&step);
         has_probed |= step.as_move().is_some_and(|(_, motion)| matches!(motion.pace, Pace::Probe { .. }));
         if let Some(limits) = &mut limits {
@@ -101,8 +102,12 @@ fn check(
     let drawn = program.drawn();
     let allowed = &context.settings.limits;
     let (cells, pieces) = (allowed.verify_cells.value, allowed.verify_pieces.value);
-    let stock = stock::stock(context, &program, &tools, stock_options, against);
-    let stock = stock.map(|stock| stock.with_cells(cells).with_pieces(pieces));
+    if program.by_definition.is_some() {
+        header.head_of(&program.text);
+    }
+    let header = header.finish(program.inch_word());
+    let sources = stock::Sources::new(context, &program, &header, stock_options, against);
+    let stock = sources.stock().map(|stock| stock.with_cells(cells).with_pieces(pieces));
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
@@ -147,7 +152,7 @@ fn check(
     found.extend(past.into_iter().flat_map(PastClamps::finish));
     found.extend(coarse_arcs(program.code(), program.dialect));
     found.extend(limits.map(MachineRules::finish).unwrap_or_default());
-    found.extend(stock::unknown_tools(context, &program, &tools));
+    found.extend(sources.unknown_tools());
     if program.dialect == Dialect::Native {
         found.extend(native::unstated_heights(&program.text));
         // PathDxf2GCode states planned lengths, and it is unknown what other programs count.
@@ -155,7 +160,8 @@ fn check(
             found.extend(stated.finish());
         }
     }
-    found.extend(stock::disagreements(context, &program, &tools, stock_options, against));
+    found.extend(sources.disagreements());
+    found.extend(header.problems.iter().cloned());
     if let Some((against, comparison)) = milled.zip(comparison) {
         found.extend(against.conclude(context, &program, comparison.finish(), rewritten.as_ref()));
     }

@@ -3,9 +3,9 @@
 use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{Stock, StockSpan};
-use pathbuild_motion::{Action, Step, WordEffect};
+use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
+use pathbuild_gcode::verify::{Cutter, Stock, StockSpan};
+use pathbuild_post::ToolTable;
 
 use super::StockOptions;
 use super::against::ReferenceProgram;
@@ -13,126 +13,172 @@ use crate::commands::program::Program;
 use crate::context::Context;
 use pathbuild_workspace::posting::tool_table;
 
-/// The tools of a program with their lines, collected step by step.
-#[derive(Default)]
-pub(super) struct Tools {
-    selected: Vec<(u32, u32)>,
-    inserted: Vec<(u32, u32)>,
-    /// Whether lines are executed out of order.
-    has_calls: bool,
+/// Everything that may say which cutter a program uses and how high its material is.
+pub(super) struct Sources<'s> {
+    pub(super) program: &'s Program,
+    pub(super) header: &'s Header,
+    pub(super) options: &'s StockOptions,
+    pub(super) against: Option<&'s ReferenceProgram>,
+    table: ToolTable,
 }
 
-impl Tools {
-    /// Processes the next step.
-    pub(super) fn step(&mut self, step: &Step) {
-        match step.action {
-            Action::ChangeTool(number) => self.inserted.push((step.line, number.unwrap_or(0))),
-            Action::SelectTool(number) => self.selected.push((step.line, number)),
-            Action::Word(word) => self.has_calls |= word.effect == WordEffect::Call,
-            _ => {}
+/// The diameters in mm that the sources give for a cutting tool.
+struct ToolDiameters {
+    given: Option<f64>,
+    drawn: Option<f64>,
+    table: Option<f64>,
+    /// Whether the number in the program is that of the tool in the spindle. A native program always selects T1, so its header decides.
+    is_numbered: bool,
+    header: Option<StatedCutter>,
+}
+
+impl ToolDiameters {
+    /// The widths by the first source; where another one disagrees, the smaller diameter removes material and the larger one hits it.
+    fn cutter(&self) -> Option<Cutter> {
+        let table = self.table.filter(|_| self.is_numbered);
+        let mut known = [self.given, self.drawn, table].into_iter().flatten();
+        let Some(first) = known.next() else { return self.header.map(|header| header.widths()) };
+        let header = self.header.filter(|header| !header.has_diameter(first)).map(|header| header.diameter);
+        Some(known.chain(header).fold(Cutter::flat(first), Cutter::or_diameter))
+    }
+}
+
+impl<'s> Sources<'s> {
+    pub(super) fn new(
+        context: &Context,
+        program: &'s Program,
+        header: &'s Header,
+        options: &'s StockOptions,
+        against: Option<&'s ReferenceProgram>,
+    ) -> Self {
+        Self { program, header, options, against, table: tool_table(context) }
+    }
+
+    /// The material that the program cuts, as far as cutters and surface are known.
+    ///
+    /// The surface is taken from the command line, else from the drawing if it has only one, else from the heights at which a native
+    /// program's plunges begin to cut, else from the header.
+    pub(super) fn stock(&self) -> Option<Stock> {
+        let cutters = self.cutters()?;
+        let uniform = |surface: f64| {
+            let pieces =
+                cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
+            Stock::of_pieces(pieces.collect())
+        };
+        if let Some(surface) = self.options.surface.or(self.against.and_then(ReferenceProgram::surface)) {
+            return Some(uniform(surface));
         }
+        let native = (self.program.dialect == Dialect::Native)
+            .then(|| Stock::of_native_text(&self.program.drawn(), cutters.first()?.1));
+        native.flatten().or_else(|| self.header.surface.map(uniform))
     }
 
-    /// The tools inserted by M6; without any M6, the selected ones.
-    fn used(&self) -> &[(u32, u32)] {
-        if self.inserted.is_empty() { &self.selected } else { &self.inserted }
-    }
-
-    /// Warns about tools whose diameter in the table differs from the header's. Layers are not tools.
-    fn other_than_header(&self, context: &Context, dialect: Dialect, header: Option<f64>) -> Vec<Diagnostic> {
-        let table = tool_table(context);
-        let mut found: Vec<(u32, u32, f64, f64)> = Vec::new();
-        for (line, number) in self.used().iter().filter(|_| dialect != Dialect::Xpertmill) {
-            let entry = table.entries.iter().find(|entry| entry.index == Some(*number));
-            let other = different(header, entry.map(|entry| entry.diameter));
-            if let Some((header, table)) = other.filter(|_| found.iter().all(|(_, met, ..)| met != number)) {
-                found.push((*line, *number, header, table));
+    /// The cutters, each with the line from which it applies; `None` if that of any cut is unknown, or if there are no cuts.
+    pub(super) fn cutters(&self) -> Option<Vec<(u32, Cutter)>> {
+        let given = self.options.cutter.or(self.drawn());
+        let widths = |tool: &CuttingTool| Some((tool.line, self.diameters(tool).cutter()?));
+        let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
+        // The tool of a subprogram's lines depends on who calls it.
+        let is_one = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
+        match given.map(Cutter::flat) {
+            Some(given) if cutters.is_empty() || (self.header.has_calls && !is_one) => Some(vec![(0, given)]),
+            None if cutters.is_empty() || (self.header.has_calls && !is_one) => None,
+            given => {
+                // The given cutter is in the spindle from the beginning.
+                cutters[0].0 = if given.is_some() { 0 } else { cutters[0].0 };
+                Some(cutters)
             }
         }
-        let warning = |(line, number, header, table)| {
-            let problem = Diagnostic::new(&say::OTHER_CUTTER_IN_TABLE).with("index", u64::from(number));
-            problem.with("header", header).with("table", table).at_line(line, None)
-        };
-        found.into_iter().map(warning).collect()
     }
 
-    /// Diameters in mm from the tool table, each with the line from which it applies; `None` if a tool is not in the table, or if there are
-    /// no tools.
-    fn cutters(&self, context: &Context) -> Option<Vec<(u32, f64)>> {
-        let table = tool_table(context);
-        let diameter = |number: u32| {
-            table.entries.iter().find(|entry| entry.index == Some(number)).map(|entry| entry.diameter)
+    /// Reports contradictory values for cutter or surface in the header, the command line, the tool table and the drawing.
+    pub(super) fn disagreements(&self) -> Vec<Diagnostic> {
+        let mut found = Vec::new();
+        let mut reported = Vec::new();
+        for tool in &self.header.tools {
+            let diameters = self.diameters(tool);
+            let key = (tool.number, diameters.header.map(|header| header.diameter.to_bits()));
+            if !reported.contains(&key) {
+                reported.push(key);
+                found.extend(disagreements_of(tool, &diameters));
+            }
+        }
+        let compared = |message, place, values: Option<(f64, f64)>| {
+            let problem = |(found, drawn)| {
+                let problem = Diagnostic::new(message).with("place", place);
+                problem.with("found", found).with("drawn", drawn)
+            };
+            values.map(problem)
         };
-        let cutters: Option<Vec<(u32, f64)>> =
-            self.used().iter().map(|(line, number)| Some((*line, diameter(*number)?))).collect();
-        // The tool of a subprogram's lines depends on who calls it.
-        let is_one = |cutters: &Vec<(u32, f64)>| cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
-        cutters.filter(|cutters| !cutters.is_empty() && (!self.has_calls || is_one(cutters)))
+        found.extend(compared(
+            &say::OTHER_CUTTER_DRAWN,
+            &CUTTER,
+            different(self.options.cutter, self.drawn()),
+        ));
+        let surface = self.against.and_then(ReferenceProgram::surface);
+        found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(self.header.surface, surface)));
+        found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(self.options.surface, surface)));
+        found
+    }
+
+    /// Warns about tools that are not in the table, unless the table has no numbers at all.
+    pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
+        let table_numbers: Vec<u32> = self.table.entries.iter().filter_map(|entry| entry.index).collect();
+        // Layers are not tools, and native programs always say T1.
+        let is_no_tool = matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native);
+        let mut unknown: Vec<(u32, u32)> = Vec::new();
+        for (line, number) in &self.header.changes {
+            let is_new = unknown.iter().all(|(_, met)| met != number);
+            if is_new && !table_numbers.is_empty() && !table_numbers.contains(number) && !is_no_tool {
+                unknown.push((*line, *number));
+            }
+        }
+        let warning = |(line, number)| {
+            Diagnostic::new(&posts::TOOL_NOT_IN_TABLE).with("index", u64::from(number)).at_line(line, None)
+        };
+        unknown.into_iter().map(warning).collect()
+    }
+
+    fn drawn(&self) -> Option<f64> {
+        self.against.and_then(ReferenceProgram::cutter)
+    }
+
+    fn diameters(&self, tool: &CuttingTool) -> ToolDiameters {
+        let entry =
+            self.table.entries.iter().find(|entry| entry.index.is_some() && entry.index == tool.number);
+        let (given, drawn, header) = (self.options.cutter, self.drawn(), tool.cutter);
+        // Layers are not tools, but may be numbered like them.
+        let is_only_source = given.or(drawn).is_none() && header.is_none();
+        let may_be_tool = |_: &f64| self.program.dialect != Dialect::Xpertmill || is_only_source;
+        let table = entry.map(|entry| entry.diameter).filter(may_be_tool);
+        ToolDiameters { given, drawn, table, header, is_numbered: self.program.dialect != Dialect::Native }
     }
 }
 
-/// The material that a program cuts; `None` if cutter or surface is unknown.
-///
-/// The cutter is taken from the command line, else from the drawing, else from the tool table, else from the header. A native program
-/// always selects `T1`, so its header decides. The surface is taken from the command line, else from the drawing if it has only one, else
-/// from the heights at which a native program's plunges begin to cut, else from the header.
-pub(super) fn stock(
-    context: &Context,
-    program: &Program,
-    tools: &Tools,
-    stock_options: &StockOptions,
-    against: Option<&ReferenceProgram>,
-) -> Option<Stock> {
-    let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
-    let of_header = header.as_ref().and_then(|header| header.cutter);
-    let is_native = program.dialect == Dialect::Native;
-    let cutters = match stock_options.cutter.or(against.and_then(ReferenceProgram::cutter)) {
-        Some(cutter) => vec![(0, cutter)],
-        None if is_native => vec![(0, of_header?)],
-        None => tools.cutters(context).or(of_header.map(|cutter| vec![(0, cutter)]))?,
+fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagnostic> {
+    let ToolDiameters { given, drawn, table, header, is_numbered } = *diameters;
+    let other_than_header = |value: Option<f64>| {
+        let header = header.filter(|header| value.is_some_and(|value| !header.has_diameter(value)))?;
+        Some((header.diameter, value?))
     };
-    let uniform = |surface: f64| {
-        let pieces = cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
-        Stock::of_pieces(pieces.collect())
+    let index = u64::from(tool.number.unwrap_or_default());
+    let given_other = |place, (found, given)| {
+        let problem = Diagnostic::new(&say::OTHER_CUTTER_GIVEN).with("place", place);
+        problem.with("found", found).with("given", given)
     };
-    if let Some(surface) = stock_options.surface.or(against.and_then(ReferenceProgram::surface)) {
-        return Some(uniform(surface));
-    }
-    let native = is_native.then(|| Stock::of_native_text(&program.drawn(), cutters.first()?.1)).flatten();
-    native.or_else(|| header.and_then(|header| header.thickness).map(uniform))
-}
-
-/// Reports contradictory values for cutter or surface in the header, the command line, the tool table and the drawing.
-pub(super) fn disagreements(
-    context: &Context,
-    program: &Program,
-    tools: &Tools,
-    stock_options: &StockOptions,
-    against: Option<&ReferenceProgram>,
-) -> Vec<Diagnostic> {
-    let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
-    let of_header = header.as_ref().and_then(|header| header.cutter);
-    let drawn = against.and_then(ReferenceProgram::cutter);
     let mut found = Vec::new();
-    if let Some((header, given)) = different(of_header, stock_options.cutter) {
-        found.push(Diagnostic::new(&say::OTHER_CUTTER_GIVEN).with("header", header).with("given", given));
-    }
-    let compared = |message, place, values: Option<(f64, f64)>| {
-        let problem = |(found, drawn)| {
-            let problem = Diagnostic::new(message).with("place", place);
-            problem.with("found", found).with("drawn", drawn)
-        };
-        values.map(problem)
-    };
+    found.extend(other_than_header(given).map(|values| given_other(&HEADER, values)));
+    found.extend(different(table.filter(|_| is_numbered), given).map(|values| given_other(&TABLE, values)));
     // The operator reads the header, and inserts the tool that it names.
-    let of_program = compared(&say::OTHER_CUTTER_DRAWN, &HEADER, different(of_header, drawn));
-    found.extend(of_program.map(|problem| Diagnostic { severity: Severity::Error, ..problem }));
-    found.extend(compared(&say::OTHER_CUTTER_DRAWN, &CUTTER, different(stock_options.cutter, drawn)));
-    let surface = against.and_then(ReferenceProgram::surface);
-    let of_header_surface = header.and_then(|header| header.thickness);
-    found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(of_header_surface, surface)));
-    found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(stock_options.surface, surface)));
-    found.extend(tools.other_than_header(context, program.dialect, of_header));
+    found.extend(other_than_header(drawn).map(|(header, drawn)| {
+        let problem = Diagnostic::new(&say::OTHER_CUTTER_DRAWN).with("place", &HEADER);
+        let problem = problem.with("found", header).with("drawn", drawn);
+        Diagnostic { severity: Severity::Error, ..problem }
+    }));
+    found.extend(other_than_header(table).map(|(header, table)| {
+        let problem = Diagnostic::new(&say::OTHER_CUTTER_IN_TABLE).with("index", index);
+        problem.with("header", header).with("table", table).at_line(tool.line, None)
+    }));
     found
 }
 
@@ -145,27 +191,9 @@ fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
 const SAME: f64 = 1e-6;
 
 static HEADER: Text = Text { en: "the header", de: "der Kopf" };
+static TABLE: Text = Text { en: "`[tool]`", de: "`[tool]`" };
 static CUTTER: Text = Text { en: "--cutter", de: "--cutter" };
 static SURFACE: Text = Text { en: "--surface", de: "--surface" };
-
-/// Warns about tools that are not in the table, unless the table has no numbers at all.
-pub(super) fn unknown_tools(context: &Context, program: &Program, tools: &Tools) -> Vec<Diagnostic> {
-    let table = tool_table(context);
-    let table_numbers: Vec<u32> = table.entries.iter().filter_map(|entry| entry.index).collect();
-    // Layers are not tools, and native programs always say T1.
-    let is_no_tool = matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
-    let mut unknown: Vec<(u32, u32)> = Vec::new();
-    for (line, number) in tools.used() {
-        let is_new = unknown.iter().all(|(_, met)| met != number);
-        if is_new && !table_numbers.is_empty() && !table_numbers.contains(number) && !is_no_tool {
-            unknown.push((*line, *number));
-        }
-    }
-    let warning = |(line, number)| {
-        Diagnostic::new(&posts::TOOL_NOT_IN_TABLE).with("index", u64::from(number)).at_line(line, None)
-    };
-    unknown.into_iter().map(warning).collect()
-}
 
 /// Explains what is not checked if cutter or material is unknown.
 pub(super) fn not_known(context: &Context) -> &'static str {

@@ -1,0 +1,679 @@
+//! What a program states about its tools and its stock in comments. (book: program/reading)
+//!
+//! A value is read only from a keyed field of a form listed in [`FORMS`], never from free text. A value from a comment may be wrong, so it
+//! only adds checks.
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Message};
+use pathbuild_motion::{Action, Group, Pace, StatedWord, Step, WordEffect};
+
+use crate::provenance::{Provenance, head_remarks};
+use crate::read::Problems;
+use crate::verify::Cutter;
+
+/// Lengths in comments are rounded, often to two decimals, so that they are equal if they differ by at most this, in mm.
+const ROUNDED: f64 = 0.01;
+
+/// Difference in mm of lengths that are not rounded.
+const EXACT: f64 = 1e-6;
+
+/// One inch in mm.
+const INCH: f64 = 25.4;
+
+/// The unit of a length in a comment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StatedUnit {
+    /// Millimetres, which the field names.
+    Millimetre,
+    /// Inches, which the field names.
+    Inch,
+    /// The unit of G20 or G21.
+    OfProgram,
+}
+
+/// The shape of a cutter's tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tip {
+    /// The cutter is flat over its whole diameter.
+    Flat,
+    /// The corners are rounded with this radius, in the unit of the diameter.
+    BullNose(f64),
+    /// Nothing is known about the tip, or it is pointed, tapered or round.
+    Unknown,
+}
+
+/// The moves to which the description of a tool applies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Those of the tool with this number.
+    Number(u32),
+    /// Those from the comment to the first tool change after a cut.
+    Following,
+    /// All moves after the comment.
+    Program,
+}
+
+/// A tool that a comment describes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedTool {
+    /// Where the description applies.
+    pub scope: Scope,
+    /// The diameter, in `unit`.
+    pub diameter: f64,
+    /// The shape of the tip.
+    pub tip: Tip,
+    /// The unit of the diameter.
+    pub unit: StatedUnit,
+}
+
+/// Corners of the stock in program coordinates, as far as a comment states them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedStock {
+    /// The lower corner.
+    pub low: Option<[f64; 3]>,
+    /// The upper corner. Its height is the surface.
+    pub high: Option<[f64; 3]>,
+    /// The unit of the coordinates.
+    pub unit: StatedUnit,
+}
+
+/// The content of a comment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statement {
+    /// A tool.
+    pub tool: Option<StatedTool>,
+    /// The stock.
+    pub stock: Option<StatedStock>,
+    /// The height of the stock's upper face in mm, if it is given without the stock.
+    pub surface: Option<f64>,
+    /// The number of the tool to insert, if the tool change itself is only a comment.
+    pub change: Option<u32>,
+}
+
+/// A form of comment.
+#[derive(Debug)]
+pub struct HeaderForm {
+    /// The program that writes it.
+    pub name: &'static str,
+    /// Where the form was seen.
+    pub source: &'static str,
+    /// A comment in this form.
+    pub sample: &'static str,
+    /// How an earlier comment of the program begins, if the form by itself could be free text.
+    pub signature: Option<&'static str>,
+    read: fn(&str) -> Option<Statement>,
+}
+
+/// The known forms. All samples are written to the form, not copied from programs.
+///
+/// Estlcam, `SheetCam` and dxf2gcode name tools by free text only, so nothing is read from their programs.
+pub static FORMS: &[HeaderForm] = &[
+    HeaderForm {
+        name: "pathbuild",
+        source: "provenance.rs",
+        sample: "pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5",
+        signature: None,
+        read: pathbuild,
+    },
+    HeaderForm {
+        name: "Fusion 360",
+        source: "shooshx/led_floor, cad/nc/6mm/1022_block2x2_17bit.nc; posts that Autodesk publishes",
+        sample: "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill",
+        signature: None,
+        read: fusion,
+    },
+    HeaderForm {
+        name: "CutViewer",
+        source: "TOOL/MILL, diameter, corner radius, height, taper angle: Carbide Create, CamBam, HeeksCNC",
+        sample: "TOOL/MILL,3.17, 0.00, 12.70, 0.00",
+        signature: None,
+        read: cut_viewer_tool,
+    },
+    HeaderForm {
+        name: "CutViewer",
+        source: "STOCK/BLOCK, sizes, program zero from the lower corner: Carbide Create, posts for Fusion",
+        sample: "STOCK/BLOCK,100.00, 100.00, 1.00,0.00, 0.00, 1.00",
+        signature: None,
+        read: cut_viewer_stock,
+    },
+    HeaderForm {
+        name: "Carbide Create",
+        source: "written above STOCK/BLOCK",
+        sample: "stockMin:0.00mm, 0.00mm, -1.00mm",
+        signature: None,
+        read: carbide_create,
+    },
+    HeaderForm {
+        name: "VCarve",
+        source: "the form named in issue 35; seen only in samples written in its style",
+        sample: "1 = End Mill {3.175 mm}",
+        signature: None,
+        read: vcarve,
+    },
+    HeaderForm {
+        name: "FreeCAD",
+        source: "programs by grbl_post and linuxcnc_post",
+        sample: "TC: 3.175mm Endmill",
+        signature: Some("Exported by FreeCAD"),
+        read: freecad_label,
+    },
+    HeaderForm {
+        name: "FreeCAD",
+        source: "SergeyPopovGit/CNC, Cicloid_Gear/Ecscentrick_0.5_8_12_mm_slote_33MM_cut.nc; FreeCAD calculates in millimetres",
+        sample: "Compensated Tool Path. Diameter: 6.35",
+        signature: Some("Exported by FreeCAD"),
+        read: freecad_diameter,
+    },
+    HeaderForm {
+        name: "FreeCAD",
+        source: "grbl_post, because GRBL has no M6",
+        sample: "M6 T4.0",
+        signature: Some("Exported by FreeCAD"),
+        read: freecad_change,
+    },
+    HeaderForm {
+        name: "Kiri:Moto",
+        source: "its list of tools",
+        sample: "tool#=1 flute=6 len=20 unit=metric",
+        signature: None,
+        read: kiri_moto,
+    },
+    HeaderForm {
+        name: "pcb2gcode",
+        source: "programs by pcb2gcode 2.5, in mm or in",
+        sample: "MSG, Change tool bit to cutter diameter 1.5mm",
+        signature: None,
+        read: pcb2gcode,
+    },
+    HeaderForm {
+        name: "CamBam",
+        source: "programs posted by CamBam's post-processor Default, with ( T2 : 2.0 ) before T2 M6",
+        sample: "T2 : 2.0",
+        signature: Some("Made using CamBam"),
+        read: cambam,
+    },
+];
+
+/// What a comment, without its brackets, states in the first form that it has. `is_signed` tells whether a form's signature has been met.
+pub fn stated(comment: &str, is_signed: &dyn Fn(&str) -> bool) -> Option<(&'static HeaderForm, Statement)> {
+    let signed = |form: &&HeaderForm| form.signature.is_none_or(is_signed);
+    FORMS.iter().filter(signed).find_map(|form| Some((form, (form.read)(comment.trim())?)))
+}
+
+/// Collects tool changes, and what comments state, step by step.
+#[derive(Debug, Default)]
+pub struct HeaderReader {
+    events: Vec<(u32, Event)>,
+    signatures: Vec<&'static str>,
+    has_calls: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Event {
+    /// T.
+    Select(u32),
+    /// M6.
+    Insert(u32),
+    /// A word for the unit, by its number times ten.
+    Unit(u16),
+    /// One or more cuts.
+    Cut,
+    Statement(Statement),
+}
+
+impl HeaderReader {
+    /// Processes the next step.
+    pub fn step(&mut self, step: &Step) {
+        let event = match &step.action {
+            Action::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Event::Cut,
+            Action::ChangeTool(number) => Event::Insert(number.unwrap_or(0)),
+            Action::SelectTool(number) => Event::Select(*number),
+            Action::Word(StatedWord { group: Some(Group::Units), code, .. }) => Event::Unit(*code),
+            Action::Word(word) => {
+                self.has_calls |= word.effect == WordEffect::Call;
+                return;
+            }
+            Action::Comment(text) => return self.comment(step.line, text),
+            _ => return,
+        };
+        if event != Event::Cut || self.events.last().is_none_or(|(_, last)| *last != Event::Cut) {
+            self.events.push((step.line, event));
+        }
+    }
+
+    /// Processes the comments at the beginning of a text whose steps have none, because it was translated.
+    pub fn head_of(&mut self, text: &[u8]) {
+        let steps = std::mem::take(&mut self.events);
+        head_remarks(text).for_each(|remark| self.comment(0, &remark));
+        self.events.extend(steps);
+    }
+
+    fn comment(&mut self, line: u32, text: &str) {
+        let signed = FORMS.iter().filter_map(|form| form.signature);
+        self.signatures.extend(signed.filter(|signature| text.trim().starts_with(signature)));
+        let found = stated(text, &|signature| self.signatures.contains(&signature));
+        self.events.extend(found.map(|(_, statement)| (line, Event::Statement(statement))));
+    }
+
+    /// What the whole program states. `inch` is the number of the word for inches times ten.
+    pub fn finish(self, inch: u16) -> Header {
+        let has_insertions = self.events.iter().any(|(_, event)| matches!(event, Event::Insert(_)));
+        let has_selections = self.events.iter().any(|(_, event)| matches!(event, Event::Select(_)));
+        let changed = |event: &Event| match event {
+            Event::Insert(number) => Some(*number),
+            Event::Select(number) if !has_insertions => Some(*number),
+            Event::Statement(statement) if !has_insertions && !has_selections => statement.change,
+            _ => None,
+        };
+        let changes = self.events.iter().filter_map(|(line, event)| Some((*line, changed(event)?)));
+        let mut header =
+            Header { changes: changes.collect(), has_calls: self.has_calls, ..Header::default() };
+        let mut collector =
+            Collector { in_inches: starts_in_inches(&self.events, inch), ..Collector::default() };
+        collector.numbered(&self.events, inch);
+        for (line, event) in &self.events {
+            collector.event(*line, event, changed(event), inch);
+        }
+        if header.changes.is_empty() {
+            collector.only_tool();
+        }
+        header.tools = collector.tools;
+        header.surface = collector.surface;
+        header.problems = collector.problems.into_diagnostics();
+        header
+    }
+}
+
+/// Fusion writes its list of tools above G20 or G21.
+fn starts_in_inches(events: &[(u32, Event)], inch: u16) -> bool {
+    let unit = |event: &Event| if let Event::Unit(code) = event { Some(*code == inch) } else { None };
+    events.iter().find_map(|(_, event)| unit(event)).unwrap_or(false)
+}
+
+/// The tools and the stock of a program as far as it states them.
+#[derive(Debug, Default)]
+pub struct Header {
+    /// The tools that the program inserts, or selects if it inserts none, with their lines.
+    pub changes: Vec<(u32, u32)>,
+    /// Whether lines are executed out of order.
+    pub has_calls: bool,
+    /// The tools that cut, with the lines from which they apply.
+    pub tools: Vec<CuttingTool>,
+    /// The height of the stock's upper face in mm.
+    pub surface: Option<f64>,
+    /// Contradictions between comments.
+    pub problems: Vec<Diagnostic>,
+}
+
+/// A tool that cuts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CuttingTool {
+    /// The line from which it applies.
+    pub line: u32,
+    /// Its T number.
+    pub number: Option<u32>,
+    /// Its widths, if comments state them.
+    pub cutter: Option<StatedCutter>,
+}
+
+/// The widths of a tool, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedCutter {
+    /// The line of the comment.
+    pub line: u32,
+    /// The diameter.
+    pub diameter: f64,
+    /// The width of the flat part of the tip, if it is known.
+    pub flat: Option<f64>,
+    /// Diameters that differ by at most this are equal.
+    tolerance: f64,
+}
+
+impl StatedCutter {
+    fn new(line: u32, tool: &StatedTool, in_inches: bool) -> Self {
+        let scale = scale(tool.unit, in_inches);
+        let flat = match tool.tip {
+            Tip::Flat => Some(tool.diameter),
+            Tip::BullNose(radius) => Some((tool.diameter - 2.0 * radius).max(0.0)),
+            Tip::Unknown => None,
+        };
+        // pathbuild writes all digits.
+        let tolerance = if tool.scope == Scope::Program { EXACT } else { ROUNDED + EXACT };
+        Self { line, diameter: tool.diameter * scale, flat: flat.map(|flat| flat * scale), tolerance }
+    }
+
+    /// Whether the diameter is the given one, as exactly as the comment states it.
+    pub fn has_diameter(&self, diameter: f64) -> bool {
+        libm::fabs(self.diameter - diameter) <= self.tolerance
+    }
+
+    /// The widths for the check of rapid moves. A tip that is not known to be flat counts as the centre line of the moves, both in removing
+    /// material and in hitting it: the tool fits into its own cut.
+    pub fn widths(&self) -> Cutter {
+        let flat = self.flat.unwrap_or(0.0);
+        Cutter { diameter: self.diameter, removed: flat, colliding: flat }
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        let is_near = |one: f64, other: f64| libm::fabs(one - other) <= 2.0 * ROUNDED + EXACT;
+        let is_same_tip = self.flat.zip(other.flat).is_none_or(|(one, other)| is_near(one, other));
+        is_near(self.diameter, other.diameter) && is_same_tip
+    }
+
+    /// Both descriptions of a tool in one: the narrower one counts for what is known to be flat.
+    fn with(&self, other: &Self) -> Self {
+        let flat = [self.flat, other.flat].into_iter().flatten().reduce(f64::min);
+        Self { diameter: self.diameter.max(other.diameter), flat, ..*self }
+    }
+}
+
+fn scale(unit: StatedUnit, in_inches: bool) -> f64 {
+    match unit {
+        StatedUnit::Inch => INCH,
+        StatedUnit::OfProgram if in_inches => INCH,
+        StatedUnit::OfProgram | StatedUnit::Millimetre => 1.0,
+    }
+}
+
+/// Assigns statements to the tools that cut.
+#[derive(Default)]
+struct Collector {
+    in_inches: bool,
+    numbered: BTreeMap<u32, StatedCutter>,
+    /// The description for the whole program.
+    of_program: Option<StatedCutter>,
+    /// The description of the tool in use, and whether that tool has cut.
+    of_current: Option<(StatedCutter, bool)>,
+    number: Option<u32>,
+    /// The line of a tool change, or of a description, after the last cut.
+    since: Option<u32>,
+    tools: Vec<CuttingTool>,
+    corners: [Option<(u32, [f64; 3])>; 2],
+    surface: Option<f64>,
+    problems: Problems,
+}
+
+impl Collector {
+    /// Reads the descriptions by number, which may be anywhere.
+    fn numbered(&mut self, events: &[(u32, Event)], inch: u16) {
+        let mut in_inches = self.in_inches;
+        for (line, event) in events {
+            match event {
+                Event::Unit(code) => in_inches = *code == inch,
+                Event::Statement(Statement { tool: Some(tool), .. }) => {
+                    let Scope::Number(number) = tool.scope else { continue };
+                    let cutter = StatedCutter::new(*line, tool, in_inches);
+                    let known = self.numbered.get(&number).copied();
+                    let cutter = self.combined(known, cutter, Some(number));
+                    self.numbered.insert(number, cutter);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn event(&mut self, line: u32, event: &Event, change: Option<u32>, inch: u16) {
+        if let Some(number) = change {
+            self.number = Some(number);
+            self.since = Some(line);
+            self.of_current = self.of_current.filter(|(_, has_cut)| !has_cut);
+        }
+        match event {
+            Event::Unit(code) => self.in_inches = *code == inch,
+            Event::Cut => self.cut(),
+            Event::Statement(statement) => self.statement(line, statement),
+            Event::Select(_) | Event::Insert(_) => {}
+        }
+    }
+
+    fn statement(&mut self, line: u32, statement: &Statement) {
+        if let Some(tool) = &statement.tool {
+            let cutter = StatedCutter::new(line, tool, self.in_inches);
+            match tool.scope {
+                Scope::Number(_) => {}
+                Scope::Program => self.of_program = Some(cutter),
+                Scope::Following => {
+                    let known = self.of_current.filter(|(_, has_cut)| !has_cut).map(|(known, _)| known);
+                    self.of_current = Some((self.combined(known, cutter, None), false));
+                    self.since.get_or_insert(line);
+                }
+            }
+        }
+        if let Some(stock) = &statement.stock {
+            let scale = scale(stock.unit, self.in_inches);
+            for (index, corner) in [stock.low, stock.high].into_iter().enumerate() {
+                let Some(corner) = corner else { continue };
+                self.corner(line, index, corner.map(|coordinate| coordinate * scale));
+            }
+            self.surface = self.corners[1].map(|(_, high)| high[2]);
+        }
+        self.surface = statement.surface.or(self.surface);
+    }
+
+    /// Takes a corner of the stock. Of two different ones the higher counts, which leaves more material.
+    fn corner(&mut self, line: u32, index: usize, corner: [f64; 3]) {
+        let Some((_, known)) = self.corners[index] else {
+            self.corners[index] = Some((line, corner));
+            return;
+        };
+        let is_near = |(one, other): (&f64, &f64)| libm::fabs(one - other) <= 2.0 * ROUNDED + EXACT;
+        if let Some(axis) = (0..3).find(|axis| !is_near((&known[*axis], &corner[*axis]))) {
+            let letter = ["X", "Y", "Z"][axis];
+            self.problems.add_at_line(&say::STOCK_STATED_TWICE, line, |d| {
+                d.quoting("axis", letter).with("one", known[axis]).with("other", corner[axis])
+            });
+        }
+        let highest = if known[2] > corner[2] { known } else { corner };
+        self.corners[index] = Some((line, highest));
+    }
+
+    fn cut(&mut self) {
+        if let Some((_, has_cut)) = &mut self.of_current {
+            *has_cut = true;
+        }
+        let line = match self.since.take() {
+            Some(line) => line,
+            None if self.tools.is_empty() => 0,
+            None => return,
+        };
+        let of_number = self.number.and_then(|number| self.numbered.get(&number).copied());
+        let of_current = self.of_current.map(|(cutter, _)| cutter);
+        let stated = [self.of_program, of_number, of_current].into_iter().flatten();
+        let cutter = stated.fold(None, |known, next| Some(self.combined(known, next, self.number)));
+        self.tools.push(CuttingTool { line, number: self.number, cutter });
+    }
+
+    /// In a program without tool changes, the only tool of the list is the one that cuts.
+    fn only_tool(&mut self) {
+        let mut numbered = self.numbered.iter();
+        let (Some((number, cutter)), None) = (numbered.next(), numbered.next()) else { return };
+        for tool in self.tools.iter_mut().filter(|tool| tool.cutter.is_none()) {
+            (tool.number, tool.cutter) = (Some(*number), Some(*cutter));
+        }
+    }
+
+    /// A description together with a known one, reporting a contradiction.
+    fn combined(
+        &mut self,
+        known: Option<StatedCutter>,
+        next: StatedCutter,
+        number: Option<u32>,
+    ) -> StatedCutter {
+        let Some(known) = known else { return next };
+        if !known.is_same(&next) {
+            let message: &'static Message =
+                if number.is_some() { &say::TOOL_STATED_TWICE } else { &say::CURRENT_TOOL_STATED_TWICE };
+            self.problems.add_at_line(message, next.line.max(known.line), |d| {
+                let d = d.with("number", u64::from(number.unwrap_or(0)));
+                d.with("one", known.diameter).with("other", next.diameter)
+            });
+        }
+        known.with(&next)
+    }
+}
+
+/// One tool, with its diameter in the unit of the program.
+fn tool(scope: Scope, diameter: f64, tip: Tip, unit: StatedUnit) -> Statement {
+    Statement { tool: Some(StatedTool { scope, diameter, tip, unit }), ..Statement::default() }
+}
+
+fn pathbuild(comment: &str) -> Option<Statement> {
+    let provenance: Provenance = comment.parse().ok()?;
+    let flat = |diameter| tool(Scope::Program, diameter, Tip::Flat, StatedUnit::Millimetre);
+    let stated = provenance.cutter.map_or_else(Statement::default, flat);
+    Some(Statement { surface: provenance.thickness, ..stated })
+}
+
+fn fusion(comment: &str) -> Option<Statement> {
+    let mut parts = comment.split(" - ").map(str::trim);
+    let mut words = parts.next()?.split_whitespace();
+    let number = words.next()?.strip_prefix(['T', 't'])?.parse().ok()?;
+    let mut field = words.next()?;
+    if field.starts_with("ID=") {
+        field = words.next()?;
+    }
+    let diameter = positive(field.strip_prefix("D=")?)?;
+    let radius = not_negative(words.next()?.strip_prefix("CR=")?)?;
+    let is_tapered = words.any(|word| word.starts_with("TAPER="));
+    let kind = parts.find(|part| !part.starts_with("ZMIN=")).unwrap_or_default().to_ascii_lowercase();
+    // V-bits also have CR=0: only the name of the type tells that a tool is flat.
+    let tip = match &*kind {
+        "flat end mill" if radius == 0.0 && !is_tapered => Tip::Flat,
+        "bullnose end mill" | "bull nose end mill" if !is_tapered => Tip::BullNose(radius),
+        _ => Tip::Unknown,
+    };
+    Some(tool(Scope::Number(number), diameter, tip, StatedUnit::OfProgram))
+}
+
+fn cut_viewer_tool(comment: &str) -> Option<Statement> {
+    let fields = numbers(after_key(comment, "TOOL/MILL")?)?;
+    let diameter = fields.first().copied().filter(|diameter| *diameter > 0.0)?;
+    // Carbide Create describes a V-bit by the width of its point and a taper angle.
+    let tip = match (fields.get(1), fields.get(3)) {
+        (Some(0.0), Some(0.0)) => Tip::Flat,
+        (Some(radius), Some(0.0)) if *radius > 0.0 => Tip::BullNose(*radius),
+        _ => Tip::Unknown,
+    };
+    Some(tool(Scope::Following, diameter, tip, StatedUnit::OfProgram))
+}
+
+/// The origin is the position of program zero, measured from the lower corner of the block. Without it, nothing is known.
+fn cut_viewer_stock(comment: &str) -> Option<Statement> {
+    let fields: [f64; 6] = numbers(after_key(comment, "STOCK/BLOCK")?)?.try_into().ok()?;
+    let (size, origin) = ([fields[0], fields[1], fields[2]], [fields[3], fields[4], fields[5]]);
+    if size.iter().any(|side| *side <= 0.0) {
+        return None;
+    }
+    let low = origin.map(|offset| 0.0 - offset);
+    let high = [low[0] + size[0], low[1] + size[1], low[2] + size[2]];
+    let stock = StatedStock { low: Some(low), high: Some(high), unit: StatedUnit::OfProgram };
+    Some(Statement { stock: Some(stock), ..Statement::default() })
+}
+
+fn carbide_create(comment: &str) -> Option<Statement> {
+    let (key, fields) = comment.split_once(':')?;
+    let unit = if fields.ends_with("mm") { StatedUnit::Millimetre } else { StatedUnit::Inch };
+    let suffix = if unit == StatedUnit::Inch { "in" } else { "mm" };
+    let coordinate = |field: &str| number(field.trim().strip_suffix(suffix)?);
+    let corner: Vec<f64> = fields.split(',').map(coordinate).collect::<Option<_>>()?;
+    let corner = Some(corner.try_into().ok()?);
+    let stock = match key {
+        "stockMin" => StatedStock { low: corner, high: None, unit },
+        "stockMax" => StatedStock { low: None, high: corner, unit },
+        _ => return None,
+    };
+    Some(Statement { stock: Some(stock), ..Statement::default() })
+}
+
+fn vcarve(comment: &str) -> Option<Statement> {
+    let (number, description) = comment.split_once(" = ")?;
+    let (name, size) = description.trim().strip_suffix('}')?.split_once('{')?;
+    let (diameter, unit) = size.trim().split_once(' ')?;
+    let tip = match name.trim() {
+        "End Mill" => Tip::Flat,
+        "Ball Nose" | "Engrave" | "Form Tool" | "Drill" | "Tapered Ball Nose" => Tip::Unknown,
+        _ => return None,
+    };
+    // The size of a V-bit is an angle in degrees.
+    Some(tool(Scope::Number(number.trim().parse().ok()?), positive(diameter)?, tip, unit_named(unit)?))
+}
+
+/// Users may rename a tool, so its name does not prove that it is flat.
+fn freecad_label(comment: &str) -> Option<Statement> {
+    let (size, _) = comment.strip_prefix("TC: ")?.split_once(' ')?;
+    let diameter = positive(size.strip_suffix("mm")?)?;
+    Some(tool(Scope::Following, diameter, Tip::Unknown, StatedUnit::Millimetre))
+}
+
+fn freecad_diameter(comment: &str) -> Option<Statement> {
+    let diameter = comment.strip_prefix("Compensated Tool Path. Diameter: ")?;
+    let diameter = positive(diameter.trim_end_matches("mm"))?;
+    Some(tool(Scope::Following, diameter, Tip::Unknown, StatedUnit::Millimetre))
+}
+
+fn freecad_change(comment: &str) -> Option<Statement> {
+    let number = not_negative(comment.strip_prefix("M6 T")?)?;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number in range")]
+    let change = (number.fract() == 0.0 && number <= f64::from(u32::MAX)).then_some(number as u32)?;
+    Some(Statement { change: Some(change), ..Statement::default() })
+}
+
+fn kiri_moto(comment: &str) -> Option<Statement> {
+    let mut fields = comment.split_whitespace();
+    let number = fields.next()?.strip_prefix("tool#=")?.parse().ok()?;
+    let diameter = positive(fields.next()?.strip_prefix("flute=")?)?;
+    let unit = match fields.find_map(|field| field.strip_prefix("unit="))? {
+        "metric" => StatedUnit::Millimetre,
+        "imperial" => StatedUnit::Inch,
+        _ => return None,
+    };
+    Some(tool(Scope::Number(number), diameter, Tip::Unknown, unit))
+}
+
+/// The size of a cutter for outlines or for isolation; the latter is often pointed.
+fn pcb2gcode(comment: &str) -> Option<Statement> {
+    let text = comment.strip_prefix("MSG, Change tool bit to ")?;
+    let size = text.strip_prefix("cutter diameter ").or_else(|| text.strip_prefix("mill diameter "))?;
+    let (diameter, unit) = size.split_at(size.find(|letter: char| letter.is_ascii_alphabetic())?);
+    Some(tool(Scope::Following, positive(diameter)?, Tip::Unknown, unit_named(unit)?))
+}
+
+/// The diameter is 0 where the user specified none.
+fn cambam(comment: &str) -> Option<Statement> {
+    let (number, diameter) = comment.strip_prefix('T')?.split_once(" : ")?;
+    let scope = Scope::Number(number.trim().parse().ok()?);
+    Some(tool(scope, positive(diameter)?, Tip::Unknown, StatedUnit::OfProgram))
+}
+
+/// The text after a key and its comma; the case of the key does not matter.
+fn after_key<'c>(comment: &'c str, key: &str) -> Option<&'c str> {
+    let (found, fields) = comment.split_once(',')?;
+    found.trim().eq_ignore_ascii_case(key).then_some(fields)
+}
+
+/// All numbers of a list with commas; `None` if a field is not a number.
+fn numbers(fields: &str) -> Option<Vec<f64>> {
+    fields.split(',').map(number).collect()
+}
+
+fn number(text: &str) -> Option<f64> {
+    text.trim().parse::<f64>().ok().filter(|number| number.is_finite())
+}
+
+fn positive(text: &str) -> Option<f64> {
+    number(text).filter(|number| *number > 0.0)
+}
+
+fn not_negative(text: &str) -> Option<f64> {
+    number(text).filter(|number| *number >= 0.0)
+}
+
+fn unit_named(text: &str) -> Option<StatedUnit> {
+    match text.trim() {
+        "mm" => Some(StatedUnit::Millimetre),
+        "in" | "inch" | "inches" => Some(StatedUnit::Inch),
+        _ => None,
+    }
+}

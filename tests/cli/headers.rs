@@ -1,0 +1,114 @@
+//! What `verify` takes from the comments of programs that other CAMs wrote. (book: program/reading)
+//!
+//! All programs here are written to the form of the CAM that is named, not copied.
+
+use crate::support::{Place, Run, runs};
+use insta::assert_snapshot;
+
+/// Two slots, 20 mm apart, with the given move between them.
+fn slots(head: &str, between: &str) -> String {
+    format!(
+        "{head}S12000 M3\nG54\nG0 Z15\nG0 X0 Y0\nG0 Z5\nG1 Z-2 F200\nG1 X20 F600\n{between}\nG1 Z-2 F200\nG1 X0 F600\nG0 Z5\nM5\nM30\n"
+    )
+}
+
+const OVER: &str = "G0 Z5\nG0 Y20\nG0 Z1";
+const THROUGH: &str = "G0 Y20";
+
+fn fusion(kind: &str) -> String {
+    format!("(bracket)\n(T1 D=6 CR=0 - ZMIN=-2 - {kind})\nG90 G94 G17\nG21\nG53 G0 Z0\nT1 M6\n")
+}
+
+const CARBIDE_CREATE: &str = "(stockMin:0.00mm, 0.00mm, -6.00mm)\n(stockMax:100.00mm, 100.00mm, 0.00mm)\n(STOCK/BLOCK,100.00, 100.00, 6.00,0.00, 0.00, 6.00)\nG90\nG21\nG53G0Z-5.000\n(TOOL/MILL,3.17, 0.00, 12.70, 0.00)\nM6T102\n";
+
+const FREECAD: &str = "(Exported by FreeCAD)\n(Post Processor: grbl_post)\nG17 G90\nG21\n(TC: 6mm Endmill)\n( M6 T3.0 )\n(Compensated Tool Path. Diameter: 6.0)\n";
+
+/// The codes that a program of this text has, in the order of lines.
+fn codes(text: &str, options: &str) -> Vec<String> {
+    let place = Place::new().file("a.nc", text);
+    codes_of(&place.run(&format!("verify a.nc --dialect linuxcnc --format concise {options}")))
+}
+
+fn codes_of(run: &Run) -> Vec<String> {
+    let code = |line: &str| {
+        line.split(|c: char| !c.is_ascii_alphanumeric()).find(|word| is_code(word)).map(String::from)
+    };
+    run.stdout.lines().chain(run.stderr.lines()).filter_map(code).collect()
+}
+
+fn is_code(word: &str) -> bool {
+    word.strip_prefix("PB")
+        .is_some_and(|digits| digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+#[test]
+fn the_cutter_of_the_header_is_that_of_the_check() {
+    let heads = [
+        fusion("flat end mill"),
+        fusion("ball end mill"),
+        "(1 = End Mill {6 mm})\nG21\nG90\nT1 M6\n".into(),
+        "(Made using CamBam - http://www.cambam.co.uk)\nG21 G90\n( T1 : 6.0 )\nT1 M6\n".into(),
+        "; tool#=1 flute=6 len=20 unit=metric\nG21\nG90\nM6 T1\n".into(),
+        "G21 G90\nT1\n(MSG, Change tool bit to cutter diameter 6.00000mm)\nM6\n".into(),
+        FREECAD.into(),
+    ];
+    for head in heads {
+        assert_eq!(codes(&slots(&head, OVER), "--surface 0"), [""; 0], "{head}");
+        assert!(codes(&slots(&head, THROUGH), "--surface 0").contains(&"PB740".into()), "{head}");
+    }
+}
+
+#[test]
+fn a_stock_block_gives_the_surface() {
+    assert_eq!(codes(&slots(CARBIDE_CREATE, OVER), ""), [""; 0]);
+    assert_eq!(codes(&slots(CARBIDE_CREATE, THROUGH), ""), ["PB740"]);
+    // A rapid move down into the stock, which begins at Z 0.
+    assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z0"), ""), [""; 0]);
+    assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z-0.1"), ""), ["PB741"]);
+}
+
+#[test]
+fn a_drill_fits_into_its_own_hole() {
+    let drill = "(T1 D=5 CR=0 TAPER=118deg - ZMIN=-6 - drill)\nG90\nG21\nT1 M6\nS9000 M3\nG54\nG0 Z15\nG0 X0 Y0\nG0 Z5\nG1 Z-2 F90\nG0 Z2\nG0 Z-1.5\nG1 Z-6\nG0 Z5\n";
+    assert_eq!(codes(&format!("{drill}M5\nM30\n"), "--surface 0"), [""; 0]);
+    assert_eq!(codes(&format!("{drill}G0 X2\nG0 Z-1\nG0 Z5\nM5\nM30\n"), "--surface 0"), ["PB741"]);
+}
+
+#[test]
+fn where_sources_disagree_the_smaller_removes_and_the_larger_collides() {
+    // A second slot beside the first one, and a rapid move back into the first one.
+    let beside = |y: &str| {
+        let moves = format!("G0 Z5\nG0 Y{y}\nG0 Z-2\nG0 X0\nG0 Z5\nG0 Y0\nG0 X20\nG0 Z0");
+        slots(&fusion("flat end mill"), &moves)
+    };
+    // As wide as the header says, and as `--cutter` says.
+    assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6"), [""; 0]);
+    assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6.01"), [""; 0]);
+    assert_eq!(codes(&beside("0"), "--surface 0 --cutter 6.02"), ["PB777"]);
+    for cutter in [3, 9] {
+        let found = codes(&beside("0"), &format!("--surface 0 --cutter {cutter}"));
+        assert!(found.contains(&"PB741".into()) && found.contains(&"PB777".into()), "{cutter}: {found:?}");
+    }
+}
+
+#[test]
+fn disagreements_are_told() {
+    let place = Place::new()
+        .file("pathbuild.toml", "[tool.8mm]\nnumber = 1\ndiameter = 8\n")
+        .file("a.nc", slots(&fusion("flat end mill"), OVER))
+        .file(
+            "b.nc",
+            slots(
+                &fusion("flat end mill").replace("(bracket)", "(T1 D=3 CR=0 - ZMIN=-5 - flat end mill)"),
+                OVER,
+            ),
+        );
+    assert_snapshot!(runs(
+        &place,
+        [
+            "verify a.nc --dialect linuxcnc --surface 0",
+            "verify a.nc --dialect linuxcnc --surface 0 --cutter 6 --lang de",
+            "verify b.nc --dialect linuxcnc --surface 0 --lang de",
+        ]
+    ));
+}
