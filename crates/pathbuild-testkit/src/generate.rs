@@ -1,7 +1,7 @@
 //! Plans and generates realistic libraries of drawings for benchmarks and property tests: any number of components, projects that embed them, fixture
 //! projects and variable projects. All of them compile without errors, and the same seed gives the same bytes.
 
-use crate::draw::model::{Entity, LineEnds, Point, Shape, Version, bulged};
+use crate::draw::model::{Entity, LineEnds, Point, Polyline, PolylineKind, Shape, Version, Vertex, bulged};
 use crate::draw::{Draft, Sheet};
 use crate::furniture::finish;
 use crate::random::Random;
@@ -66,7 +66,9 @@ impl Library {
     pub fn configuration(&self) -> String {
         let names: Vec<String> = self.directories().iter().map(|name| format!("{name:?}")).collect();
         let names = names.join(", ");
-        format!("feed = 200\nrapid = 1000\nsweep-height = 40\nlibrary = [{names}]\nsearch = [{names}]\n")
+        format!(
+            "feed = 200\nrapid = 1000\nsweep-height = 40\npart = 'Part'\nlibrary = [{names}]\nsearch = [{names}]\n"
+        )
     }
 }
 
@@ -84,11 +86,13 @@ fn component_drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     let paths = plan.paths(index);
     let mut draft = Draft::new();
     let furniture = options(&mut draft, &mut random);
-    let features = if paths.len() == 1 { 4 + random.below(4) } else { 5 - paths.len() };
+    // Besides the plate.
+    let features = if paths.len() == 1 { 3 + random.below(4) } else { 4 - paths.len() };
     for (row, path) in paths.iter().enumerate() {
         let origin = ORIGIN + Point::new(0.0, ROW * row as f64);
         draft.layer(&layer(&path.name, &mut random));
         draft.extend(draw_path(path, origin, features, &mut random));
+        draft.layer("Part").add(plate_outline(path.signature.cutter, origin + field(features)));
         proxy_line(&mut draft, path, origin);
     }
     (plan.file(index), finished(draft, furniture))
@@ -133,17 +137,21 @@ fn embedding_text(path: &PathPlan, value: &str) -> String {
     format!(">{} T{t} O{o} {m}{variable}", path.name)
 }
 
+/// The place of a feature's field. Consecutive rows run in opposite directions.
+fn field(feature: usize) -> Point {
+    let (row, column) = (feature / FIELDS_IN_ROW, feature % FIELDS_IN_ROW);
+    let column = if row.is_multiple_of(2) { column } else { FIELDS_IN_ROW - 1 - column };
+    Point::new(FIELD.x * column as f64, 16.0 + FIELD.y * row as f64)
+}
+
 /// Draws a path: features in rows above the line from start to end, with sweeps between them.
 fn draw_path(path: &PathPlan, start: Point, features: usize, random: &mut Random) -> Vec<Entity> {
     let tool = Tool::of(path, random);
     let mut pen = Pen::new(random, start, &tool.start_text(path));
     for feature in 0..features {
-        let (row, column) = (feature / FIELDS_IN_ROW, feature % FIELDS_IN_ROW);
-        // Consecutive rows run in opposite directions.
-        let column = if row % 2 == 0 { column } else { FIELDS_IN_ROW - 1 - column };
-        let field = Point::new(FIELD.x * column as f64, 16.0 + FIELD.y * row as f64);
-        draw_feature(&mut pen, &tool, start + field);
+        draw_feature(&mut pen, &tool, start + field(feature));
     }
+    plate(&mut pen, &tool, start + field(features));
     let end = start + path.signature.chord;
     pen.sweep(end, tool.thickness);
     pen.end(end)
@@ -277,7 +285,7 @@ fn project(
 
 /// Draws a subpath segment with the length of the path from the current point, in a random direction.
 fn embed(pen: &mut Pen<'_>, text: &str, signature: Signature) {
-    let turn = pen.random.pick(&[0.0, 15.0, 30.0, 45.0, -30.0]);
+    let turn = pen.random.pick(&[0.0, 5.0, 10.0, 15.0, -10.0]);
     let length = Point::default().distance(signature.chord);
     let to = pen.at.polar(length, turn);
     pen.add(Entity::line(pen.at, to).typed("DASHDOT").note(text));
@@ -498,6 +506,34 @@ fn bars(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
     pen.line(corner(field, length, 0.0), "BORDER", &text);
     pen.line(corner(field, length, 15.0), "CENTER", &text);
 }
+
+/// Draws the contour of a rectangular plate with support bars. Its outline, on a layer of its own, comes from [`plate_outline`].
+fn plate(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
+    let [left, low, right, high] = PLATE;
+    pen.sweep(corner(field, left, low), tool.thickness);
+    let text = format!("B0 D{} P2 U{}", tool.mark(), comma(tool.cutter + 3.0));
+    for (x, y) in [(right, low), (right, high), (left, high), (left, low)] {
+        pen.line(corner(field, x, y), "BORDER", &text);
+    }
+}
+
+/// The outline of the plate whose contour [`plate`] draws, half of O inside it.
+fn plate_outline(cutter: f64, field: Point) -> Entity {
+    let [left, low, right, high] = PLATE;
+    let inset = cutter / 2.0;
+    let corners = [
+        (left + inset, low + inset),
+        (right - inset, low + inset),
+        (right - inset, high - inset),
+        (left + inset, high - inset),
+    ];
+    let vertices = corners.map(|(x, y)| Vertex { point: corner(field, x, y), bulge: 0.0 });
+    let outline = Polyline { kind: PolylineKind::Light, vertices: vertices.into(), closed: true };
+    Entity::new(Shape::Polyline(outline))
+}
+
+/// The left, lower, right and upper edges of a plate's contour in its field.
+const PLATE: [f64; 4] = [2.0, 1.0, 28.0, 17.0];
 
 /// Draws marks, some of them on a layer with a suffix.
 fn marks(pen: &mut Pen<'_>, tool: &Tool, field: Point) {
