@@ -1,5 +1,5 @@
 //! The example library: its drawings, including all furniture, are generated from their text form, and the README's first command works on
-//! them. `PATHBUILD_UPDATE=1 cargo test --test library` regenerates them.
+//! them. `PATHBUILD_UPDATE=1 cargo test --locked --test library` regenerates them.
 
 use std::fs;
 use std::path::{Path, PathBuf};

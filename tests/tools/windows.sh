@@ -11,7 +11,7 @@ cd "$(dirname "$0")/../.."
 trap 'wineserver -k' EXIT
 export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine INSTA_WORKSPACE_ROOT=$PWD INSTA_UPDATE=no RUST_BACKTRACE=0
 # Wine has neither git nor cargo. Random libraries, kills and the book ask nothing of Windows that others do not, and take long.
-skipped=(since:: diff::revisions german::refusals_of_git licences:: agreement:: kills:: book:: machines::)
+skipped=(since:: diff::revisions german::refusals_of_git dependencies:: agreement:: kills:: book:: machines::)
 run() {
   cargo test --quiet --no-fail-fast --target x86_64-pc-windows-gnu --package pathbuild --package pathbuild-db \
     --package pathbuild-cache --package pathbuild-files --package pathbuild-workspace --tests -- "${skipped[@]/#/--skip=}" "$@" </dev/null

@@ -38,7 +38,7 @@ fn an_example_says_which_diagnostic_it_gives() {
             let said = code.page(lang).contains(&format!("\n- {code}"));
             assert!(
                 said,
-                "{code} is not said in {lang:?}: PATHBUILD_UPDATE=1 cargo test --test cli book::examples"
+                "{code} is not said in {lang:?}: PATHBUILD_UPDATE=1 cargo test --locked --test cli book::examples"
             );
         }
     }

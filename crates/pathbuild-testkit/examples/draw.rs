@@ -1,4 +1,4 @@
-//! Turns a drawing in text form into DXF: `cargo run -p pathbuild-testkit --example draw -- FILE.draw > FILE.dxf`
+//! Turns a drawing in text form into DXF: `cargo run --locked -p pathbuild-testkit --example draw -- FILE.draw > FILE.dxf`
 
 use std::error::Error;
 use std::io::Write as _;

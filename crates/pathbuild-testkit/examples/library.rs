@@ -1,4 +1,4 @@
-//! Writes a library of drawings: `cargo run --release -p pathbuild-testkit --example library -- DIRECTORY COMPONENTS [SEED]`
+//! Writes a library of drawings: `cargo run --locked --release -p pathbuild-testkit --example library -- DIRECTORY COMPONENTS [SEED]`
 
 use std::error::Error;
 use std::path::Path;

@@ -72,7 +72,7 @@ fn all_pages() -> Vec<Page> {
 }
 
 /// The names of the files below a directory, with `/` as the separator.
-fn files_below(directory: &Path) -> BTreeSet<String> {
+pub(crate) fn files_below(directory: &Path) -> BTreeSet<String> {
     let mut files = BTreeSet::new();
     for entry in fs::read_dir(directory).into_iter().flatten() {
         let path = entry.unwrap().path();
