@@ -1,6 +1,7 @@
 //! Files, of the operating system or in memory. Queries see them through a single trait, so that tests run in memory and all files that a
 //! result depends on are known; [`private`] files belong to the program itself.
 
+mod based;
 mod confined;
 mod memory;
 // The WebAssembly build has no operating system, only the files it is given.
@@ -10,6 +11,7 @@ pub mod private;
 mod replace;
 mod spelling;
 mod stamp;
+pub use based::BasedSystem;
 pub use confined::ConfinedSystem;
 pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]

@@ -1,0 +1,159 @@
+//! What is wrong with a drawing, and why a request has no result.
+
+use std::fmt;
+use std::ops::Range;
+
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Lang};
+use pathbuild_workspace::Workspace;
+
+/// An error or a warning, with its place. (book: reference/diagnostics)
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    diagnostic: Diagnostic,
+}
+
+/// A place where a project embeds a path.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Embedding {
+    /// The drawing that embeds it.
+    pub file: String,
+    /// The path of that drawing that embeds it.
+    pub path: String,
+    /// Where, in the drawing, in mm.
+    pub position: [f64; 2],
+}
+
+impl Finding {
+    /// The code, for example `PB107`; `pathbuild explain PB107` explains it.
+    pub fn code(&self) -> String {
+        self.diagnostic.code().to_string()
+    }
+
+    /// The readable name of the code, for example `unknown-letter`.
+    pub fn name(&self) -> &str {
+        self.diagnostic.code().name()
+    }
+
+    /// Whether it is an error; otherwise it is a warning. The configuration can change that for a code.
+    pub fn is_error(&self) -> bool {
+        self.diagnostic.is_error()
+    }
+
+    /// What is wrong.
+    pub fn message(&self, lang: Lang) -> String {
+        self.diagnostic.text(lang)
+    }
+
+    /// What to do about it.
+    pub fn help(&self, lang: Lang) -> Option<String> {
+        self.diagnostic.help(lang)
+    }
+
+    /// Further facts, for example where else a name is defined.
+    pub fn notes(&self, lang: Lang) -> Vec<String> {
+        self.diagnostic.notes.iter().map(|note| note.text(lang)).collect()
+    }
+
+    /// The file, relative to the directory of the library.
+    pub fn file(&self) -> Option<&str> {
+        self.diagnostic.file.as_ref().map(|file| file.as_str())
+    }
+
+    /// The path.
+    pub fn path(&self) -> Option<&str> {
+        self.diagnostic.path.as_deref()
+    }
+
+    /// The line in the file, counted from 1.
+    pub fn line(&self) -> Option<u32> {
+        self.diagnostic.place.line
+    }
+
+    /// The layer, as the drawing spells it.
+    pub fn layer(&self) -> Option<&str> {
+        self.diagnostic.place.layer.as_deref()
+    }
+
+    /// The handle of the element in the drawing, in hexadecimal digits.
+    pub fn handle(&self) -> Option<String> {
+        self.diagnostic.place.handle.map(|handle| handle.to_string())
+    }
+
+    /// The type of the element, for example `LINE`.
+    pub fn entity(&self) -> Option<&str> {
+        self.diagnostic.place.entity.map(EntityKind::name)
+    }
+
+    /// The point in the drawing, in mm.
+    pub fn position(&self) -> Option<[f64; 2]> {
+        self.diagnostic.place.point.map(|point| [point.x.0, point.y.0])
+    }
+
+    /// The text with the fault; an excerpt if it is long.
+    pub fn text(&self) -> Option<&str> {
+        self.diagnostic.text.as_ref().map(|fault| &*fault.text)
+    }
+
+    /// The faulty bytes of [`text`](Self::text).
+    pub fn span(&self) -> Option<Range<usize>> {
+        self.diagnostic.text.as_ref().map(pathbuild_diagnostic::TextFault::span)
+    }
+
+    /// The projects through which the path was reached, outermost first.
+    pub fn trace(&self) -> Vec<Embedding> {
+        let embedding = |step: &pathbuild_diagnostic::TraceStep| Embedding {
+            file: step.file.to_string(),
+            path: step.path.to_string(),
+            position: [step.point.x.0, step.point.y.0],
+        };
+        self.diagnostic.trace.iter().map(embedding).collect()
+    }
+
+    /// The findings of a run: by configured severities, sorted, each once.
+    pub(crate) fn all(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
+        let found = workspace.findings(diagnostics).diagnostics;
+        found.into_iter().map(|diagnostic| Self { diagnostic }).collect()
+    }
+}
+
+/// The message in English, behind the code.
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.code(), self.message(Lang::En))
+    }
+}
+
+/// Why a request has no result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The configuration, or what the request is about, has these errors. There may be warnings among them.
+    Findings(Vec<Finding>),
+    /// The request makes no sense, for the reason given in the language of the library.
+    Refused(String),
+}
+
+impl Error {
+    pub(crate) fn found(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Self {
+        Self::Findings(Finding::all(workspace, diagnostics))
+    }
+
+    pub(crate) fn bug(diagnostic: Diagnostic) -> Self {
+        Self::Findings(vec![Finding { diagnostic }])
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refused(reason) => f.write_str(reason),
+            Self::Findings(found) => {
+                let lines: Vec<String> = found.iter().map(Finding::to_string).collect();
+                f.write_str(&lines.join("\n"))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}

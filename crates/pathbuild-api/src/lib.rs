@@ -1,0 +1,52 @@
+//! pathbuild as a library: checks drawings of milling paths and compiles them to G-code.
+//!
+//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It answers what the program answers: what is wrong
+//! with the drawings ([`check`](Library::check)), which paths there are ([`paths`](Library::paths)), what the tool does along one of them
+//! ([`path`](Library::path)), its G-code ([`program`](Library::program)), and it writes programs ([`emit`](Library::emit)). It does so
+//! whenever a drawing changes ([`watch`](Library::watch)).
+//!
+//! ```
+//! use pathbuild_api::{Error, Lang, Library};
+//!
+//! # fn main() -> Result<(), Error> {
+//! let library = Library::open("../../fixtures/library")?;
+//! for finding in library.check(&[])?.findings {
+//!     println!("{} {}", finding.code(), finding.message(Lang::En));
+//! }
+//! let path = library.path("8001.1P")?;
+//! let fastest = path.moves.iter().filter_map(|it| it.feed).fold(0.0, f64::max);
+//! println!("{}: {} moves, at most {fastest} mm/min", path.name, path.moves.len());
+//! # assert!(fastest > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. Names of files are relative to the directory that was opened.
+//! What the letters, lines and texts of a drawing mean stands in the book, which comes with pathbuild.
+//!
+//! A [`Finding`] is a result, like an error message of a compiler; [`Error`] says why a request has no result. Nothing here panics because
+//! of a drawing.
+//!
+//! Three programs in `examples/` show more: a report of feeds, moves as CSV, and a check of one's own.
+//!
+//! # Stability
+//!
+//! This is the only crate of pathbuild whose public items keep their meaning between versions; types that may grow are
+//! `#[non_exhaustive]`. `public-items.txt` lists them all. The crates below it change as they need to.
+
+mod finding;
+mod library;
+mod options;
+mod path;
+mod report;
+mod watch;
+
+pub use finding::{Embedding, Error, Finding};
+pub use library::Library;
+pub use options::{EmitOptions, LibraryOptions};
+pub use path::{Arc, Element, Move, MoveKind, Parameter, Path, Statistics};
+pub use pathbuild_diagnostic::Lang;
+pub use report::{
+    CheckReport, EmitReport, FileState, OutputFile, PathListing, PathSummary, ProgramState, ProgramText,
+};
+pub use watch::{WatchEnd, WatchReport};

@@ -1,0 +1,364 @@
+//! The library, and its thread.
+
+use std::path::Path as FilePath;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+use camino::Utf8Path;
+use pathbuild_db::{SourceFile, bug, catch_bugs, check_file, path_names};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
+use pathbuild_workspace::check::{self, CheckOutcome, InputsNotDirectories};
+use pathbuild_workspace::emit::{self, SceneReport, ShownText, State, Task};
+use pathbuild_workspace::list;
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::session::{NamedPaths, Session, several_paths};
+use pathbuild_workspace::{Inputs, Workspace, watch};
+
+use crate::options::Source;
+use crate::watch::{Reports, absolute};
+use crate::{
+    CheckReport, EmitOptions, EmitReport, Error, Finding, LibraryOptions, OutputFile, Path, PathListing,
+    PathSummary, ProgramText, WatchEnd, WatchReport,
+};
+
+/// A directory of drawings, opened with the configuration that applies there.
+///
+/// It can be shared between threads. It answers one request after the other, each on all cores, and keeps what it has found out: after an
+/// edit, only what depends on it is computed again. Tell it of edits by [`changed`](Self::changed).
+#[derive(Debug)]
+pub struct Library {
+    requests: Sender<Request>,
+}
+
+/// Work on the session, which sends its answer itself.
+type Request = Box<dyn FnOnce(&mut Session<'_>) + Send>;
+
+/// Bytes of the stack of the library's thread, as of a program's first thread.
+const STACK: usize = 8 << 20;
+
+impl Library {
+    /// Opens the library in a directory, without options: see [`LibraryOptions`].
+    ///
+    /// # Errors
+    /// If the configuration has errors.
+    pub fn open(directory: impl AsRef<FilePath>) -> Result<Self, Error> {
+        LibraryOptions::new().open(directory)
+    }
+
+    /// Checks drawings, paths and directories as `pathbuild check` does; without any, the whole library.
+    ///
+    /// # Errors
+    /// If an internal error occurs. What is wrong with the drawings is in the report.
+    pub fn check(&self, inputs: &[&str]) -> Result<CheckReport, Error> {
+        let inputs = owned(inputs);
+        self.ask(move |session| {
+            let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
+            // Only a request that is limited to changed drawings is refused.
+            let outcome = request.run(session).unwrap_or_else(|InputsNotDirectories| CheckOutcome::default());
+            Ok(CheckReport {
+                paths: outcome.files.iter().map(|file| file.paths.len()).sum(),
+                drawings: outcome.files.len(),
+                findings: Finding::all(session.workspace(), outcome.diagnostics),
+            })
+        })
+    }
+
+    /// Lists paths with their figures, as `pathbuild list` does. Inputs are drawings, directories, and patterns for names of paths; without
+    /// any, all paths of the library.
+    ///
+    /// # Errors
+    /// If a pattern is invalid.
+    pub fn paths(&self, inputs: &[&str]) -> Result<PathListing, Error> {
+        let inputs = owned(inputs);
+        self.ask(move |session| {
+            let post_processor = post_processor(session, None)?;
+            let request = list::Request { inputs: &inputs, post_processor: post_processor.as_ref() };
+            let listed = request.run(session).map_err(Error::Refused)?;
+            let workspace = session.workspace();
+            let paths = listed.paths.into_iter().map(|path| PathSummary::new(workspace, path));
+            Ok(PathListing {
+                paths: paths.collect(),
+                drawings: listed.drawings,
+                findings: Finding::all(workspace, listed.diagnostics),
+            })
+        })
+    }
+
+    /// A path with its elements, their parameters, and the moves of its program. It is named, or it is the only path of the drawing that is
+    /// named. A path with variables has example values.
+    ///
+    /// # Errors
+    /// If there is no such path. What is wrong with the path is in the result, which has no moves then.
+    pub fn path(&self, name: &str) -> Result<Path, Error> {
+        let name = name.to_owned();
+        self.ask(move |session| {
+            session.with_stable_files(|session| {
+                let (file, name) = named_path(session, &name)?;
+                path(session, file, name)
+            })
+        })
+    }
+
+    /// Like [`path`](Self::path), for the path of this name in a drawing. The name is spelt as in [`PathSummary::name`]; other drawings may
+    /// have a path of that name.
+    ///
+    /// # Errors
+    /// If the drawing has no such path.
+    pub fn path_in(&self, drawing: &str, name: &str) -> Result<Path, Error> {
+        let (drawing, name) = (drawing.to_owned(), name.to_owned());
+        self.ask(move |session| {
+            session.with_stable_files(|session| {
+                let (file, name) = path_in(session, &drawing, &name)?;
+                path(session, file, name)
+            })
+        })
+    }
+
+    /// What there is to see of a path, as JSON: what `pathbuild view -o FILE.json` writes. (book: program/pictures)
+    ///
+    /// # Errors
+    /// As [`path`](Self::path).
+    pub fn scene(&self, name: &str) -> Result<String, Error> {
+        let name = name.to_owned();
+        self.ask(move |session| {
+            session.with_stable_files(|session| {
+                let (file, name) = named_path(session, &name)?;
+                let drawing = file.path(session.db()).as_str();
+                Ok(scene(session, file, name)?.with_findings(session.workspace(), drawing).0.to_json())
+            })
+        })
+    }
+
+    /// The program of a path, as `pathbuild emit -o -` prints it.
+    ///
+    /// # Errors
+    /// If there is no such path, if it has errors, or if its program consists of several files because it has Z-probes.
+    pub fn program(&self, path: &str, options: &EmitOptions) -> Result<ProgramText, Error> {
+        let (inputs, options) = (owned(&[path]), options.clone());
+        self.ask(move |session| {
+            let emission = run_emit(session, &inputs, &options, Task::Print)?;
+            let mut files = emission.delivered.into_iter().flat_map(|outcome| outcome.files);
+            let found = emission.diagnostics;
+            match files.next() {
+                Some((file, State::Printed(text))) => Ok(ProgramText {
+                    file: file.into_string(),
+                    text,
+                    findings: Finding::all(session.workspace(), found),
+                }),
+                _ => Err(Error::found(session.workspace(), found)),
+            }
+        })
+    }
+
+    /// Writes the programs of drawings, paths and directories as `pathbuild emit` does; without any, of the paths that the configuration
+    /// names.
+    ///
+    /// # Errors
+    /// If the request makes no sense, for example because a needed setting is missing. What is wrong with the drawings is in the report.
+    pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
+        let (inputs, options) = (owned(inputs), options.clone());
+        let task = if options.compare {
+            Task::Compare { moves_only: false }
+        } else {
+            Task::Write { force: options.force }
+        };
+        self.ask(move |session| {
+            let emission = run_emit(session, &inputs, &options, task)?;
+            Ok(EmitReport {
+                files: emission.delivered.into_iter().flat_map(OutputFile::of).collect(),
+                findings: Finding::all(session.workspace(), emission.diagnostics),
+            })
+        })
+    }
+
+    /// Tells of a file that has changed, appeared or disappeared since it was last asked for. Its name is relative to the library's
+    /// directory, or absolute.
+    ///
+    /// # Errors
+    /// If an internal error occurs.
+    pub fn changed(&self, file: &str) -> Result<(), Error> {
+        let file = file.to_owned();
+        self.ask(move |session| {
+            let file = session.normal(Utf8Path::new(&file));
+            session.touch_file(&file);
+            session.touch_directory(file.parent().unwrap_or(Utf8Path::new("")));
+            Ok(())
+        })
+    }
+
+    /// Forgets what was found out, because files may have changed of which nothing is known.
+    ///
+    /// # Errors
+    /// If an internal error occurs.
+    pub fn refresh(&self) -> Result<(), Error> {
+        self.ask(|session| {
+            *session = new_session(session.workspace());
+            Ok(())
+        })
+    }
+
+    /// Checks the library, and again what depends on a drawing whenever it changes, until `seen` returns false. If the configuration names
+    /// no library, it is the directory. Nothing else is answered meanwhile. Only a library on disk can be watched.
+    ///
+    /// # Errors
+    /// If the system does not tell of changes.
+    pub fn watch(&self, seen: impl FnMut(WatchReport) -> bool + Send + 'static) -> Result<WatchEnd, Error> {
+        self.ask(move |session| {
+            let workspace = session.workspace();
+            let directory = (!session.has_library()).then_some(&workspace.working_directory);
+            let inputs = Inputs::places(directory);
+            let request = watch::Request { inputs: &inputs, emits: false, lists: false, polls: false };
+            let end = request.run(&absolute(workspace), &Reports::new(workspace, seen));
+            // What the session knew may be out of date.
+            *session = new_session(workspace);
+            match end {
+                watch::WatchEnd::Over => Ok(WatchEnd::Stopped),
+                watch::WatchEnd::ConfigurationChanged => Ok(WatchEnd::ConfigurationChanged),
+                watch::WatchEnd::DirectoriesChanged => Ok(WatchEnd::DirectoriesChanged),
+                watch::WatchEnd::BadPost(found) => Err(Error::found(workspace, found)),
+                watch::WatchEnd::CannotWatch(reason) => Err(Error::Refused(reason)),
+                watch::WatchEnd::NothingNamed | watch::WatchEnd::NoTargets => {
+                    let [en, de] = ["there is nothing to watch", "es gibt nichts zu überwachen"];
+                    Err(Error::Refused(workspace.choose(en, de).to_owned()))
+                }
+            }
+        })
+    }
+
+    /// Starts the thread on which the session lives: it borrows its workspace, and its database works for one thread at a time.
+    pub(crate) fn start(source: Source, options: LibraryOptions) -> Result<Self, Error> {
+        let (requests, waiting) = channel();
+        let (opened, answer) = channel();
+        let serve = move || serve(source, options, &opened, waiting);
+        let thread = thread::Builder::new().name("pathbuild".to_owned()).stack_size(STACK).spawn(serve);
+        thread.map_err(|error| Error::Refused(error.to_string()))?;
+        answer.recv().unwrap_or_else(|_| Err(gone()))?;
+        Ok(Self { requests })
+    }
+
+    /// The answer of some work on the session.
+    fn ask<R: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
+    ) -> Result<R, Error> {
+        let (answer, answered) = channel();
+        let request = move |session: &mut Session<'_>| {
+            let result = catch_bugs(|| work(session)).unwrap_or_else(|problem| Err(Error::bug(*problem)));
+            // Whoever asked waits for it.
+            _ = answer.send(result);
+        };
+        self.requests.send(Box::new(request)).map_err(|_| gone())?;
+        answered.recv().unwrap_or_else(|_| Err(gone()))
+    }
+}
+
+/// Opens the session and answers requests until the library is dropped.
+fn serve(
+    source: Source,
+    options: LibraryOptions,
+    opened: &Sender<Result<(), Error>>,
+    requests: Receiver<Request>,
+) {
+    let workspace = match options.workspace(source) {
+        Ok(workspace) => workspace,
+        Err(error) => {
+            _ = opened.send(Err(error));
+            return;
+        }
+    };
+    let mut session = new_session(&workspace);
+    _ = opened.send(Ok(()));
+    for request in requests {
+        request(&mut session);
+    }
+}
+
+/// A session that keeps results if the workspace does.
+fn new_session(workspace: &Workspace) -> Session<'_> {
+    if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
+}
+
+/// The error if the thread has ended, which only an internal error can cause.
+fn gone() -> Error {
+    Error::bug(bug("the library's thread has ended"))
+}
+
+fn owned(inputs: &[&str]) -> Inputs {
+    Inputs { inputs: inputs.iter().map(|input| (*input).to_owned()).collect() }
+}
+
+/// The post-processor that is named, or else configured; `None` for native programs.
+fn post_processor(session: &Session<'_>, named: Option<&str>) -> Result<Option<PostProcessor>, Error> {
+    let workspace = session.workspace();
+    PostProcessor::for_run(workspace, named, PostArguments::default())
+        .map_err(|found| Error::found(workspace, found))
+}
+
+/// The drawing and the name of a path; the name is that of the path, or of a drawing that holds no other.
+fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, PathName), Error> {
+    let workspace = session.workspace();
+    let found = |found| Error::found(workspace, found);
+    let named = session.named_paths(argument).map_err(found)?;
+    let Some(NamedPaths { file, names }) = named else {
+        let [en, de] = ["`{}` is a directory, not a path", "`{}` ist ein Verzeichnis, kein Pfad"];
+        return Err(Error::Refused(workspace.phrase(en, de, argument)));
+    };
+    let drawing = file.path(session.db());
+    match <[PathName; 1]>::try_from(names) {
+        Ok([name]) => Ok((file, name)),
+        Err(names) if names.is_empty() => {
+            let mut problems = check_file(session.db(), file).to_vec();
+            problems.extend(session.no_path(drawing, &names, &problems));
+            Err(found(problems))
+        }
+        Err(names) => Err(found(vec![several_paths(drawing, &names)])),
+    }
+}
+
+/// The path of this name in this drawing.
+fn path_in(session: &Session<'_>, drawing: &str, name: &str) -> Result<(SourceFile, PathName), Error> {
+    let file = session.file(Utf8Path::new(drawing));
+    if let Some(name) = path_names(session.db(), file).iter().find(|known| known.as_str() == name) {
+        return Ok((file, name.clone()));
+    }
+    let problems = check_file(session.db(), file);
+    if problems.iter().any(Diagnostic::is_error) {
+        return Err(Error::found(session.workspace(), problems.to_vec()));
+    }
+    let [en, de] = ["{} has no path of this name", "{} hat keinen Pfad dieses Namens"];
+    Err(Error::Refused(format!("{name}: {}", session.workspace().phrase(en, de, drawing))))
+}
+
+fn path(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<Path, Error> {
+    let report = scene(session, file, name)?;
+    let findings = Finding::all(session.workspace(), report.diagnostics);
+    match report.scene.paths.into_iter().next() {
+        Some(scene) => Ok(Path::new(scene, findings)),
+        None => Err(Error::Findings(findings)),
+    }
+}
+
+fn scene(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<SceneReport, Error> {
+    let post_processor = post_processor(session, None)?;
+    let report = session.scene(file, &[name], ShownText::Emitted(post_processor.as_ref()));
+    Ok(SceneReport { diagnostics: session.with_hints(report.diagnostics), ..report })
+}
+
+fn run_emit(
+    session: &mut Session<'_>,
+    inputs: &Inputs,
+    options: &EmitOptions,
+    task: Task,
+) -> Result<emit::Emission, Error> {
+    let post_processor = post_processor(session, options.post.as_deref())?;
+    let request = emit::Request {
+        inputs,
+        task,
+        post_processor: post_processor.as_ref(),
+        join: None,
+        deps: None,
+        removes_stale: false,
+    };
+    request.run(session).map_err(Error::Refused)
+}

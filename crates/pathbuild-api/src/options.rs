@@ -1,0 +1,214 @@
+//! How a library is opened, and how programs are written.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_db::system::{BasedSystem, MemorySystem, OsSystem, clean};
+use pathbuild_diagnostic::Lang;
+use pathbuild_workspace::config::sections::general::OPTIONS;
+use pathbuild_workspace::config::{self, GivenOptions, OptionValues, Overrides};
+use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
+
+use crate::{Error, Library};
+
+/// How a library is opened. Without options, it is opened as the program opens it, but without the cache and the user's own configuration.
+///
+/// ```
+/// # use pathbuild_api::{Error, LibraryOptions};
+/// # fn main() -> Result<(), Error> {
+/// let library = LibraryOptions::new().setting("rapid", "2000").threads(1).open("../../fixtures/library")?;
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct LibraryOptions {
+    config: Option<PathBuf>,
+    settings: Vec<(String, String)>,
+    untrusted: bool,
+    cache: Option<PathBuf>,
+    threads: Option<u16>,
+    lang: Option<Lang>,
+}
+
+/// How programs are written.
+#[derive(Clone, Debug, Default)]
+pub struct EmitOptions {
+    pub(crate) post: Option<String>,
+    pub(crate) compare: bool,
+    pub(crate) force: bool,
+}
+
+impl LibraryOptions {
+    /// Options that change nothing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes this configuration instead of the nearest `pathbuild.toml`.
+    pub fn config(mut self, file: impl Into<PathBuf>) -> Self {
+        self.config = Some(file.into());
+        self
+    }
+
+    /// Overrides a key of the configuration, by the name and in the words of the program's option: `setting("rapid", "2000")` is
+    /// `--rapid 2000`. The value of a switch is `"true"`. An option that may be repeated takes the values of all calls; of any other, the
+    /// last call counts. (book: reference/commands)
+    pub fn setting(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
+        self.settings.push((name.into(), value.into()));
+        self
+    }
+
+    /// Treats the directory as untrusted: nothing is read or written outside of its repository because of what is written in it.
+    pub fn untrusted(mut self) -> Self {
+        self.untrusted = true;
+        self
+    }
+
+    /// Keeps results in this directory, so that a later process need not find them again.
+    pub fn cache(mut self, directory: impl Into<PathBuf>) -> Self {
+        self.cache = Some(directory.into());
+        self
+    }
+
+    /// Works on this number of threads instead of one per core.
+    pub fn threads(mut self, threads: u16) -> Self {
+        self.threads = Some(threads);
+        self
+    }
+
+    /// The language of [`Error::Refused`] and of comments in programs, unless the configuration sets that of comments.
+    pub fn lang(mut self, lang: Lang) -> Self {
+        self.lang = Some(lang);
+        self
+    }
+
+    /// Opens the library in a directory.
+    ///
+    /// # Errors
+    /// If the configuration has errors, or if an option does.
+    pub fn open(self, directory: impl AsRef<Path>) -> Result<Library, Error> {
+        Library::start(Source::Directory(directory.as_ref().to_owned()), self)
+    }
+
+    /// Opens a library of files in memory, each with its name relative to the library's directory. A file named `pathbuild.toml` is its
+    /// configuration. Nothing is read from the disk, and programs are written to memory.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn open_files<N: Into<String>>(
+        self,
+        files: impl IntoIterator<Item = (N, Vec<u8>)>,
+    ) -> Result<Library, Error> {
+        let files = files.into_iter().map(|(name, bytes)| (name.into(), bytes)).collect();
+        Library::start(Source::Files(files), self)
+    }
+
+    /// The workspace with these options.
+    pub(crate) fn workspace(self, source: Source) -> Result<Workspace, Error> {
+        let settings = self.given()?;
+        let config = self.config.map(utf8).transpose()?;
+        let cache = self.cache.map(utf8).transpose()?.map(CacheHome::Named);
+        let (system, directory) = source.open()?;
+        let overrides = Overrides { settings, config, untrusted: self.untrusted, ..Overrides::default() };
+        let (settings, faults) = config::load(&system, &overrides, &Inputs::default(), &directory);
+        let system = match &settings.confined {
+            Some(confined) => Arc::new(confined.clone()),
+            None => system,
+        };
+        let workspace = Workspace {
+            settings,
+            system,
+            own_lang: self.lang,
+            system_lang: None,
+            working_directory: directory,
+            jobs: self.threads,
+            cache,
+            reporter: std::rc::Rc::new(SilentReporter),
+        };
+        if faults.is_empty() { Ok(workspace) } else { Err(Error::found(&workspace, faults)) }
+    }
+
+    /// The overridden keys.
+    fn given(&self) -> Result<GivenOptions, Error> {
+        let mut given: Vec<(&'static str, Vec<String>)> = Vec::new();
+        for (name, value) in &self.settings {
+            let option = OPTIONS.iter().find(|option| option.name == name);
+            let option = option.ok_or_else(|| Error::Refused(format!("there is no setting `{name}`")))?;
+            let values = match option.values {
+                OptionValues::Switch if value == "true" => Vec::new(),
+                OptionValues::Switch => {
+                    return Err(Error::Refused(format!("`{name}` is a switch: its only value is `true`")));
+                }
+                OptionValues::Texts(_) | OptionValues::Directories => {
+                    let earlier = given.iter().find(|(earlier, _)| *earlier == option.name);
+                    let earlier = earlier.map(|(_, values)| values.clone()).unwrap_or_default();
+                    [earlier, vec![value.clone()]].concat()
+                }
+                OptionValues::Text(_) | OptionValues::Directory => vec![value.clone()],
+            };
+            given.retain(|(earlier, _)| *earlier != option.name);
+            given.push((option.name, values));
+        }
+        Ok(given.into_iter().collect())
+    }
+}
+
+impl EmitOptions {
+    /// Options that change nothing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Writes through this post-processor: the name of a built-in one, a definition's file, or `native`. Without it, the configuration
+    /// decides.
+    pub fn post(mut self, post: impl Into<String>) -> Self {
+        self.post = Some(post.into());
+        self
+    }
+
+    /// Compares the files with those on disk instead of writing them.
+    pub fn compare(mut self) -> Self {
+        self.compare = true;
+        self
+    }
+
+    /// Overwrites measured values.
+    pub fn force(mut self) -> Self {
+        self.force = true;
+        self
+    }
+}
+
+/// Where the files of a library are.
+#[derive(Clone, Debug)]
+pub(crate) enum Source {
+    Directory(PathBuf),
+    Files(Vec<(String, Vec<u8>)>),
+}
+
+impl Source {
+    /// The files, and the directory that relative names start from.
+    fn open(self) -> Result<(Arc<dyn System>, Utf8PathBuf), Error> {
+        match self {
+            Self::Directory(directory) => {
+                let directory = std::path::absolute(&directory).unwrap_or(directory);
+                let directory = clean(&utf8(directory)?);
+                Ok((Arc::new(BasedSystem::new(OsSystem::shared(), directory.clone())), directory))
+            }
+            Self::Files(files) => {
+                let system = MemorySystem::default();
+                for (name, bytes) in files {
+                    system.put(clean(Utf8Path::new(&name)), bytes);
+                }
+                Ok((Arc::new(system), Utf8PathBuf::new()))
+            }
+        }
+    }
+}
+
+fn utf8(path: PathBuf) -> Result<Utf8PathBuf, Error> {
+    Utf8PathBuf::from_path_buf(path)
+        .map_err(|path| Error::Refused(format!("{}: the name is not UTF-8", path.display())))
+}

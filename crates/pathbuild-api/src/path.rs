@@ -1,0 +1,222 @@
+//! A path: what is drawn, and what the tool does.
+
+use pathbuild_motion::{Axes, MoveShape, Position};
+use pathbuild_view::{self as view, SceneMove, ScenePath};
+
+use crate::Finding;
+
+/// A path with everything that it embeds.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Path {
+    /// Its name, as the layer spells it.
+    pub name: String,
+    /// Its drawing.
+    pub file: String,
+    /// Material (M).
+    pub material: Option<String>,
+    /// Upper face of the material (T), in mm.
+    pub thickness: Option<f64>,
+    /// Cutter diameter (O), in mm.
+    pub tool: Option<f64>,
+    /// Sweep height (S), in mm.
+    pub sweep_height: Option<f64>,
+    /// Where the program's X0 Y0 lies in the drawing, in mm.
+    pub zero: [f64; 2],
+    /// What is drawn on the layers of the path and of those that it embeds.
+    pub elements: Vec<Element>,
+    /// The moves of the tool, in order. Empty if the path has errors.
+    pub moves: Vec<Move>,
+    /// Lengths and times; `None` if the path has errors.
+    pub statistics: Option<Statistics>,
+    /// What is wrong with the path, and with what it embeds.
+    pub findings: Vec<Finding>,
+}
+
+/// A drawn element, or a special circle. (book: language/elements)
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Element {
+    /// The path on whose layer it lies.
+    pub path: String,
+    /// The drawing of that path.
+    pub file: String,
+    /// Its type in the drawing, for example `LINE`.
+    pub entity: String,
+    /// Its layer.
+    pub layer: String,
+    /// Its handle in the drawing, in hexadecimal digits.
+    pub handle: Option<String>,
+    /// The line of the file at which it begins.
+    pub line: Option<u32>,
+    /// The parameters in force for it.
+    pub parameters: Vec<Parameter>,
+}
+
+/// A parameter in force for an element. (book: language/letters)
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Parameter {
+    /// Its letter.
+    pub letter: char,
+    /// Its value, as the drawing writes it, with variables replaced.
+    pub value: String,
+    /// Where it comes from: `own`, `chain`, `path`, `lender`, `option` or `default`.
+    pub source: String,
+}
+
+/// A move of the tool tip, in coordinates of the program.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Move {
+    /// What it is for.
+    pub kind: MoveKind,
+    /// Where it begins: x, y, z in mm; `None` where the program does not say.
+    pub from: [Option<f64>; 3],
+    /// Where it ends.
+    pub to: [Option<f64>; 3],
+    /// Its arc; `None` for a straight move.
+    pub arc: Option<Arc>,
+    /// The feed in mm/min; `None` for a rapid move.
+    pub feed: Option<f64>,
+    /// Its length in mm.
+    pub length: f64,
+    /// What it mills, as an index into [`Path::elements`].
+    pub element: Option<usize>,
+    /// Its line in the program, counted from 1.
+    pub line: Option<u32>,
+}
+
+/// What a move is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MoveKind {
+    /// A rapid move that is not straight up or down.
+    Sweep,
+    /// A rapid move straight up or down.
+    Lift,
+    /// A cut straight up or down.
+    Plunge,
+    /// A cut along an element.
+    Mill,
+    /// A cut along an element that is only marked.
+    Mark,
+    /// Until the probe makes contact.
+    Probe,
+}
+
+/// An arc in a plane; along the third axis it moves evenly (a helix).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Arc {
+    /// The axes of the plane: 0 for X, 1 for Y, 2 for Z.
+    pub axes: [usize; 2],
+    /// The centre along these axes, in mm.
+    pub centre: [f64; 2],
+    /// As seen from the positive end of the third axis.
+    pub clockwise: bool,
+    /// The angle it covers, in degrees.
+    pub degrees: f64,
+}
+
+/// Lengths in mm and time in minutes. (book: program/statistics)
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// Cuts along elements.
+    pub milling: f64,
+    /// Cuts straight up or down.
+    pub drilling: f64,
+    /// Rapid moves.
+    pub sweeps: f64,
+    /// Estimated working time, in whole minutes; `None` if the rapid feed is not set.
+    pub minutes: Option<f64>,
+}
+
+impl Path {
+    pub(crate) fn new(path: ScenePath, findings: Vec<Finding>) -> Self {
+        let element = |element: &view::Element| {
+            let owner = &path.embedded[element.path as usize];
+            Element {
+                path: owner.name.clone(),
+                file: owner.file.clone(),
+                entity: element.entity.to_owned(),
+                layer: element.layer.clone(),
+                handle: element.handle.clone(),
+                line: element.line,
+                parameters: element.parameters.iter().map(Parameter::new).collect(),
+            }
+        };
+        Self {
+            elements: path.elements.iter().map(element).collect(),
+            moves: path.moves.iter().map(Move::new).collect(),
+            statistics: path.totals.as_ref().map(Statistics::new),
+            name: path.name,
+            file: path.file,
+            material: path.material,
+            thickness: path.thickness,
+            tool: path.tool,
+            sweep_height: path.sweep_height,
+            zero: path.zero,
+            findings,
+        }
+    }
+}
+
+impl Parameter {
+    fn new(parameter: &view::Parameter) -> Self {
+        Self { letter: parameter.letter, value: parameter.value.clone(), source: parameter.from.to_owned() }
+    }
+}
+
+impl Move {
+    fn new(scene_move: &SceneMove) -> Self {
+        let SceneMove { kind, way, length, element, line } = scene_move;
+        let point =
+            |end: &Position| [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)).then_some(end.at[axis]));
+        let arc = match way.shape {
+            MoveShape::Line => None,
+            MoveShape::Arc(arc) => Some(Arc {
+                axes: arc.plane.axes(),
+                centre: arc.centre,
+                clockwise: arc.clockwise,
+                degrees: arc.sweep(&way.from, &way.to).to_degrees(),
+            }),
+        };
+        Self {
+            kind: MoveKind::new(*kind),
+            from: point(&way.from),
+            to: point(&way.to),
+            arc,
+            feed: way.pace.feed(),
+            length: *length,
+            element: element.map(|element| element as usize),
+            line: *line,
+        }
+    }
+}
+
+impl MoveKind {
+    fn new(kind: view::MoveKind) -> Self {
+        match kind {
+            view::MoveKind::Sweep => Self::Sweep,
+            view::MoveKind::Lift => Self::Lift,
+            view::MoveKind::Plunge => Self::Plunge,
+            view::MoveKind::Mill => Self::Mill,
+            view::MoveKind::Mark => Self::Mark,
+            view::MoveKind::Probe => Self::Probe,
+        }
+    }
+
+    /// Whether it removes material.
+    pub fn cuts(self) -> bool {
+        matches!(self, Self::Plunge | Self::Mill | Self::Mark)
+    }
+}
+
+impl Statistics {
+    fn new(totals: &view::Totals) -> Self {
+        let view::Totals { milling, drilling, sweeps, minutes } = *totals;
+        Self { milling, drilling, sweeps, minutes }
+    }
+}

@@ -1,0 +1,166 @@
+//! What requests about many paths answer.
+
+use pathbuild_workspace::Workspace;
+use pathbuild_workspace::emit::{ProgramOutcome, State};
+use pathbuild_workspace::list::{self, ListedPath};
+
+use crate::Finding;
+
+/// What was checked, and what was found.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CheckReport {
+    /// Errors and warnings, in the order of the program.
+    pub findings: Vec<Finding>,
+    /// Number of paths.
+    pub paths: usize,
+    /// Number of drawings.
+    pub drawings: usize,
+}
+
+/// Paths with their figures.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PathListing {
+    /// By drawing, then in the order of the file.
+    pub paths: Vec<PathSummary>,
+    /// Number of drawings that were searched.
+    pub drawings: usize,
+    /// What is wrong with directories, with drawings by themselves, and with the inputs.
+    pub findings: Vec<Finding>,
+}
+
+/// The figures of a path. Lengths are in mm.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PathSummary {
+    /// Its name, as the layer spells it.
+    pub name: String,
+    /// Its drawing.
+    pub file: String,
+    /// Material (M).
+    pub material: Option<String>,
+    /// Upper face of the material (T).
+    pub thickness: Option<f64>,
+    /// Cutter diameter (O).
+    pub tool: Option<f64>,
+    /// Lowest and highest x, y, z of the tool tip while it cuts.
+    pub cutting_box: [Option<(f64, f64)>; 3],
+    /// Length of all moves; `None` if there is no program.
+    pub length: Option<f64>,
+    /// Estimated working time in minutes; `None` if there is no program, or if the rapid feed is not set.
+    pub minutes: Option<f64>,
+    /// The program on disk.
+    pub program: ProgramState,
+    /// What is wrong with the path, and with what it embeds.
+    pub findings: Vec<Finding>,
+}
+
+/// The state of a path's program on disk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ProgramState {
+    /// There is none.
+    None,
+    /// It is what `emit` would write.
+    Current,
+    /// It differs from that.
+    Stale,
+    /// There is one, but the path has errors, so there is nothing to compare it with.
+    Unknown,
+}
+
+/// The text of a program.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ProgramText {
+    /// The file that `emit` writes.
+    pub file: String,
+    /// Its bytes, in the encoding and with the line ends that `emit` writes.
+    pub text: Vec<u8>,
+    /// Warnings about the path.
+    pub findings: Vec<Finding>,
+}
+
+/// What was written or compared, and what was found.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct EmitReport {
+    /// The files, in the order of the paths. A path with errors has none.
+    pub files: Vec<OutputFile>,
+    /// Errors and warnings, in the order of the program.
+    pub findings: Vec<Finding>,
+}
+
+/// A file that `emit` writes.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct OutputFile {
+    /// Its name.
+    pub file: String,
+    /// The path.
+    pub path: String,
+    /// What became of it.
+    pub state: FileState,
+    /// Length of the program in mm.
+    pub length: f64,
+    /// Estimated working time in minutes.
+    pub minutes: f64,
+}
+
+/// What became of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FileState {
+    /// It was written.
+    Written,
+    /// It was current already, and was not touched.
+    Unchanged,
+    /// Compared: it is current.
+    Current,
+    /// Compared: it is not.
+    Outdated,
+    /// Compared: it does not exist.
+    Missing,
+}
+
+impl PathSummary {
+    pub(crate) fn new(workspace: &Workspace, path: ListedPath) -> Self {
+        Self {
+            name: path.name.as_str().to_owned(),
+            file: path.drawing.into_string(),
+            material: path.material.map(Into::into),
+            thickness: path.thickness,
+            tool: path.tool,
+            cutting_box: path.cutting_box,
+            length: path.length,
+            minutes: path.minutes,
+            program: match path.program {
+                list::ProgramState::None => ProgramState::None,
+                list::ProgramState::Current => ProgramState::Current,
+                list::ProgramState::Stale => ProgramState::Stale,
+                list::ProgramState::Unknown => ProgramState::Unknown,
+            },
+            findings: Finding::all(workspace, path.diagnostics),
+        }
+    }
+}
+
+impl OutputFile {
+    pub(crate) fn of(outcome: ProgramOutcome) -> Vec<Self> {
+        let ProgramOutcome { path, files, length, minutes, .. } = outcome;
+        let file = |(file, state): (camino::Utf8PathBuf, State)| {
+            let state = match state {
+                State::Written => FileState::Written,
+                State::Unchanged => FileState::Unchanged,
+                State::Current => FileState::Current,
+                State::Outdated => FileState::Outdated,
+                State::Missing => FileState::Missing,
+                // A program that is printed is no file.
+                State::Printed(_) => return None,
+            };
+            Some(Self { file: file.into_string(), path: path.to_string(), state, length, minutes })
+        };
+        files.into_iter().filter_map(file).collect()
+    }
+}

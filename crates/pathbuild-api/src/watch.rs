@@ -1,0 +1,115 @@
+//! Watching a library.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
+use pathbuild_workspace::{SilentReporter, Workspace};
+
+use crate::Finding;
+
+/// What was found after some drawings changed; the first report is about the whole library.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct WatchReport {
+    /// The files that changed. Empty in the first report.
+    pub changed: Vec<String>,
+    /// Those of them that no longer exist.
+    pub removed: Vec<String>,
+    /// What was wrong before with the drawings that depend on them.
+    pub before: Vec<Finding>,
+    /// What is wrong with them now.
+    pub now: Vec<Finding>,
+}
+
+/// Why watching ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WatchEnd {
+    /// It was asked to.
+    Stopped,
+    /// The configuration, or a file of the post-processor, has changed: the library must be opened again.
+    ConfigurationChanged,
+    /// A watched directory was replaced, or has appeared or disappeared: watch again.
+    DirectoriesChanged,
+}
+
+/// The system watches directories relative to the working directory of the process, so everything is named absolutely while it does.
+pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
+    Workspace {
+        settings: workspace.settings.clone(),
+        system: Arc::clone(&workspace.system),
+        own_lang: workspace.own_lang,
+        system_lang: None,
+        working_directory: Utf8PathBuf::new(),
+        jobs: workspace.jobs,
+        cache: workspace.cache.clone(),
+        reporter: Rc::new(SilentReporter),
+    }
+}
+
+/// Passes reports on, until it is told to stop.
+pub(crate) struct Reports<'w, F> {
+    /// The workspace of the library, which names files relative to its directory.
+    workspace: &'w Workspace,
+    seen: RefCell<F>,
+    bell: RefCell<Option<Bell>>,
+}
+
+impl<'w, F: FnMut(WatchReport) -> bool> Reports<'w, F> {
+    pub(crate) fn new(workspace: &'w Workspace, seen: F) -> Self {
+        Self { workspace, seen: RefCell::new(seen), bell: RefCell::default() }
+    }
+
+    fn pass_on(&self, report: WatchReport) {
+        let goes_on = (self.seen.borrow_mut())(report);
+        if let Some(bell) = self.bell.borrow().as_ref().filter(|_| !goes_on) {
+            bell.end();
+        }
+    }
+
+    fn findings(&self, diagnostics: &[Diagnostic]) -> Vec<Finding> {
+        let mut diagnostics = diagnostics.to_vec();
+        for diagnostic in &mut diagnostics {
+            let files = diagnostic.trace.iter_mut().map(|step| &mut step.file);
+            files.chain(&mut diagnostic.file).for_each(|file| *file = self.relative(file));
+        }
+        Finding::all(self.workspace, diagnostics)
+    }
+
+    fn names(&self, files: &BTreeSet<Utf8PathBuf>) -> Vec<String> {
+        files.iter().map(|file| self.relative(file).into_string()).collect()
+    }
+
+    fn relative(&self, file: &Utf8Path) -> Utf8PathBuf {
+        file.strip_prefix(&self.workspace.working_directory).unwrap_or(file).to_owned()
+    }
+}
+
+impl<F: FnMut(WatchReport) -> bool> Listener for Reports<'_, F> {
+    fn set_bell(&self, bell: Bell) {
+        *self.bell.borrow_mut() = Some(bell);
+    }
+
+    fn first_check_done(&self, check: &FirstCheck) {
+        self.pass_on(WatchReport {
+            changed: Vec::new(),
+            removed: Vec::new(),
+            before: Vec::new(),
+            now: self.findings(&check.diagnostics),
+        });
+    }
+
+    fn batch_done(&self, update: &Update) {
+        self.pass_on(WatchReport {
+            changed: self.names(&update.changed),
+            removed: self.names(&update.removed),
+            before: self.findings(&update.before),
+            now: self.findings(&update.now),
+        });
+    }
+}
