@@ -33,7 +33,7 @@ pub struct Path {
     pub findings: Vec<Finding>,
 }
 
-/// A drawn element, or a special circle. (book: language/elements)
+/// A drawn element, or a special circle. (book: language/line-types)
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Element {
@@ -119,7 +119,7 @@ pub struct Arc {
     pub degrees: f64,
 }
 
-/// Lengths in mm and time in minutes. (book: program/statistics)
+/// Lengths in mm and time in minutes. (book: program/gcode)
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Statistics {
