@@ -1,10 +1,13 @@
-//! Systems that replace the operating system: files in memory, and an overlay.
+//! Systems that replace the operating system: files in memory, an overlay, and relative paths from a directory.
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up its files has failed")]
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use camino::Utf8Path;
-use pathbuild_files::{MemorySystem, OverlaySystem, ReadError, System};
+use pathbuild_files::{BasedSystem, Entry, FileKind, MemorySystem, OverlaySystem, ReadError, System};
+#[cfg(unix)]
+use pathbuild_files::{FileLink, OsSystem};
 
 const NEW: &str = "parts/1002.dxf";
 
@@ -42,4 +45,44 @@ fn a_drawing_that_is_not_written_yet_is_listed_once_where_it_will_lie() {
 fn there_are_systems_without_a_clock() {
     assert!(MemorySystem::without_clock().now().is_none());
     assert!(MemorySystem::default().now().is_some());
+}
+
+/// Each function takes a relative path from the directory, and an absolute one as it is.
+#[test]
+fn relative_paths_begin_at_a_directory() {
+    let below = Arc::new(MemorySystem::without_clock());
+    below.put("/library/parts/1001.dxf", "drawing");
+    below.put("/other/1002.dxf", "another");
+    let system = BasedSystem::new(below.clone(), "/library".into());
+    let (inside, outside) = (Utf8Path::new("parts/1001.dxf"), Utf8Path::new("/other/1002.dxf"));
+    assert_eq!(system.read(inside, 99).as_deref(), Ok(&b"drawing"[..]));
+    assert_eq!(system.read(outside, 99).as_deref(), Ok(&b"another"[..]));
+    assert_eq!(system.head(inside, 4).as_deref(), Ok(&b"draw"[..]));
+    assert_eq!(system.tail(inside, 3).as_deref(), Ok(&b"ing"[..]));
+    assert_eq!(system.kind(inside), FileKind::File);
+    assert_eq!(system.kind(Utf8Path::new("")), FileKind::Directory);
+    assert_eq!(names(&system, "parts"), ["1001.dxf"]);
+    let mut entries = Vec::new();
+    let each = &mut |entry: Entry<'_>| {
+        entries.push(entry.name.to_owned());
+        ControlFlow::Continue(())
+    };
+    system.each_entry(Utf8Path::new("parts"), each).unwrap();
+    assert_eq!(entries, ["1001.dxf"]);
+    assert_eq!(system.canonical(inside), below.canonical(Utf8Path::new("/library/parts/1001.dxf")));
+    assert!(system.now().is_none());
+    system.write(Utf8Path::new("parts/1003.dxf"), b"new").unwrap();
+    assert_eq!(names(&*below, "/library/parts"), ["1001.dxf", "1003.dxf"]);
+    system.remove(inside).unwrap();
+    assert_eq!(names(&*below, "/library/parts"), ["1003.dxf"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_found_from_a_directory() {
+    let directory = tempfile::TempDir::new().unwrap();
+    let root = Utf8Path::from_path(directory.path()).unwrap();
+    std::os::unix::fs::symlink("1001.dxf", root.join("1002.dxf")).unwrap();
+    let system = BasedSystem::new(OsSystem::shared(), root.to_owned());
+    assert_eq!(system.link(Utf8Path::new("1002.dxf")), Some(FileLink::Symbolic("1001.dxf".into())));
 }
