@@ -20,7 +20,7 @@ words! {
     MOVES_CUT: "the number of moves, cut by z-split ({moves}),", "die Zahl der Bewegungen, die z-split teilt ({moves}),";
     /// `file-size` and the like.
     FILE_SIZE: "the file's size of {size} bytes", "die Dateigröße von {size} Bytes";
-    /// Likewise, as the reason why it cannot be read.
+    /// The same limit, as the reason why a file cannot be read.
     TOO_MANY_BYTES: "it has {size} bytes, the limit is {limit}", "sie hat {size} Bytes, die Grenze ist {limit}";
     /// A line of a text that is read line by line.
     LONG_LINE: "a line is longer than {limit} bytes", "eine Zeile ist länger als {limit} Bytes";

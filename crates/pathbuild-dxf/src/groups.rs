@@ -237,7 +237,7 @@ impl<'a> Stretch<'a> {
         let (length, role) = Role::of_line(*self.bytes[at..].first_chunk()?, code_end)?;
         let end = value_ends.trailing_zeros() as usize % KNOWN;
         (self.at, self.ends) = (end + 1, without_first(value_ends));
-        // Branches on whether there is a CR cannot be predicted.
+        // Without a branch: whether a line ends with CR cannot be predicted.
         let has_cr = usize::from(end > 0 && self.bytes[end - 1] == b'\r');
         Some((role, self.bytes.get(at + length..end - has_cr).unwrap_or_default()))
     }

@@ -482,7 +482,7 @@ impl<'a> Judge<'a> {
         problems
     }
 
-    /// A program has a single cutter, that of the emitted path, regardless of the segment.
+    /// Reports a path that is drawn for another cutter: a program has a single one, that of the emitted path, whatever O a segment gives.
     fn other_cutter(&self, call: &SubpathCall, inner: &PathSignature) -> Diagnostic {
         let problem = Diagnostic::new(&messages::CUTTER_OF_PROJECT)
             .quoting("outer", self.outer.name.as_str())

@@ -190,11 +190,11 @@ pub struct Helix {
     pub bottom: f64,
     /// For circles with bars: B, and the bars.
     pub bars: Option<(f64, Bars)>,
-    /// F.
+    /// F in mm/min.
     pub feed: Option<f64>,
-    /// I.
+    /// I: greatest depth of a turn, in mm.
     pub infeed: f64,
-    /// Q.
+    /// Q: comment for the program.
     pub comment: Option<SmolStr>,
 }
 
@@ -207,15 +207,15 @@ pub struct Subpath {
     pub end: Xy,
     /// The embedded path.
     pub name: SubpathName,
-    /// T, from the segment or the path.
+    /// T in mm, from the segment or the path.
     pub thickness: f64,
-    /// O.
+    /// O in mm, from the segment or the path.
     pub tool: f64,
     /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
-    /// M.
+    /// M, from the segment or the path.
     pub material: Option<SmolStr>,
-    /// H: the height that the embedded path is raised by.
+    /// H in mm: the height that the embedded path is raised by.
     pub height: f64,
     /// Values for the variables of the embedded path, in the order written.
     pub values: Vec<SubpathValue>,

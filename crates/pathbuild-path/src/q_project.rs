@@ -173,7 +173,7 @@ struct Judge<'a> {
 type Difference = (String, Value, Value, Option<TextFault>);
 
 impl<'a> Judge<'a> {
-    /// PB517.
+    /// PB517 for each proxy line that disagrees with its own path.
     fn proxies(&self) -> Vec<Diagnostic> {
         let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| at_proxy(proxy, problem));
         self.component.proxies.iter().flat_map(of_proxy).collect()

@@ -455,7 +455,7 @@ pub enum Slash {
 pub enum LineLength {
     /// Limits the line as it is in the file, without its line break.
     Whole(usize),
-    /// Limits what remains of the line without blanks and comments.
+    /// Limits the line without its blanks and comments.
     Bare(usize),
 }
 

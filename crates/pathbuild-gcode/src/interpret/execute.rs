@@ -25,7 +25,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) out: Vec<Step>,
     /// Whether M2 or M30 has ended the program.
     pub(super) ended: bool,
-    /// Where the program goes on after the last block, unless in the next line.
+    /// Where execution continues after the last block, if not in the next line.
     pub(super) jump: Option<Jump>,
     /// Whether the next block is the first one of a subprogram.
     pub(super) begins_subprogram: bool,

@@ -187,7 +187,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// G43 with H and axis words, for the tool length, on which the position of the tip does not depend.
+    /// Sets the tool length by G43 with H and axis words. The position of the tool's tip does not depend on it.
     fn tool_length(&mut self, block: &Block<'_>, code: u16) {
         let entry = self.words.values.take(b'H');
         self.words.values.take(b'D');

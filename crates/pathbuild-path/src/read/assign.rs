@@ -20,7 +20,7 @@ use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 /// Maximum number of layers to list on which a text would find an element.
 const MOST_NAMED: usize = 3;
 
-/// Further elements examined for hints about texts without an element.
+/// Upper bound on the elements that are examined for hints about texts without an element, in addition to those examined to assign texts.
 const MOST_EXAMINED_FOR_HINTS: usize = 1_000_000;
 
 impl Texts<'_> {

@@ -161,7 +161,7 @@ impl PathCheck<'_> {
             let is_short = (line.end - line.start).norm() < SHORTEST;
             let message = match element.role {
                 Role::Cut(_) if is_short => &drawing::CUT_WITHOUT_LENGTH,
-                // A shorter one connects two ends.
+                // A sweep that is merely short still connects two ends.
                 Role::Sweep | Role::SilentSweep if coincide(line.start, line.end) => {
                     &drawing::SWEEP_WITHOUT_LENGTH
                 }

@@ -164,7 +164,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds something that neither moves the tool nor ends a contour.
+    /// Adds a call that neither moves the tool nor ends a contour. If moves wait to be written, it waits with them.
     fn add_aside(&mut self, what: What<'a>) {
         if self.ways.is_empty() {
             self.call(what);

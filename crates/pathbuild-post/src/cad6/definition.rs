@@ -302,29 +302,31 @@ impl ControlTextReader<'_> {
 #[derive(Clone, Copy)]
 #[expect(clippy::struct_excessive_bools, reason = "each is about a text of its own")]
 pub(super) struct Abilities {
-    /// Every rapid can be written exactly as it is.
+    /// Whether there is a text for rapid moves, so that each is written as it is.
     pub(super) rapid: bool,
-    /// There is a text for holes.
+    /// Whether there is a text for holes.
     pub(super) hole: bool,
-    /// The text for holes uses the peck depth.
+    /// Whether the text for holes uses the peck depth.
     pub(super) peck: bool,
-    /// The text for holes uses the dwell time at the bottom.
+    /// Whether the text for holes uses the dwell time at the bottom.
     pub(super) dwell: bool,
+    /// Whether there is a text for arcs.
     pub(super) arc: bool,
-    /// The text for arcs uses centres relative to the start of the arc.
+    /// Whether the text for arcs uses centres relative to the start of the arc.
     pub(super) has_relative_centres: bool,
-    /// The text for arcs uses absolute centres.
+    /// Whether the text for arcs uses absolute centres.
     pub(super) has_absolute_centres: bool,
     /// Decimals of rounded numbers.
     pub(super) decimals: usize,
-    /// Lines may change Z.
+    /// Whether lines may change Z.
     pub(super) line_z: bool,
-    /// Arcs may change Z.
+    /// Whether arcs may change Z.
     pub(super) arc_z: bool,
+    /// Whether the tool is raised between two passes.
     pub(super) lift_between_passes: bool,
     /// Widest arc, in radians.
     pub(super) arc_sweep: f64,
-    /// In mm.
+    /// Greatest distance in mm of an arc from the lines that replace it.
     pub(super) arc_tolerance: f64,
 }
 
@@ -353,7 +355,7 @@ impl Abilities {
 
 // Finds likely mistakes in control texts without running them.
 
-/// Reports likely mistakes in a definition, including texts that no program calls: what they switch would never be switched.
+/// Reports likely mistakes in a definition, including texts that no program calls, whose words would be missing from every program.
 pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
         let diagnostic = match definition.called_instead(kind)? {

@@ -141,11 +141,11 @@ impl Machine {
 /// The meaning of the axis words in a line.
 #[derive(Default)]
 struct Moves {
-    /// They are not coordinates of the tool (G4, G10).
+    /// Whether they are not coordinates of the tool (G4, G10).
     none: bool,
-    /// They are in another coordinate system, or relative, so that the position afterwards is unknown.
+    /// Whether they are in another coordinate system or relative, so that the position afterwards is unknown.
     displaced: bool,
-    /// They are an intermediate point on the way to a fixed position (G28, G30).
+    /// Whether they are an intermediate point on the way to a fixed position (G28, G30).
     everywhere: bool,
 }
 

@@ -14,8 +14,8 @@ mod workers;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
-use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{OverlaySystem, System, spelt};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::{OverlaySystem, System, clean};
 use pathbuild_db::{Database, Db, SourceFile};
 
 use self::timings::Timings;
@@ -145,20 +145,7 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
     if is_normal(path, working_directory) {
         return path.to_owned();
     }
-    let relative = path.strip_prefix(working_directory).unwrap_or(path);
-    let mut normal = Utf8PathBuf::new();
-    for component in relative.components() {
-        match component {
-            Utf8Component::CurDir => {}
-            Utf8Component::ParentDir
-                if matches!(normal.components().next_back(), Some(Utf8Component::Normal(_))) =>
-            {
-                normal.pop();
-            }
-            other => normal.push(other),
-        }
-    }
-    spelt(normal)
+    clean(path.strip_prefix(working_directory).unwrap_or(path))
 }
 
 /// Whether a path is normal already, as nearly all paths are: relative, or outside the working directory.
