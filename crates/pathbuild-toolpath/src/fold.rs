@@ -55,9 +55,14 @@ pub(crate) fn fold_in_one_pass<P: Parts>(
     root: P::Id,
     options: PathOptions,
 ) -> (Program, Trace<P::Id>) {
-    let (program, trace) = folded(parts, root, "", options, (0, true), Some(Trace::default()));
+    let moves = MOVES_OF_SEGMENT * parts.path(root).segments.len();
+    let trace = Trace { steps: Vec::with_capacity(moves), ..Trace::default() };
+    let (program, trace) = folded(parts, root, "", options, (moves as u64, true), Some(trace));
     (program, trace.unwrap_or_default())
 }
+
+/// Number of moves per segment for which memory is reserved in advance, about as many as a segment has in a single pass.
+const MOVES_OF_SEGMENT: usize = 8;
 
 fn folded<P: Parts>(
     parts: &P,

@@ -26,7 +26,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         radius: path.tool / 2.0,
         is_slot,
         elements: Vec::new(),
-        cuts: Vec::new(),
+        cuts: Vec::with_capacity(program.steps.len()),
         bars: bars(path),
         ends: (path.start, path.end),
         embedded: walked.items.iter().filter_map(|item| embedded(path, item)).collect(),
@@ -47,6 +47,8 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         let element = u32::try_from(element).unwrap_or(u32::MAX);
         found.cuts.push(PartCut { way: Way { curve: shifted(&way.curve, path.start), ..way }, element });
     }
+    // They are kept with the drawing's index.
+    found.cuts.shrink_to_fit();
     found
 }
 

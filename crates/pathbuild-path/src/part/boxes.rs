@@ -1,31 +1,73 @@
 //! An index of bounding boxes.
 
 use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
+use rstar::{AABB, Envelope as _, RTree};
 
 use crate::geometry::Xy;
 
 type Boxed = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
 /// Boxes, which are numbered from 0.
-pub(crate) struct BoxIndex(RTree<Boxed>);
+pub(crate) enum BoxIndex {
+    /// So few that comparing all of them takes less time than building a tree and asking it.
+    Few(Vec<AABB<[f64; 2]>>),
+    Many(RTree<Boxed>),
+}
+
+/// Number of boxes up to which all are compared.
+const FEW: usize = 500;
 
 impl BoxIndex {
     pub(crate) fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
-        let numbered = boxes.enumerate().map(|(n, extent)| Boxed::new(Rectangle::from_aabb(extent), n));
-        Self(RTree::bulk_load(numbered.collect()))
+        let boxes: Vec<AABB<[f64; 2]>> = boxes.collect();
+        if boxes.len() <= FEW {
+            return Self::Few(boxes);
+        }
+        let numbered = boxes.into_iter().enumerate();
+        let boxed = numbered.map(|(n, extent)| Boxed::new(Rectangle::from_aabb(extent), n));
+        Self::Many(RTree::bulk_load(boxed.collect()))
     }
 
     /// The numbers of the boxes that meet another one, in ascending order, so that no result depends on the shape of the tree.
     pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
-        let mut found: Vec<usize> =
-            self.0.locate_in_envelope_intersecting(extent).map(|found| found.data).collect();
-        found.sort_unstable();
-        found
+        match self {
+            Self::Few(boxes) => {
+                let near = boxes.iter().enumerate().filter(|(_, own)| own.intersects(&extent));
+                near.map(|(number, _)| number).collect()
+            }
+            Self::Many(tree) => {
+                let near = tree.locate_in_envelope_intersecting(extent);
+                let mut found: Vec<usize> = near.map(|found| found.data).collect();
+                found.sort_unstable();
+                found
+            }
+        }
     }
 }
 
 /// The square round a point.
 pub(crate) fn square(at: Xy, reach: f64) -> AABB<[f64; 2]> {
     AABB::from_corners([at.x - reach, at.y - reach], [at.x + reach, at.y + reach])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_and_many_boxes_are_found_alike() {
+        let place = |number: usize| Xy::new((number * 37 % 101) as f64, (number * 53 % 97) as f64);
+        let boxes = |count: usize| (0..count).map(move |number| square(place(number), 1.5));
+        let (few, many) = (BoxIndex::new(boxes(FEW)), BoxIndex::new(boxes(FEW + 1)));
+        assert!(matches!((&few, &many), (BoxIndex::Few(_), BoxIndex::Many(_))));
+        let mut count = 0;
+        for number in 0..200 {
+            let extent = square(place(number * 7 + 3), 2.0);
+            let mut found = many.near(extent);
+            found.retain(|number| *number < FEW);
+            count += found.len();
+            assert_eq!(few.near(extent), found, "{number}");
+        }
+        assert!(count > 100, "{count}");
+    }
 }

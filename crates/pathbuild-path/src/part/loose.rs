@@ -27,11 +27,14 @@ pub(super) fn is_cut_out<'b>(
     cuts: &[(Curve, f64)],
     bars: impl Iterator<Item = (&'b StandingBar, f64)>,
 ) -> bool {
+    let beside = bars.flat_map(|(bar, radius)| beside_bar(bar, radius));
+    let beside: Vec<(Xy, Xy)> = beside.filter(|(at, _)| part.is_material(*at)).collect();
+    // Most bars hold the part as one sees at once: straight across, nothing is cut.
+    if beside.iter().any(|(at, bar)| leads_straight_out(*at, *bar, cuts)) {
+        return false;
+    }
     let sweeps: Vec<Sweep> = cuts.iter().flat_map(|(curve, radius)| sweeps(curve, *radius)).collect();
-    if bars
-        .flat_map(|(bar, radius)| beside_bar(bar, radius))
-        .any(|at| part.is_material(at) && has_way_out(at, &sweeps))
-    {
+    if beside.iter().any(|(at, _)| has_way_out(*at, &sweeps)) {
         return false;
     }
     let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
@@ -39,16 +42,27 @@ pub(super) fn is_cut_out<'b>(
     !has_way_out(centre, &sweeps) && is_ring_closed(centre, &sweeps)
 }
 
-/// The points on both sides of a bar at which the part may begin.
-fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = Xy> {
-    let aside = bar.middle.into_iter().flat_map(move |middle| {
-        [radius, -radius].into_iter().filter_map(move |radius| beside(&middle, radius * BESIDE_BAR))
-    });
-    aside.map(|curve| at_along(&curve, curve.length() / 2.0))
+/// The points on both sides of a bar at which the part may begin, each with the middle of the bar.
+fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
+    let centre = |curve: &Curve| at_along(curve, curve.length() / 2.0);
+    bar.middle.into_iter().flat_map(move |middle| {
+        let aside =
+            [radius, -radius].into_iter().filter_map(move |radius| beside(&middle, radius * BESIDE_BAR));
+        aside.map(move |curve| (centre(&curve), centre(&middle)))
+    })
 }
 
 /// How far beside a bar the part is, in cutter radii: just behind the edge of the cut that the bar interrupts.
 const BESIDE_BAR: f64 = 1.01;
+
+/// Whether the straight way from a point beside a bar across its middle meets no cut.
+fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
+    let Some(direction) = (bar - at).try_normalize(0.0) else { return false };
+    let farthest = |curve: &Curve| (curve.start() - at).norm() + curve.length();
+    let reach = cuts.iter().map(|(curve, radius)| farthest(curve) + radius).fold(0.0, f64::max);
+    let way = Curve::Line(Line { start: at, end: at + direction * reach });
+    cuts.iter().all(|(curve, radius)| curve.distance(&way) > *radius)
+}
 
 /// Whether a straight way leads from a point to the border of the plate without meeting a cut.
 fn has_way_out(at: Xy, sweeps: &[Sweep]) -> bool {
