@@ -59,6 +59,21 @@ fn the_cutter_of_the_header_is_that_of_the_check() {
 }
 
 #[test]
+fn without_a_surface_a_rapid_move_at_cutting_depth_is_doubtful() {
+    for head in [fusion("flat end mill"), fusion("ball end mill"), FREECAD.into(), CARBIDE_CREATE.into()] {
+        assert_eq!(codes(&slots(&head, OVER), ""), [""; 0], "{head}");
+        let expected = if head == CARBIDE_CREATE { "PB740" } else { "PB781" };
+        assert_eq!(codes(&slots(&head, THROUGH), ""), [expected], "{head}");
+    }
+    // A surface below the cuts, which a comment claims, does not hide it.
+    let low = CARBIDE_CREATE
+        .replace("0.00, 6.00)", "0.00, 16.00)")
+        .replace("-6.00mm", "-16.00mm")
+        .replace("100.00mm, 0.00mm", "100.00mm, -10.00mm");
+    assert_eq!(codes(&slots(&low, THROUGH), ""), ["PB781"]);
+}
+
+#[test]
 fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, OVER), ""), [""; 0]);
     assert_eq!(codes(&slots(CARBIDE_CREATE, THROUGH), ""), ["PB740"]);

@@ -242,6 +242,7 @@ codes! {
     778 ForeignWord "foreign-word" Warning "a word that the post does not write and that is not followed";
     779 UnnamedDialect "unnamed-dialect" Warning "a word on which dialects disagree, in a program whose dialect is not named";
     780 HeaderContradiction "header-contradiction" Warning "comments that describe a tool or the stock in two ways";
+    781 RapidAtDepth "rapid-at-depth" Warning "a rapid move at cutting depth, where the surface of the material is unknown";
 }
 
 impl Code {

@@ -281,6 +281,7 @@ impl HeaderReader {
         }
         header.tools = collector.tools;
         header.surface = collector.surface;
+        header.is_of_pathbuild = collector.is_of_pathbuild;
         header.problems = collector.problems.into_diagnostics();
         header
     }
@@ -303,6 +304,8 @@ pub struct Header {
     pub tools: Vec<CuttingTool>,
     /// The height of the stock's upper face in mm.
     pub surface: Option<f64>,
+    /// Whether pathbuild stated the surface.
+    pub is_of_pathbuild: bool,
     /// Contradictions between comments.
     pub problems: Vec<Diagnostic>,
 }
@@ -392,6 +395,7 @@ struct Collector {
     tools: Vec<CuttingTool>,
     corners: [Option<(u32, [f64; 3])>; 2],
     surface: Option<f64>,
+    is_of_pathbuild: bool,
     problems: Problems,
 }
 
@@ -450,6 +454,7 @@ impl Collector {
             self.surface = self.corners[1].map(|(_, high)| high[2]);
         }
         self.surface = statement.surface.or(self.surface);
+        self.is_of_pathbuild |= statement.surface.is_some();
     }
 
     /// Takes a corner of the stock. Of two different ones the higher counts, which leaves more material.

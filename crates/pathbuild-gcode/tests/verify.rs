@@ -9,7 +9,9 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
-use pathbuild_gcode::verify::{Checks, Cutter, Machine, Stock, StockSpan, Travel, coarse_arcs, verify};
+use pathbuild_gcode::verify::{
+    Checks, Cutter, Machine, Stock, StockSpan, Travel, coarse_arcs, rapids_at_depth, verify,
+};
 
 const FINE: [&str; 0] = [];
 
@@ -499,4 +501,48 @@ fn numbers_beyond_all_measure_take_no_time() {
     let steps = interpret(text.as_bytes(), Native, &Options::default()).steps;
     let found = verify(&steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
     assert!(found.iter().any(|it| it.code().name() == "limit-reached"), "{}", spelled_out(&found));
+}
+
+/// Rapid moves at cutting depth, with a cutter of 6 mm and an unknown surface.
+fn at_depth(program: &str) -> Vec<String> {
+    let stock = Stock::with_unknown_surface(&[(0, Cutter::flat(6.0))]);
+    rapids_at_depth(&run(program).steps, &stock).iter().map(fault_text).collect()
+}
+
+#[test]
+fn a_rapid_move_between_cuts_of_the_same_depth_is_doubtful() {
+    let between =
+        |z: &str| at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\nG0 Z{z}\nG0 Y20\nG1 Z-2\nX0\nG0 Z5\nX9"));
+    assert_eq!(between("-2"), ["6 rapid-at-depth"]);
+    assert_eq!(between("-1.99"), FINE);
+    // As deep as the cut that follows, but not as the one before.
+    let next =
+        |z: &str| at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-4 F100\nX20\nG0 Z-2\nG0 Y20\nG1 Z{z}\nX0\nG0 Z5"));
+    assert_eq!(next("-2.1"), FINE);
+    assert_eq!(next("-2"), ["6 rapid-at-depth"]);
+}
+
+#[test]
+fn a_rapid_move_where_the_program_has_cut_is_not_doubtful() {
+    let back = |y: &str| at_depth(&format!("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\nG0 X0 Y{y}\nG0 Z5"));
+    assert_eq!(back("0"), FINE);
+    assert_eq!(back("3"), FINE);
+    assert_eq!(back("4.5"), ["5 rapid-at-depth"]);
+    // Cut there, but not as deep.
+    let shallow = "G0 X0 Y0 Z5\nG1 Z-1 F100\nX20\nG1 Z-2\nG0 X0\nG0 Z5";
+    assert_eq!(at_depth(shallow), ["6 rapid-at-depth"]);
+}
+
+#[test]
+fn moves_in_the_air_have_no_cutting_depth() {
+    // Retracts and links by feed.
+    assert_eq!(at_depth("G0 X0 Y0 Z5\nG1 Z-2 F100\nX20\nG1 Z5\nG1 X40\nG0 Y20\nG1 Z-2\nX0\nG1 Z5"), FINE);
+    // A laser, and a pen that is put down by rapid moves.
+    assert_eq!(at_depth("G0 X0 Y0 Z0\nG1 X20 F100\nG0 Y20\nG1 X0\nG0 X9 Y9"), FINE);
+    assert_eq!(at_depth("G0 X0 Y0 Z5\nG0 Z0\nG1 X20 F100\nG0 Z5\nG0 Y20\nG0 Z0\nG1 X0\nG0 Z5\nG0 X9"), FINE);
+    // Holes.
+    assert_eq!(
+        at_depth("G0 X0 Y0 Z5\nG1 Z-9 F100\nG0 Z5\nG0 X20\nG0 Z1\nG1 Z-4\nG0 Z0\nG0 Z-3\nG1 Z-9\nG0 Z5"),
+        FINE
+    );
 }

@@ -1,4 +1,4 @@
-//! Messages about verifying G-code. (PB739 to PB780; book: program/reading)
+//! Messages about verifying G-code. (PB739 to PB781; book: program/reading)
 
 messages! {
     /// `verify --against`: no T word before the first cut.
@@ -301,6 +301,13 @@ messages! {
         de: "ein Eilgang auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
         help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+    }
+    /// A rapid move in the plane at cutting depth, where the surface of the material is unknown.
+    RAPID_AT_DEPTH: RapidAtDepth {
+        en: "a rapid move at Z {z} past {point}, where nothing was cut to that depth: the program cuts as deep just before or after it, so there is probably material",
+        de: "ein Eilgang auf Z {z} über {point}, wo nichts so tief gefräst wurde: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
+        help_en: "raise the cutter before; if the material does not reach there, `--surface` gives its height, for an exact check",
+        help_de: "den Fräser vorher anheben; reicht das Material nicht bis dorthin, gibt `--surface` seine Höhe für eine genaue Prüfung an",
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {

@@ -217,8 +217,11 @@ impl<'s> Bench<'s> {
             self.map.highest_above(&cutter, z + RESIDUE).map(|(height, place)| (z, height, place))
         });
         if let Some((z, height, [x, y])) = met {
-            let message: &'static Message =
-                if is_plunge { &say::RAPID_PLUNGE } else { &say::RAPID_IN_MATERIAL };
+            let message: &'static Message = match is_plunge {
+                _ if piece.surface == f64::INFINITY => &say::RAPID_AT_DEPTH,
+                true => &say::RAPID_PLUNGE,
+                false => &say::RAPID_IN_MATERIAL,
+            };
             let resolution = self.resolution;
             problems.add_at_line(message, line, |diagnostic| {
                 diagnostic
@@ -395,6 +398,17 @@ impl Stock {
         let stock = Self { pieces, highest, resolution: FINEST, cells: MOST_VISITED, most_pieces: u64::MAX };
         let resolution = stock.narrowest().map_or(FINEST, |cutter| cutter / CELLS_ACROSS);
         stock.with_resolution(resolution)
+    }
+
+    /// Stock with an unknown surface, for [`rapids_at_depth`](super::rapids_at_depth); the cutters must be in the order of their lines. The
+    /// whole diameter counts as cut, and only the centre line as hitting material, because the shape of the stock is unknown as well.
+    pub fn with_unknown_surface(cutters: &[(u32, Cutter)]) -> Self {
+        let piece = |(line, cutter): &(u32, Cutter)| StockSpan {
+            line: *line,
+            surface: f64::INFINITY,
+            cutter: Cutter { diameter: cutter.diameter, removed: cutter.diameter, colliding: 0.0 },
+        };
+        Self::of_pieces(cutters.iter().map(piece).collect())
     }
 
     /// The stock of a program, for the moves returned by [`moves`](toolpath::Program::moves).

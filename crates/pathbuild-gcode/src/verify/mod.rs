@@ -6,6 +6,7 @@
 
 mod against;
 mod compare;
+mod depth;
 mod height_map;
 mod machine;
 mod material;
@@ -22,6 +23,7 @@ pub use self::rules::coarse_arcs;
 pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
+pub use depth::rapids_at_depth;
 pub use machine::{Machine, MachineRules, Travel};
 pub use material::{Cutter, Stock, StockSpan};
 pub use rapids::{beyond_machine, rapids_into_material};

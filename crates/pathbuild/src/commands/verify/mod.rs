@@ -100,14 +100,12 @@ fn check(
         }
     })?;
     let drawn = program.drawn();
-    let allowed = &context.settings.limits;
-    let (cells, pieces) = (allowed.verify_cells.value, allowed.verify_pieces.value);
     if program.by_definition.is_some() {
         header.head_of(&program.text);
     }
     let header = header.finish(program.inch_word());
     let sources = stock::Sources::new(context, &program, &header, stock_options, against);
-    let stock = sources.stock().map(|stock| stock.with_cells(cells).with_pieces(pieces));
+    let stock = sources.stock();
     if stock.is_none() {
         context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
     }
@@ -140,6 +138,8 @@ fn check(
             past.step(step);
         }
     });
+    let doubts = sources.doubtful_rapids(&found);
+    found.extend(doubts);
     for word in program.words_left_out() {
         if let Some(foreign) = &mut foreign {
             foreign.left_out(word.line, &word.word);

@@ -1,10 +1,10 @@
 //! Determines cutter and material. (book: program/reading: the stock's extent is in no drawing)
 
 use pathbuild_diagnostic::messages::{gcode as say, posts};
-use pathbuild_diagnostic::{Diagnostic, Severity, Text};
+use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
-use pathbuild_gcode::verify::{Cutter, Stock, StockSpan};
+use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapids_at_depth};
 use pathbuild_post::ToolTable;
 
 use super::StockOptions;
@@ -20,6 +20,8 @@ pub(super) struct Sources<'s> {
     pub(super) options: &'s StockOptions,
     pub(super) against: Option<&'s ReferenceProgram>,
     table: ToolTable,
+    cells: u64,
+    pieces: u64,
 }
 
 /// The diameters in mm that the sources give for a cutting tool.
@@ -51,7 +53,9 @@ impl<'s> Sources<'s> {
         options: &'s StockOptions,
         against: Option<&'s ReferenceProgram>,
     ) -> Self {
-        Self { program, header, options, against, table: tool_table(context) }
+        let limits = &context.settings.limits;
+        let (cells, pieces) = (limits.verify_cells.value, limits.verify_pieces.value);
+        Self { program, header, options, against, table: tool_table(context), cells, pieces }
     }
 
     /// The material that the program cuts, as far as cutters and surface are known.
@@ -66,11 +70,34 @@ impl<'s> Sources<'s> {
             Stock::of_pieces(pieces.collect())
         };
         if let Some(surface) = self.options.surface.or(self.against.and_then(ReferenceProgram::surface)) {
-            return Some(uniform(surface));
+            return Some(self.limited(uniform(surface)));
         }
         let native = (self.program.dialect == Dialect::Native)
             .then(|| Stock::of_native_text(&self.program.drawn(), cutters.first()?.1));
-        native.flatten().or_else(|| self.header.surface.map(uniform))
+        native.flatten().or_else(|| self.header.surface.map(uniform)).map(|stock| self.limited(stock))
+    }
+
+    /// Reports rapid moves at cutting depth, unless the surface is known by more than the comments of another CAM, or the line has an
+    /// error already.
+    pub(super) fn doubtful_rapids(&self, found: &[Diagnostic]) -> Vec<Diagnostic> {
+        let is_known = self.options.surface.is_some()
+            || self.against.is_some()
+            || self.program.dialect == Dialect::Native
+            || self.header.is_of_pathbuild;
+        let Some(cutters) = self.cutters().filter(|_| !is_known) else { return Vec::new() };
+        let stock = self.limited(Stock::with_unknown_surface(&cutters));
+        let mut doubts = rapids_at_depth(&self.program.drawn(), &stock);
+        let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
+        // In a program that is too large for this check, nothing is doubtful.
+        doubts.retain(|doubt| {
+            doubt.code() == Code::RapidAtDepth
+                && !found.iter().any(|error| error.is_error() && is_same_line(error, doubt))
+        });
+        doubts
+    }
+
+    fn limited(&self, stock: Stock) -> Stock {
+        stock.with_cells(self.cells).with_pieces(self.pieces)
     }
 
     /// The cutters, each with the line from which it applies; `None` if that of any cut is unknown, or if there are no cuts.

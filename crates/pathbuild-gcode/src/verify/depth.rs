@@ -1,0 +1,104 @@
+//! Finds rapid moves at cutting depth in programs whose material has an unknown surface. (book: program/reading)
+//!
+//! A program that cuts at some depth before or after a rapid move in the plane probably has material there, unless it has cut these
+//! points before. It may also move beside the stock, so this is a doubt and not an error.
+
+use std::collections::BTreeSet;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_motion::{Action, Axes, Move, Pace, Step};
+
+use super::material::{self, RESIDUE, Stock};
+use crate::interpret::Program;
+use crate::read::Problems;
+
+/// Reports rapid moves with travel in the plane, at or below a height at which the program has just cut or cuts next, through points that
+/// are not cut to that depth. The surface of `stock` is [unknown](Stock::with_unknown_surface).
+pub fn rapids_at_depth(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
+    let mut depths = Depths::default();
+    each_move(program, &mut |index, _, movement| depths.add(index, movement));
+    let mut problems = Problems::default();
+    if !depths.found.is_empty() {
+        material::check(&CutsAndFound { program, found: &depths.found }, stock, &mut problems);
+    }
+    problems.into_diagnostics()
+}
+
+/// Passes on the moves, counted from 0.
+fn each_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(usize, &Step, &Move)) {
+    let mut index = 0;
+    program.each(&mut |step| {
+        let Action::Move(movement) = &step.action else { return };
+        take(index, step, movement);
+        index += 1;
+    });
+}
+
+/// The cuts of a program, and the rapid moves at depth.
+struct CutsAndFound<'p, P: ?Sized> {
+    program: &'p P,
+    found: &'p BTreeSet<usize>,
+}
+
+impl<P: Program + ?Sized> Program for CutsAndFound<'_, P> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        each_move(self.program, &mut |index, step, movement| {
+            if movement.pace != Pace::Rapid || self.found.contains(&index) {
+                take(step);
+            }
+        });
+    }
+}
+
+/// Follows the heights at which a program cuts.
+#[derive(Default)]
+struct Depths {
+    /// Height from which the tool goes down by feed. Feed moves that are not below it are moves in the air.
+    top: Option<f64>,
+    /// Lowest point of the last cut.
+    cut: Option<f64>,
+    /// Rapid moves in the plane since the last cut, with their heights.
+    pending: Vec<(usize, f64)>,
+    found: BTreeSet<usize>,
+}
+
+impl Depths {
+    fn add(&mut self, index: usize, movement: &Move) {
+        let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+        match movement.pace {
+            Pace::Rapid if !is_known => self.top = movement.to.known.has(Axes::Z).then(|| movement.to.z()),
+            _ if !is_known => {}
+            Pace::Rapid => self.rapid(index, movement),
+            Pace::Feed(_) => self.feed(movement),
+            Pace::Probe { .. } => {}
+        }
+    }
+
+    fn rapid(&mut self, index: usize, movement: &Move) {
+        let height = movement.from.z().max(movement.to.z());
+        if movement.from.at[..2] != movement.to.at[..2] {
+            if self.cut.is_some_and(|cut| height <= cut + RESIDUE) {
+                self.found.insert(index);
+            } else {
+                self.pending.push((index, height));
+            }
+        }
+        // A rapid move up may end below the surface, as in `G0 Z-2` after a cut at Z-4.
+        let to = movement.to.z();
+        let is_up = to >= movement.from.z();
+        if is_up {
+            self.top = Some(self.top.map_or(to, |top| top.max(to)));
+        } else if self.cut.is_none_or(|cut| to > cut + RESIDUE) {
+            self.top = Some(to);
+        }
+    }
+
+    fn feed(&mut self, movement: &Move) {
+        let low = movement.from.z().min(movement.to.z());
+        let pending = self.pending.drain(..);
+        if self.top.is_some_and(|top| low < top - RESIDUE) {
+            self.found.extend(pending.filter(|(_, height)| *height <= low + RESIDUE).map(|(index, _)| index));
+            self.cut = Some(low);
+        }
+    }
+}
