@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Note, Point, Severity};
 use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
-    Bindings, DrawnParts, ExaminedPath, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
+    Bindings, DrawnParts, ExaminedPath, Item, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
     PathHeader, PathName, PathSignature, RawFile, RawPath, WalkedPath, Xy, has_text_on_part, judge_file_name,
     stray_findings,
 };
@@ -32,7 +32,7 @@ pub struct FileIndex {
     diagnostics: Vec<Diagnostic>,
     /// The clamps, if any layer has some.
     keep_outs: Option<Arc<KeepOuts>>,
-    /// The parts and cuts, if the settings name layers with parts.
+    /// The parts and cuts, if the settings name layers with parts and the drawing has any, or embeds paths that may.
     pub(super) parts: Option<Arc<FileParts>>,
     content: Content,
 }
@@ -191,8 +191,18 @@ impl FileIndex {
     ) -> Self {
         let names: Vec<PathName> = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
         let is_checked = Settings::get(db).language(db).part.is_some();
-        let mut cuts = is_checked.then(Vec::new);
-        let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, ends, cuts.as_mut());
+        let has_parts = parts.as_ref().is_some_and(|drawn| !drawn.parts.is_empty());
+        // What a path beside no part cuts matters only in projects, which ask for it.
+        let is_needed = |walked: &WalkedPath| {
+            has_parts || walked.items.iter().any(|item| matches!(item, Item::Subpath(_)))
+        };
+        let mut cuts = Vec::new();
+        let mut add_cuts = |path: &Path, walked: &WalkedPath| {
+            if is_checked && is_needed(walked) {
+                cuts.extend(cuts_of(db, path, walked));
+            }
+        };
+        let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, ends, &mut add_cuts);
         // Pushed one by one: `collect` would keep the raw paths' allocation.
         let mut paths: Vec<PathIndex> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
@@ -201,10 +211,9 @@ impl FileIndex {
         let DrawnParts { parts, mut problems, .. } = parts.unwrap_or_default();
         soften(db, &mut problems);
         diagnostics.append(&mut problems);
-        let parts = cuts.map(|cuts: Vec<PathCuts>| {
-            let is_complete = cuts.len() == paths.len();
-            Arc::new(FileParts { parts, cuts: in_order(cuts), is_complete })
-        });
+        let is_complete = cuts.len() == paths.len();
+        let parts = (has_parts || !cuts.is_empty())
+            .then(|| Arc::new(FileParts { parts, cuts: in_order(cuts), is_complete }));
         // A collected list would occupy the memory of the one it is made of, fifty times what it needs.
         let mut shared = Vec::with_capacity(paths.len());
         shared.extend(paths.into_iter().map(Arc::new));
@@ -286,18 +295,16 @@ impl Content {
 }
 
 impl PathIndex {
-    /// `cuts`: where to add the path's cuts, if the drawing has parts.
-    fn new(db: &dyn Db, raw: &RawPath, ends: &LayerEnds<'_>, cuts: Option<&mut Vec<PathCuts>>) -> Self {
+    /// `use_path`: called if the path has no errors.
+    fn new(
+        db: &dyn Db,
+        raw: &RawPath,
+        ends: &LayerEnds<'_>,
+        use_path: &mut dyn FnMut(&Path, &WalkedPath),
+    ) -> Self {
         let header = PathHeader::of(raw);
         let examples = Bindings::check_values(&header.definitions);
-        let mut of_path = None;
-        let is_asked = cuts.is_some();
-        let summary = PathSummary::new(db, raw, &examples, ends, &mut |path, walked| {
-            of_path = is_asked.then(|| cuts_of(db, path, walked)).flatten();
-        });
-        if let Some(cuts) = cuts {
-            cuts.extend(of_path);
-        }
+        let summary = PathSummary::new(db, raw, &examples, ends, use_path);
         Self { header, examples, summary }
     }
 }
@@ -453,7 +460,7 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
 pub(super) struct FileParts {
     /// The finished parts.
     pub(super) parts: Vec<Part>,
-    /// The cuts of the sound paths for example values, in order of name.
+    /// The cuts of the sound paths for example values, in order of name. Without parts, only those of paths that embed others.
     pub(super) cuts: Vec<PathCuts>,
     /// Whether the cuts of all its paths are known.
     pub(super) is_complete: bool,

@@ -12,7 +12,7 @@ use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, path_index, soften};
 use crate::queries::raw::read_layers_as;
 
-/// The parts and cuts of a drawing; `None` without the setting.
+/// The parts and cuts of a drawing; `None` without the setting, or if it has neither parts nor embedded paths.
 pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
     // Most libraries have no parts; no query is needed then.
     Settings::get(db).language(db).part.as_ref()?;
@@ -68,11 +68,9 @@ fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> V
 
 /// The cuts of a path with its values. `None` if it has errors, or without the setting.
 pub(super) fn path_cuts<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<&'db PathCuts> {
-    let found = file_parts(db, instance.file(db))?;
-    if is_example(db, instance) {
-        return Some(&found.cuts[found.place(&instance.name(db).name(db))?]);
-    }
-    cuts_with_values(db, instance).as_ref()
+    let found = file_parts(db, instance.file(db)).filter(|_| is_example(db, instance));
+    let known = found.and_then(|found| Some(&found.cuts[found.place(&instance.name(db).name(db))?]));
+    known.or_else(|| cuts_with_values(db, instance).as_ref())
 }
 
 #[salsa::tracked]
