@@ -127,3 +127,57 @@ fn disagreements_are_told() {
         ]
     ));
 }
+
+#[test]
+fn a_required_check_that_was_not_made_is_an_error() {
+    let plain = slots("G90 G21\nT1 M6\n", OVER);
+    let carbide_create = slots(CARBIDE_CREATE, OVER);
+    let required = |text: &str, options: &str| codes(text, &format!("--require {options}"));
+    assert_eq!(required(&plain, "rapids"), ["PB523"]);
+    assert_eq!(required(&plain, "rapids --cutter 6"), ["PB523"]);
+    assert_eq!(required(&plain, "rapids --cutter 6 --surface 0"), [""; 0]);
+    // Comments do not suffice, unless that is said.
+    assert_eq!(required(&carbide_create, "rapids"), ["PB523"]);
+    assert_eq!(required(&carbide_create, "rapids=assumed"), [""; 0]);
+    assert_eq!(required(&plain, "rapids=assumed"), ["PB523"]);
+    assert_eq!(required(&plain, "envelope,feeds,spindle,drawing,clamps").len(), 5);
+}
+
+#[test]
+fn the_configuration_may_require_checks() {
+    let limits = "[machine]\ntravel = [300, 200, 60]\nmaximum-feed = 2000\n";
+    let place = |configuration: &str| {
+        let place = Place::new().file("a.nc", slots("G90 G21\nT1 M6\n", OVER));
+        place.file("pathbuild.toml", configuration)
+    };
+    let codes = |configuration: &str, options: &str| {
+        codes_of(
+            &place(configuration).run(&format!("verify a.nc --dialect linuxcnc --format concise {options}")),
+        )
+    };
+    let required = "[verify]\nrequire = [\"envelope\", \"feeds\"]\n";
+    assert_eq!(codes(required, ""), ["PB523", "PB523"]);
+    assert_eq!(codes(&format!("{limits}{required}"), ""), [""; 0]);
+    // The command line replaces the list.
+    assert_eq!(codes(&format!("{limits}{required}"), "--require spindle"), ["PB523"]);
+    assert_eq!(codes("[verify]\nrequire = [\"rapid\"]\n", ""), ["PB003"]);
+}
+
+#[test]
+fn the_last_line_says_what_was_checked() {
+    let place = Place::new()
+        .file("a.nc", slots(&fusion("flat end mill"), OVER))
+        .file("b.nc", slots(&fusion("flat end mill"), OVER))
+        .file("c.nc", slots(CARBIDE_CREATE, OVER))
+        .file("d.nc", slots("G90 G21\nT1 M6\n", OVER));
+    assert_snapshot!(runs(
+        &place,
+        [
+            "verify a.nc b.nc --dialect linuxcnc",
+            "verify c.nc d.nc --dialect linuxcnc",
+            "verify a.nc --dialect linuxcnc --surface 0 --lang de",
+            "verify d.nc --dialect linuxcnc --require rapids,envelope --lang de",
+            "verify c.nc --dialect linuxcnc --format json",
+        ]
+    ));
+}

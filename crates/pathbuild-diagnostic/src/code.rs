@@ -161,6 +161,7 @@ codes! {
     520 StaleOutput "stale-output" Warning "an output that would not be written any more";
     521 StrayPath "stray-path" Warning "a path in a file whose name does not cover it";
     522 OlderOutput "older-output" Warning "a program of a path that has errors now";
+    523 UnmadeCheck "unmade-check" Error "a check that --require or `[verify] require` demands was not made";
     601 InvalidProbeLine "invalid-probe-line" Error "invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "correction too large";
     603 UnknownProbe "unknown-probe" Error "unknown probe";

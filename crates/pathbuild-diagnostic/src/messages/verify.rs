@@ -260,6 +260,13 @@ messages! {
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
+    /// A check that is required and was not made.
+    CHECK_NOT_MADE: UnmadeCheck {
+        en: "the required check `{check}` was not made: {reason}",
+        de: "die verlangte Prüfung `{check}` fand nicht statt: {reason}",
+        help_en: "needed: {option}",
+        help_de: "nötig: {option}",
+    }
     /// Two comments that describe a tool differently.
     TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments describe T{number} with {one} mm and with {other} mm, or with different tips",

@@ -445,6 +445,12 @@ impl Stock {
         (!pieces.is_empty()).then(|| Self::of_pieces(pieces))
     }
 
+    /// The height of the surface in mm, if it is the same everywhere.
+    pub fn common_surface(&self) -> Option<f64> {
+        let surface = self.highest?;
+        self.pieces.iter().all(|piece| piece.surface == surface).then_some(surface)
+    }
+
     /// The side of a cell of the height map, in mm.
     pub fn resolution(&self) -> f64 {
         self.resolution

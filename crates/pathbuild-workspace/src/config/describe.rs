@@ -6,7 +6,7 @@ use pathbuild_diagnostic::shown;
 use serde_json::{Map, Value as Json, json};
 
 use super::origin::{Key, ShownSetting};
-use super::sections::{emit, general, limits, machine, tables, warnings, watch};
+use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
 use super::settings::Settings;
 
 /// Formats the settings as TOML, on request with their sources as comments.
@@ -26,11 +26,12 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
 }
 
 /// The tables with fixed keys.
-fn sections(settings: &Settings) -> [(&'static str, Vec<ShownSetting>); 5] {
+fn sections(settings: &Settings) -> [(&'static str, Vec<ShownSetting>); 6] {
     [
         ("emit", settings.emit.shown()),
         ("limits", settings.limits.shown()),
         ("machine", settings.machine.shown()),
+        ("verify", settings.verify.shown()),
         ("warnings", settings.warnings.shown()),
         ("watch", settings.watch.shown()),
     ]
@@ -79,6 +80,7 @@ pub fn schema() -> Json {
         ("emit", emit::KEYS),
         ("limits", limits::KEYS),
         ("machine", machine::KEYS),
+        ("verify", verify::KEYS),
         ("warnings", warnings::KEYS),
         ("watch", watch::KEYS),
     ];
@@ -117,6 +119,7 @@ pub fn template() -> String {
         ("emit", emit::KEYS),
         ("limits", limits::KEYS),
         ("machine", machine::KEYS),
+        ("verify", verify::KEYS),
         ("warnings", warnings::KEYS),
         ("watch", watch::KEYS),
     ];

@@ -269,6 +269,20 @@ pub(in crate::config) const fn choice<T: Choice>() -> ValueType<T> {
     ValueType { read: read_choice, show: |choice| name_of(*choice).map(quoted), schema: choice_schema::<T> }
 }
 
+/// A list of values from a fixed list.
+pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
+    ValueType {
+        read: |value, reader| {
+            let Some(items) = value.get_ref().as_array() else {
+                return reader.expected(Value::Prose(&messages::LIST_OF_TEXTS), value);
+            };
+            all(items.iter().map(|item| read_choice(item, reader)))
+        },
+        show: |choices| Some(list(choices.iter().filter_map(|choice| name_of(*choice)))),
+        schema: || json!({ "type": "array", "items": choice_schema::<T>() }),
+    }
+}
+
 pub(in crate::config) fn read_choice<T: Choice>(
     value: &Spanned<DeValue<'_>>,
     reader: &mut TomlReader<'_>,

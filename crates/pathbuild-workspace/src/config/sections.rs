@@ -298,6 +298,18 @@ pub mod machine {
     }
 }
 
+/// `[verify]`: what `verify` must be able to check. (book: program/reading)
+pub mod verify {
+    use crate::config::kinds::choices;
+    use crate::config::types::Requirement;
+
+    section! {
+        /// checks without which `verify` fails: rapids, envelope, feeds, spindle, drawing, clamps; with rapids=assumed,
+        /// cutter and surface may come from comments of the program
+        require: Vec<Requirement> = "require", choices::<Requirement>(), Vec::new(), r#"["rapids", "envelope"]"#, Neither;
+    }
+}
+
 /// Tables with user-defined keys.
 pub mod tables {
     use pathbuild_diagnostic::Code;

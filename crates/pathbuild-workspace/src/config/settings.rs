@@ -10,7 +10,7 @@ use toml::de::DeTable;
 
 use super::origin::{Origin, ResultKind};
 use super::reader::TomlReader;
-use super::sections::{emit, general, limits, machine, tables, warnings, watch};
+use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
 use super::types::Severities;
 
 /// The settings of a run, each with its source.
@@ -30,6 +30,8 @@ pub struct Settings {
     pub emit: emit::Settings,
     pub limits: limits::Settings,
     pub machine: machine::Settings,
+    /// `[verify]`
+    pub verify: verify::Settings,
     pub warnings: warnings::Settings,
     pub watch: watch::Settings,
     pub tables: tables::Settings,
@@ -88,6 +90,8 @@ pub struct Options {
     pub emit: emit::Options,
     pub limits: limits::Options,
     pub machine: machine::Options,
+    /// `[verify]`
+    pub verify: verify::Options,
     pub warnings: warnings::Options,
     pub watch: watch::Options,
     pub tables: tables::Options,
@@ -102,6 +106,7 @@ impl Options {
                 emit: table.section("emit", emit::Options::read),
                 limits: table.section("limits", limits::Options::read_lowered),
                 machine: table.section("machine", machine::Options::read),
+                verify: table.section("verify", verify::Options::read),
                 warnings: table.section("warnings", warnings::Options::read),
                 watch: table.section("watch", watch::Options::read),
                 tables: tables::Options::read(table),
@@ -118,6 +123,7 @@ impl Options {
             emit: self.emit.over(below.emit),
             limits: self.limits.over(below.limits),
             machine: self.machine.over(below.machine),
+            verify: self.verify.over(below.verify),
             warnings: self.warnings.over(below.warnings),
             watch: self.watch.over(below.watch),
             tables: self.tables.over(below.tables),
@@ -135,6 +141,7 @@ impl Options {
             emit: self.emit.resolve(),
             limits: self.limits.resolve(),
             machine: self.machine.resolve(),
+            verify: self.verify.resolve(),
             warnings: self.warnings.resolve(),
             watch: self.watch.resolve(),
             tables: self.tables.resolve(),
@@ -150,6 +157,7 @@ impl Settings {
         self.emit.visit_inputs(result_kind, add);
         self.limits.visit_inputs(result_kind, add);
         self.machine.visit_inputs(result_kind, add);
+        self.verify.visit_inputs(result_kind, add);
         self.warnings.visit_inputs(result_kind, add);
         self.watch.visit_inputs(result_kind, add);
         self.tables.visit_inputs(result_kind, add);

@@ -80,6 +80,43 @@ choice! {
 }
 
 choice! {
+    /// A check that `verify` must make. (book: program/reading)
+    Requirement {
+        /// Rapid moves into material; values from comments of the program do not suffice.
+        Rapids = "rapids",
+        /// The same; values from comments suffice.
+        AssumedRapids = "rapids=assumed",
+        /// The travel of the machine.
+        Envelope = "envelope",
+        /// The machine's largest feed.
+        Feeds = "feeds",
+        /// The range of the spindle's speed.
+        Spindle = "spindle",
+        /// The moves of the drawing.
+        Drawing = "drawing",
+        /// The clamps in the drawing.
+        Clamps = "clamps",
+    }
+}
+
+impl Requirement {
+    /// All names.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        Self::ALL.iter().map(|(name, _)| *name)
+    }
+
+    /// The requirement with this name.
+    pub fn named(text: &str) -> Option<Self> {
+        Self::ALL.iter().find(|(name, _)| *name == text).map(|(_, requirement)| *requirement)
+    }
+
+    /// The name.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, requirement)| *requirement == self).map_or("", |(name, _)| name)
+    }
+}
+
+choice! {
     /// File format of the setup sheet. (book: program/sheet)
     SheetFormat {
         /// No setup sheet.

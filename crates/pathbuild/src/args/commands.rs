@@ -6,6 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use clap_complete::env::Shells;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_workspace::Inputs;
+use pathbuild_workspace::config::types::Requirement;
 
 use super::shared::{Address, InputArgs};
 use crate::completion;
@@ -186,6 +187,11 @@ pub enum UnitCodesArg {
     Table,
 }
 
+fn requirements() -> impl TypedValueParser<Value = Requirement> {
+    PossibleValuesParser::new(Requirement::names())
+        .map(|name| Requirement::named(&name).unwrap_or(Requirement::Rapids))
+}
+
 fn dialects() -> impl TypedValueParser<Value = Dialect> {
     let names = Dialect::ALL.iter().map(|dialect| dialect.name());
     PossibleValuesParser::new(names).try_map(|name| name.parse::<Dialect>().map_err(|()| "unknown dialect"))
@@ -217,6 +223,9 @@ pub struct VerifyArgs {
     /// Height of the material's upper face; programs by pathbuild contain it
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
+    /// Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps
+    #[arg(long, value_name = "CHECKS", value_delimiter = ',', value_parser = requirements(), hide_possible_values = true)]
+    pub require: Vec<Requirement>,
     /// Post-processor that wrote the programs: sets the known words and the dialect
     #[arg(long, value_name = "POST", add = completion::posts())]
     pub post: Option<String>,
@@ -595,6 +604,10 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
         "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]`",
     ),
     (
+        "Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps",
+        "Scheitert, wenn eine dieser Prüfungen nicht möglich war, mit Kommas getrennt: rapids (oder rapids=assumed), envelope, feeds, spindle, drawing, clamps",
+    ),
+    (
         "Height of the material's upper face; programs by pathbuild contain it",
         "Höhe der Materialoberfläche; in Programmen von pathbuild steht sie",
     ),
@@ -650,6 +663,7 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
     ("NEW", "NEU"),
     ("DATE", "DATUM"),
     ("DIALECT", "DIALEKT"),
+    ("CHECKS", "PRÜFUNGEN"),
     ("CODE", "CODE"),
     ("NAME", "NAME"),
     ("POST", "POST"),

@@ -1,10 +1,12 @@
 //! `pathbuild verify`: checks that a G-code program is safe to run and matches its drawing. (book: program/reading)
 
 mod against;
+mod checks;
 mod stock;
 
 use against::{ReferenceProgram, Rewritten};
 use camino::Utf8Path;
+use checks::CheckReport;
 use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
@@ -46,13 +48,16 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Err(against::Failure::Usage(reason)) => return context.usage(&reason),
         Err(against::Failure::Found(found)) => return conclude(context, &session, found),
     };
+    let mut report = CheckReport::default();
     for file in &args.files {
-        match check(context, file, args, &stock_options, against.as_ref(), &writers) {
+        match check(context, file, args, &stock_options, against.as_ref(), &writers, &mut report) {
             Ok(found) => diagnostics.extend(found),
             Err(problem) => diagnostics.push(*problem),
         }
     }
-    conclude(context, &session, diagnostics)
+    let status = conclude(context, &session, diagnostics);
+    report.finish(context);
+    status
 }
 
 /// Cutter and material from the command line.
@@ -82,6 +87,7 @@ fn check(
     stock_options: &StockOptions,
     against: Option<&ReferenceProgram>,
     writers: &Writers,
+    report: &mut CheckReport,
 ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
     let mut reading = args.reading.clone();
     reading.dialect = writers.dialect();
@@ -106,9 +112,6 @@ fn check(
     let header = header.finish(program.inch_word());
     let sources = stock::Sources::new(context, &program, &header, stock_options, against);
     let stock = sources.stock();
-    if stock.is_none() {
-        context.printer.status(format_args!("{}: {}", program.file, stock::not_known(context)));
-    }
     let evidence = program.evidence.map(|evidence| evidence.kind);
     let writer = writers.of(program.shown, evidence);
     let words = known_words(context, writer, program.dialect);
@@ -169,6 +172,10 @@ fn check(
         let is_sound = !found.iter().chain(&program.read.problems).any(Diagnostic::is_error);
         found.extend(against.text_differences(context, &program, is_probing, is_sound)?);
     }
+    let is_limit_reached = found.iter().any(|problem| problem.code() == Code::LimitReached);
+    let required =
+        if args.require.is_empty() { &context.settings.verify.require.value } else { &args.require };
+    found.extend(report.add(context, &sources, machine.as_ref(), is_limit_reached, required));
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if is_rewritten {

@@ -24,6 +24,19 @@ pub(super) struct Sources<'s> {
     pieces: u64,
 }
 
+/// Where a value comes from; the program's own statements come last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Origin {
+    /// The command line.
+    Option,
+    /// The drawing that the program is compared with.
+    Drawing,
+    /// `[tool]`.
+    Table,
+    /// Comments of the program, or the heights at which its plunges begin to cut.
+    Program,
+}
+
 /// The diameters in mm that the sources give for a cutting tool.
 struct ToolDiameters {
     given: Option<f64>,
@@ -35,6 +48,13 @@ struct ToolDiameters {
 }
 
 impl ToolDiameters {
+    fn origin(&self) -> Option<Origin> {
+        let table = self.table.filter(|_| self.is_numbered);
+        let known = [(self.given, Origin::Option), (self.drawn, Origin::Drawing), (table, Origin::Table)];
+        let first = known.into_iter().find_map(|(value, origin)| value.map(|_| origin));
+        first.or(self.header.map(|_| Origin::Program))
+    }
+
     /// The widths by the first source; where another one disagrees, the smaller diameter removes material and the larger one hits it.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
@@ -75,6 +95,20 @@ impl<'s> Sources<'s> {
         let native = (self.program.dialect == Dialect::Native)
             .then(|| Stock::of_native_text(&self.program.drawn(), cutters.first()?.1));
         native.flatten().or_else(|| self.header.surface.map(uniform)).map(|stock| self.limited(stock))
+    }
+
+    /// Where the cutters come from: the last of these places, if the program has several tools.
+    pub(super) fn cutter_origin(&self) -> Option<Origin> {
+        let given = self.options.cutter.map(|_| Origin::Option).or(self.drawn().map(|_| Origin::Drawing));
+        self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
+    }
+
+    /// Where the surface comes from, with its height if it is the same everywhere.
+    pub(super) fn surface(&self) -> Option<(Origin, Option<f64>)> {
+        let drawn = self.against.and_then(ReferenceProgram::surface);
+        let given = self.options.surface.map(|surface| (Origin::Option, Some(surface)));
+        let known = given.or(drawn.map(|surface| (Origin::Drawing, Some(surface))));
+        known.or_else(|| self.stock().map(|stock| (Origin::Program, stock.common_surface())))
     }
 
     /// Reports rapid moves at cutting depth, unless the surface is known by more than the comments of another CAM, or the line has an
@@ -221,11 +255,3 @@ static HEADER: Text = Text { en: "the header", de: "der Kopf" };
 static TABLE: Text = Text { en: "`[tool]`", de: "`[tool]`" };
 static CUTTER: Text = Text { en: "--cutter", de: "--cutter" };
 static SURFACE: Text = Text { en: "--surface", de: "--surface" };
-
-/// Explains what is not checked if cutter or material is unknown.
-pub(super) fn not_known(context: &Context) -> &'static str {
-    context.choose(
-        "not checked: rapid moves into material, because cutter or material is not known (give --against PATH, or --cutter and --surface)",
-        "nicht geprüft: Eilgang ins Material, weil Fräser oder Material nicht bekannt ist (--against PFAD angeben oder --cutter und --surface)",
-    )
-}
