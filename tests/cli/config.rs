@@ -380,17 +380,17 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         assert!(run.stderr.contains(expected), "{text}: {run}");
     };
     for (text, english, german) in [
-        ("travel = [1, 1, 1]\n", "`travel` belongs into [machine]", "`travel` gehört in [machine]"),
-        ("coolant = \"off\"\n", "`coolant` belongs into [tool.NAME]", "`coolant` gehört in [tool.NAME]"),
+        ("travel = [1, 1, 1]\n", "`travel` belongs in [machine]", "`travel` gehört in [machine]"),
+        ("coolant = \"off\"\n", "`coolant` belongs in [tool.NAME]", "`coolant` gehört in [tool.NAME]"),
         (
             "[emit]\nlibrary = []\n",
             "`library` belongs to the top of the file",
             "`library` gehört an den Anfang",
         ),
-        ("[post]\ndebounce = \"1 s\"\n", "`debounce` belongs into [watch]", "`debounce` gehört in [watch]"),
+        ("[post]\ndebounce = \"1 s\"\n", "`debounce` belongs in [watch]", "`debounce` gehört in [watch]"),
         (
             "acelerations = [1, 1, 1]\n",
-            "did you mean `accelerations`? It belongs into",
+            "did you mean `accelerations`? It belongs in",
             "Das gehört in [machine]",
         ),
         (

@@ -16,7 +16,7 @@ use crate::entities::Shape;
 use crate::faults::{EntityError, Fatal};
 use crate::layers::{LayerId, UsedLayer};
 use crate::placement::Placement;
-use crate::shapes::curves::{NoPieces, Tolerance};
+use crate::shapes::curves::{ApproximationFailure, Tolerance};
 use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
 
 /// Builds a drawing.
@@ -138,8 +138,10 @@ impl<'d> Collector<'d> {
         };
         let parts = match parts {
             Ok(parts) if parts.iter().all(Geometry::is_sound) => parts,
-            Ok(_) | Err(NoPieces::TooFar) => return self.refuse(placed, layer, &EntityError::TooLarge),
-            Err(NoPieces::TooMany) => return Err(self.too_many()),
+            Ok(_) | Err(ApproximationFailure::TooFar) => {
+                return self.refuse(placed, layer, &EntityError::TooLarge);
+            }
+            Err(ApproximationFailure::TooMany) => return Err(self.too_many()),
         };
         let group = Some(self.groups);
         self.groups += 1;

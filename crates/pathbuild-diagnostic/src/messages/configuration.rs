@@ -31,11 +31,11 @@ messages! {
         help_en: "known here: {known}",
         help_de: "hier bekannt: {known}",
     }
-    /// A key that belongs into another table.
+    /// A key that belongs in another table.
     KEY_OF_TABLE: InvalidConfiguration {
         en: "the key `{key}` is in the wrong place",
         de: "der Schlüssel `{key}` steht an der falschen Stelle",
-        help_en: "`{near}` belongs into {table}",
+        help_en: "`{near}` belongs in {table}",
         help_de: "`{near}` gehört in {table}",
     }
     /// A top-level key inside a table.
@@ -49,7 +49,7 @@ messages! {
     NEAR_KEY_OF_TABLE: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
-        help_en: "did you mean `{near}`? It belongs into {table}",
+        help_en: "did you mean `{near}`? It belongs in {table}",
         help_de: "ist `{near}` gemeint? Das gehört in {table}",
     }
     /// An unknown key that is similar to a top-level one.

@@ -220,8 +220,8 @@ messages! {
     TEXT_AFTER_PERCENT: DoubtfulSpelling {
         en: "text behind `%` is read as a comment",
         de: "Text hinter `%` wird als Kommentar gelesen",
-        help_en: "leave `%` alone in its line",
-        help_de: "`%` allein in der Zeile lassen",
+        help_en: "write `%` on a line of its own",
+        help_de: "`%` allein in eine Zeile schreiben",
     }
     /// A character that GRBL obeys immediately.
     REAL_TIME_CHARACTER: RealTimeCharacter {
@@ -351,8 +351,8 @@ messages! {
     }
     /// A command that is not interpreted.
     NOT_FOLLOWED: WordNotFollowed {
-        en: "{word} is not followed: moves from here on may be others than those of the machine",
-        de: "{word} wird nicht verfolgt: ab hier können die Bewegungen andere sein als die der Maschine",
+        en: "{word} is not followed: from here on the machine may move differently",
+        de: "{word} wird nicht verfolgt: ab hier kann sich die Maschine anders bewegen",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }

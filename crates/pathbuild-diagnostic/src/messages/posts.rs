@@ -108,7 +108,7 @@ messages! {
     BLOCK_WITHIN_ITSELF: EndlessMacro {
         en: "{macro} in {section}: this section is itself part of the text that {macro} stands for",
         de: "{macro} in {section}: dieser Abschnitt ist selbst ein Teil des Textes, für den {macro} steht",
-        help_en: "$mops belongs into PostFile, $blocks into MOP, once each",
+        help_en: "$mops belongs in PostFile, $blocks in MOP, once each",
         help_de: "$mops gehört in PostFile, $blocks in MOP, je einmal",
     }
     /// Macros that multiply the output.
@@ -535,8 +535,8 @@ messages! {
     }
     /// Unknown dialect, with a suggestion.
     DIALECT_UNKNOWN_NEAREST: InvalidPost {
-        en: "there is no dialect {name}; one of {known}",
-        de: "es gibt keinen Dialekt {name}, nur {known}",
+        en: "there is no dialect {name}; valid ones are {known}",
+        de: "es gibt keinen Dialekt {name}; gültig sind {known}",
         help_en: "did you mean {nearest}?",
         help_de: "ist {nearest} gemeint?",
     }

@@ -210,7 +210,7 @@ pub(crate) struct Tolerance {
 }
 
 /// Why a curve cannot be approximated.
-pub(crate) enum NoPieces {
+pub(crate) enum ApproximationFailure {
     /// It would take more pieces than the limit allows.
     TooMany,
     /// It reaches beyond the largest coordinate of a drawing.
@@ -233,11 +233,11 @@ pub(crate) fn approximate(
     z: f64,
     tolerance: Tolerance,
     pieces: &mut Vec<Geometry>,
-) -> Result<(), NoPieces> {
+) -> Result<(), ApproximationFailure> {
     let mut steps = tolerance.most_pieces.saturating_mul(2);
     let mut spans = vec![(from, to, 0)];
     while let Some((from, to, depth)) = spans.pop() {
-        steps = steps.checked_sub(1).ok_or(NoPieces::TooMany)?;
+        steps = steps.checked_sub(1).ok_or(ApproximationFailure::TooMany)?;
         if let Some(fitting) = fit(curve, from, to, tolerance.distance) {
             pieces.extend(fitting.iter().filter_map(|piece| piece.geometry(z)));
         } else if depth == DEEPEST {
@@ -248,7 +248,7 @@ pub(crate) fn approximate(
             spans.push((from, middle, depth + 1));
         }
     }
-    if pieces.len() > tolerance.most_pieces { Err(NoPieces::TooMany) } else { Ok(()) }
+    if pieces.len() > tolerance.most_pieces { Err(ApproximationFailure::TooMany) } else { Ok(()) }
 }
 
 /// The biarc that matches the ends and directions of the curve, if it is close enough, or a line if the curve has no direction there.
@@ -322,10 +322,10 @@ impl Ellipse {
         &self,
         placement: &Placement,
         tolerance: Tolerance,
-    ) -> Result<Vec<Geometry>, NoPieces> {
+    ) -> Result<Vec<Geometry>, ApproximationFailure> {
         let placed = self.placed(placement);
         if !placed.is_near() {
-            return Err(NoPieces::TooFar);
+            return Err(ApproximationFailure::TooFar);
         }
         let mut pieces = Vec::new();
         let quarters = libm::ceil((self.end - self.start) / FRAC_PI_2).max(1.0);
@@ -431,10 +431,10 @@ impl Spline {
         &self,
         placement: &Placement,
         tolerance: Tolerance,
-    ) -> Result<Vec<Geometry>, NoPieces> {
+    ) -> Result<Vec<Geometry>, ApproximationFailure> {
         let placed = self.placed(placement);
         if !placed.is_near() {
-            return Err(NoPieces::TooFar);
+            return Err(ApproximationFailure::TooFar);
         }
         let mut pieces = Vec::new();
         for knot in self.degree..self.points.len() {

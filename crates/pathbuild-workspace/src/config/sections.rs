@@ -316,7 +316,7 @@ pub mod tables {
     use pathbuild_post::PostMacro;
 
     use crate::config::table_kinds::{LINE_TYPES, MACROS, SEVERITY, SEVERITY_IN, TOOLS};
-    use crate::config::types::{Level, LineTypeAlias, SeveritiesIn, Tool};
+    use crate::config::types::{FileSeverities, Level, LineTypeAlias, Tool};
 
     section! {
         /// further names: name in the drawing = one of the known line types
@@ -325,7 +325,7 @@ pub mod tables {
         /// (PB0 to PB5) cannot be lowered
         severity: Vec<(Code, Level)> = "severity", SEVERITY, Vec::new(), "[severity]\nPB210 = \"ignore\"", Neither;
         /// the same for some drawings: globs, relative to this file
-        severity_in: Vec<SeveritiesIn> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"", Neither;
+        severity_in: Vec<FileSeverities> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"", Neither;
         /// a tool, for post-processors: found by O (and by paths, a pattern of path names); with shape = "slot" its paths
         /// are compared with parts only for cuts into them
         tools: Vec<Tool> = "tool", TOOLS, Vec::new(),

@@ -13,7 +13,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::kinds::{COUNT, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::reader::{Table, TomlReader, ValueType};
-use crate::config::types::{CutterShape, Level, LineTypeAlias, PostChoice, SeveritiesIn, Tool};
+use crate::config::types::{CutterShape, FileSeverities, Level, LineTypeAlias, PostChoice, Tool};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::PostMacro;
 
@@ -38,7 +38,7 @@ pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType 
 };
 
 /// Levels of codes in some drawings.
-pub(in crate::config) const SEVERITY_IN: ValueType<Vec<SeveritiesIn>> = ValueType {
+pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueType {
     read: |value, reader| {
         let tables =
             value.get_ref().as_array().map(|array| array.iter().map(|item| item.get_ref().as_table()));
@@ -225,8 +225,8 @@ pub fn nearest_code(name: &str) -> Option<String> {
     nearest(name, names).map(str::to_owned)
 }
 
-fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> SeveritiesIn {
-    let mut part = SeveritiesIn::default();
+fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeverities {
+    let mut part = FileSeverities::default();
     for (name, value) in table {
         if name.get_ref() == "files" {
             part.files = (PATTERNS.read)(value, reader).unwrap_or_default();

@@ -214,12 +214,12 @@ pub struct Severities {
     /// Levels for all drawings.
     pub everywhere: Vec<(Code, Level)>,
     /// Levels for some drawings; if several entries apply to a code, the last one counts.
-    pub in_files: Vec<SeveritiesIn>,
+    pub in_files: Vec<FileSeverities>,
 }
 
 /// Levels for some drawings.
 #[derive(Clone, Debug, Default)]
-pub struct SeveritiesIn {
+pub struct FileSeverities {
     /// The drawings, relative to the configuration's directory.
     pub files: Vec<Pattern>,
     /// Levels of codes.
@@ -233,7 +233,7 @@ impl Severities {
             levels.iter().find(|(known, _)| *known == code).map(|(_, level)| *level)
         };
         let file = file.map(|file| file.as_str().replace('\\', "/"));
-        let is_in = |part: &&SeveritiesIn| {
+        let is_in = |part: &&FileSeverities| {
             file.as_ref().is_some_and(|file| part.files.iter().any(|pattern| pattern.matches(file)))
         };
         let in_file = self.in_files.iter().rev().filter(is_in).find_map(|part| level_in(&part.levels));
