@@ -52,7 +52,7 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("line-types", "[line-types]\nMITTE = 'CENTER'", BOTH),
     ("severity", "[severity]\nPB210 = 'ignore'", NONE),
     ("severity-in", "[[severity-in]]\nfiles = ['a']\nPB210 = 'ignore'", NONE),
-    ("tool", "[tool.2mm]\ndiameter = 2", PROGRAMS),
+    ("tool", "[tool.2mm]\ndiameter = 2", BOTH),
     ("macros", "[macros]\na = 'b'", PROGRAMS),
     ("emit.targets", "[emit]\ntargets = ['8*']", NONE),
     ("emit.sheet", "[emit]\nsheet = 'svg'", PROGRAMS),
