@@ -99,6 +99,27 @@ fn a_clamp_in_the_way_is_seen() {
     assert_snapshot!(clamp.1);
 }
 
+/// A path whose cuts go into its part by 0.5 mm below and leave 0.5 mm above is shown with both; no program of it is written.
+#[test]
+fn cuts_into_a_part_are_shown_with_it() {
+    let drawing = "layer 1234.1P\nstart 0,-9 \"T2 O2 I1 B0 S5 F150\"\nsweep 0,-9 -1,-0.5\nmill -1,-0.5 41,-0.5 41,21.5 -1,21.5 -1,-0.5\nsweep -1,-0.5 0,-9\nend 0,-9\nlayer Part\npolyline 0,0 40,0 40,20 0,20 closed\n";
+    let options = "rapid = 1000\npart = 'Part'\npart-held = \"otherwise\"\n";
+    let place = Place::new().file("pathbuild.toml", options).file("1234.1P.dxf", dxf(drawing));
+    place.run("view 1234.1P -o scene.json");
+    let scene: Value = serde_json::from_str(&place.read("scene.json")).unwrap();
+    let path = &scene["paths"][0];
+    assert!(path["moves"].as_array().unwrap().len() > 5, "{path}");
+    assert_eq!(scene["through"], 0.001_001);
+    let part = &path["parts"][0];
+    assert_eq!(part["rings"][0].as_array().unwrap().len(), 4, "{part}");
+    assert_eq!((&part["top"], &part["tolerance"]), (&2.0.into(), &0.02.into()));
+    assert_eq!(part["left"].as_array().unwrap().len(), 1, "{part}");
+    assert_eq!(part["left"][0]["reach"], 0.5);
+    assert_eq!(part["left"][0]["outline"][0]["from"], serde_json::json!([39.98, 29.0]));
+    assert!(place.run("emit 1234.1P").stderr.contains("PB213"));
+    assert!(!place.path().join("1234.1P_Milling.gcode").exists());
+}
+
 #[test]
 fn what_a_drawing_says_is_no_markup_in_pages() {
     let hostile = format!("{GAP}text 20,12 \"Q<script>alert(1)</script>&\"\n");

@@ -23,10 +23,10 @@ pub use pathbuild_files as system;
 pub use pathbuild_files::System;
 pub use queries::{
     Closure, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
-    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, ReachedPath, ResolvedPath,
-    Trace, TracedProgram, assigned_texts, chains, check_file, check_target, closure, combinations, content,
-    content_hash, drawing_names, drawn_path, embeds, embeds_others, file_index, holders, in_force, keep_outs,
-    likely_file, locate, may_hold, name_table, other_layers, path, path_index, path_names, path_place,
-    placed_keep_outs, prefetch, program, q_project, q_project_findings, raw_file, resolve_path, search_path,
-    summary, trace, traced_program, unlistable, unlisted,
+    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, PlacedPart, ReachedPath,
+    ResolvedPath, Trace, TracedProgram, assigned_texts, chains, check_file, check_target, closure,
+    combinations, content, content_hash, drawing_names, drawn_path, embeds, embeds_others, file_index,
+    holders, in_force, keep_outs, likely_file, locate, may_hold, name_table, other_layers, path, path_index,
+    path_names, path_place, placed_keep_outs, placed_parts, prefetch, program, q_project, q_project_findings,
+    raw_file, resolve_path, search_path, summary, trace, traced_program, unlistable, unlisted,
 };

@@ -187,6 +187,33 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 }
 
 {
+  // A cut into a part and material left at one are coloured, and nothing else: the opening may be cut with either of its two rings.
+  const line = (from, to) => ({ type: "line", from, to });
+  const ring = ([x0, y0], [x1, y1]) => [line([x0, y0], [x1, y0]), line([x1, y0], [x1, y1]), line([x1, y1], [x0, y1]), line([x0, y1], [x0, y0])];
+  const rings = [ring([0, 0], [40, 20]), ring([10, 6], [18, 14]), ring([11, 7], [17, 13])];
+  const parts = [{ rings, top: 2, tolerance: 0.02, left: [{ outline: [line([40, 20], [0, 20])], reach: 0.5 }] }];
+  const along = (...points) => points.slice(1).map((to, index) => move("mill", [...points[index], 0], [...to, 0]));
+  const scene = plain(2, 2, [...along([-1, -1], [-1, 21.5], [41, 21.5], [41, -0.5], [-1, -0.5]), ...along([11, 7], [17, 7], [17, 13], [11, 13], [11, 7])]);
+  scene.paths[0].parts = parts;
+  const stock = Stock.of(scene, given);
+  stock.seek(scene.paths[0].moves.length);
+  const { columns, texel, cutting, through, heights } = stock.map;
+  const [counts, wrong] = [{ gouge: 0, left: 0 }, []];
+  for (let at = 0; at < heights.length; at++) {
+    const [x, y] = [cutting.box[0] + ((at % columns) + 0.5) * texel, cutting.box[1] + (Math.floor(at / columns) + 0.5) * texel];
+    const [red, green, blue] = stock.colors.subarray(at * 4, at * 4 + 3);
+    const what = red > 150 && green < 80 && blue < 90 ? "gouge" : blue > 140 && green < 90 ? "left" : null;
+    if (!what) continue;
+    counts[what] += texel * texel;
+    const isRight = what === "gouge" ? x > 0 && x < 40 && y > 0 && y < 0.5 + texel && heights[at] <= through[at] : y > 20 && y < 20.5 + texel;
+    if (!isRight) wrong.push([what, x, y]);
+  }
+  assert.deepEqual(wrong.slice(0, 3), []);
+  assert.ok(Math.abs(counts.gouge - 40 * 0.5) < 2, `${counts.gouge} mm² cut into the part`);
+  assert.ok(Math.abs(counts.left - 40 * 0.5) < 2, `${counts.left} mm² left`);
+}
+
+{
   // Long programs: zigzags on growing circles, pass by pass.
   const moves = [move("plunge", [20, 0, 5], [20, 0, -1])];
   for (let step = 1; step < 200_000; step++) {

@@ -15,8 +15,8 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, EmittedText, GcodeSource, ProgramSource, drawn_path, findings, gcode_path, keep_out,
-    other_layers, program_path,
+    DrawnSource, EmittedText, GcodeSource, ProgramSource, drawn_path, findings, finished_part, gcode_path,
+    keep_out, other_layers, program_path,
 };
 pub use changes::{Change, ChangeKind, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]
@@ -24,9 +24,9 @@ pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 #[cfg(feature = "pictures")]
 pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
-    ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, KeepOut, Label,
-    MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA, Scene, SceneMove, ScenePath,
-    Shape, Totals, VERSION,
+    ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, FinishedPart,
+    KeepOut, Label, LeftMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA,
+    Scene, SceneMove, ScenePath, Shape, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;

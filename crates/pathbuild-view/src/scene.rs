@@ -66,6 +66,9 @@ pub struct ScenePath {
     pub texts: Vec<Label>,
     /// Support bars.
     pub bars: Vec<Bar>,
+    /// Finished parts that it cuts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<FinishedPart>,
     /// Z-probes of the program, in measuring order.
     pub probes: Vec<ProbeMark>,
     /// The moves of the tool, in order. Empty if the path has errors.
@@ -248,6 +251,31 @@ pub struct Bar {
     /// Z of the top.
     #[serde(serialize_with = "millimetres")]
     pub top: f64,
+}
+
+/// A finished part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FinishedPart {
+    /// The outermost ring of its outline, then the openings.
+    pub rings: Vec<Vec<Shape>>,
+    /// Z of its upper face.
+    #[serde(serialize_with = "millimetres")]
+    pub top: f64,
+    /// How far a cut may miss its outline.
+    #[serde(serialize_with = "millimetres")]
+    pub tolerance: f64,
+    /// Material that the path leaves at its parts.
+    pub left: Vec<LeftMaterial>,
+}
+
+/// Material that is left at an outline.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LeftMaterial {
+    /// The stretch of the outline.
+    pub outline: Vec<Shape>,
+    /// How far it reaches from there.
+    #[serde(serialize_with = "millimetres")]
+    pub reach: f64,
 }
 
 /// A point that is measured before milling.

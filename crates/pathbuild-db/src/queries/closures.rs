@@ -133,6 +133,13 @@ impl Closure<'_> {
         self.root.is_none() || self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
+    /// Whether its moves are unknown. Those that harm a part are known.
+    pub fn has_unknown_moves(&self) -> bool {
+        let is_harm = |problem: &Diagnostic| matches!(problem.code(), Code::GougedPart | Code::BarCutAway);
+        let is_other = |problem: &Diagnostic| problem.is_error() && !is_harm(problem);
+        self.root.is_none() || !self.missing_options.is_empty() || self.diagnostics.iter().any(is_other)
+    }
+
     /// The files that the closure was computed from.
     pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();

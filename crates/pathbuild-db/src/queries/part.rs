@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_path::{Part, PartFindings, PathCuts, check_parts, check_path, parts as read_parts};
+use pathbuild_path::{
+    LeftMaterial, Part, PartFindings, PathCuts, Placement, check_parts, check_path, parts as read_parts,
+};
 
 use crate::database::Db;
-use crate::inputs::{Reading, Settings, SourceFile};
+use crate::inputs::{Reading, Settings, SourceFile, Target};
 use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, path_index, soften};
+use crate::queries::programs::traced_program;
 use crate::queries::raw::read_layers_as;
 
 /// The parts and cuts of a drawing; `None` without the setting, or if it has neither parts nor embedded paths.
@@ -88,6 +91,45 @@ pub(super) fn parts_of<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<&'d
     place
         .map(|place| findings.parts[place].iter().map(|part| &found.parts[*part]).collect())
         .unwrap_or_default()
+}
+
+/// A finished part as placed in a program.
+#[derive(Clone, Debug)]
+pub struct PlacedPart<'db> {
+    /// The part as drawn.
+    pub drawn: &'db Part,
+    /// The material that is left at its outline, as drawn.
+    pub left: &'db [LeftMaterial],
+    /// Its place in the program.
+    pub placement: Placement,
+    /// Z of its upper face in mm.
+    pub top: f64,
+    /// How far in mm a cut may miss its outline.
+    pub tolerance: f64,
+}
+
+/// The finished parts that the program of a target cuts. Empty without a program.
+pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
+    let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
+    let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
+    let mut all = Vec::new();
+    for occurrence in &traced.trace.occurrences {
+        let cutting = &traced.parts[occurrence.id];
+        let (Some(found), Some(findings)) = (file_parts(db, cutting.file), part_findings(db, cutting.file))
+        else {
+            continue;
+        };
+        let Some(place) = found.place(&cutting.path.name) else { continue };
+        all.extend(findings.parts[place].iter().enumerate().map(|(number, part)| PlacedPart {
+            drawn: &found.parts[*part],
+            // What a path leaves belongs to all its parts together.
+            left: if number == 0 { &findings.left[place] } else { &[] },
+            placement: occurrence.placement,
+            top: occurrence.raised + cutting.path.thickness,
+            tolerance: settings.tolerance,
+        }));
+    }
+    all
 }
 
 fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {

@@ -50,11 +50,12 @@ pub struct DrawnPath<'db> {
     pub positions: &'db SourceMap,
 }
 
-/// The program of a target with the origins of its steps; `None` if there is no program. Only the last one is kept.
+/// The program of a target with the origins of its steps, even if it harms a part; `None` if its moves are unknown. Only the last one is
+/// kept.
 #[salsa::tracked(no_eq, lru = 1)]
 pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>> {
     let closure = closure(db, target);
-    if closure.has_errors() || !closure.missing_options.is_empty() {
+    if closure.has_unknown_moves() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();

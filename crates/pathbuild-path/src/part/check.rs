@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use super::bars::lost_bars;
 use super::cuts::{CutIndex, PathCuts};
 use super::gouge::{Gouge, JudgedCut, gouges, judged};
-use super::leftover::{Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
+use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
 use super::{Part, PartSettings};
@@ -25,6 +25,8 @@ pub struct PartFindings {
     pub of_paths: Vec<Vec<Diagnostic>>,
     /// For each path, the indices of the parts that it cuts.
     pub parts: Vec<Vec<usize>>,
+    /// The material that each path leaves at outlines.
+    pub left: Vec<Vec<LeftMaterial>>,
 }
 
 /// Depth in mm up to which a cut into a part is a warning.
@@ -42,6 +44,7 @@ pub fn check_parts(
         uncut: Vec::new(),
         of_paths: vec![Vec::new(); paths.len()],
         parts: vec![Vec::new(); paths.len()],
+        left: vec![Vec::new(); paths.len()],
     };
     if parts.is_empty() {
         return none;
@@ -55,8 +58,12 @@ pub fn check_parts(
         if is_complete && !embeds_others {
             findings.uncut.extend(check.nests_without_cuts().map(|ring| (number, ring)));
         }
-        for (path, problem) in check.problems(is_complete) {
+        let leftovers = if is_complete { check.leftovers() } else { Leftovers::default() };
+        for (path, problem) in check.problems(is_complete, &leftovers) {
             findings.of_paths[path].push(problem);
+        }
+        for left in leftovers.stretches {
+            findings.left[left.path].push(left.material);
         }
         for (path, _) in check.owners.iter().enumerate().filter(|(_, is_owner)| **is_owner) {
             findings.parts[path].push(number);
@@ -120,10 +127,10 @@ impl<'s> PartCheck<'s> {
     }
 
     /// The findings about the owners, each with its path. What is not cut is judged on the cuts of all of them together.
-    fn problems(&self, is_complete: bool) -> Vec<(usize, Diagnostic)> {
+    fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut found: Vec<_> = self.gouged().collect();
+        found.extend(self.left_over(leftovers));
         if is_complete {
-            found.extend(self.left_over());
             found.extend(self.loose());
         }
         found
@@ -137,12 +144,14 @@ impl<'s> PartCheck<'s> {
         })
     }
 
-    /// PB215, one for each element beside which material is left, and PB216.
-    fn left_over(&self) -> Vec<(usize, Diagnostic)> {
+    fn leftovers(&self) -> Leftovers {
         let tolerance = self.settings.tolerance;
-        let search = LeftoverSearch::new(self.part, self.cuts, &self.judged, &self.contours, tolerance);
-        let Leftovers { stretches, unreachable } = search.leftovers();
-        let mut of_elements: BTreeMap<(usize, u32, bool), Vec<Leftover>> = BTreeMap::new();
+        LeftoverSearch::new(self.part, self.cuts, &self.judged, &self.contours, tolerance).leftovers()
+    }
+
+    /// PB215, one for each element beside which material is left, and PB216.
+    fn left_over(&self, Leftovers { stretches, unreachable }: &Leftovers) -> Vec<(usize, Diagnostic)> {
+        let mut of_elements: BTreeMap<(usize, u32, bool), Vec<&Leftover>> = BTreeMap::new();
         for left in stretches {
             of_elements.entry((left.path, left.element, left.height.is_some())).or_default().push(left);
         }
@@ -151,13 +160,13 @@ impl<'s> PartCheck<'s> {
             let problem = leftover_problem(&stretches);
             found.extend(problem.map(|problem| (path, self.cuts.paths[path].at_element(element, problem))));
         }
-        found.extend(unreachable.map(|UnreachableOutline { at, length, path, element }| {
-            let path_cuts = self.cuts.paths[path];
+        found.extend(unreachable.iter().map(|UnreachableOutline { at, length, path, element }| {
+            let path_cuts = self.cuts.paths[*path];
             let problem = Diagnostic::new(&messages::UNREACHABLE_CORNER)
                 .with("tool", 2.0 * path_cuts.radius)
-                .with("point", shown(at))
-                .with("length", length);
-            (path, path_cuts.at_element(element, problem))
+                .with("point", shown(*at))
+                .with("length", *length);
+            (*path, path_cuts.at_element(*element, problem))
         }));
         found
     }
@@ -218,7 +227,7 @@ fn gouge_problem(gouge: &Gouge) -> Diagnostic {
 }
 
 /// PB215 for what an element leaves, with the longest stretch. `None` without any.
-fn leftover_problem(stretches: &[Leftover]) -> Option<Diagnostic> {
+fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
     let left = stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
     let problem = match left.height {
         Some(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),

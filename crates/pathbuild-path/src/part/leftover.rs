@@ -34,6 +34,17 @@ pub(super) struct Leftover {
     pub(super) thickness: f64,
     /// If the cut beside it does not go through the plate, its lowest height in mm.
     pub(super) height: Option<f64>,
+    /// The outline and the material at it.
+    pub(super) material: LeftMaterial,
+}
+
+/// Material that is left at an outline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftMaterial {
+    /// The stretch of the outline.
+    pub outline: Vec<Curve>,
+    /// How far in mm it reaches from there.
+    pub reach: f64,
 }
 
 impl Leftover {
@@ -293,6 +304,7 @@ impl<'s> LeftoverSearch<'s> {
         // Not at the ends, which may lie beside the end of the cut, where its edge is as far away as it can be.
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
+        let is_through = nearest.cut.through.is_some();
         Some(Leftover {
             path: nearest.cut.path,
             element: nearest.cut.cut.element,
@@ -300,7 +312,11 @@ impl<'s> LeftoverSearch<'s> {
             to: place(to),
             length,
             thickness,
-            height: nearest.cut.through.is_none().then(|| nearest.cut.cut.way.lowest()),
+            height: (!is_through).then(|| nearest.cut.cut.way.lowest()),
+            material: LeftMaterial {
+                outline: self.ring_section(ring, (from, to), whole),
+                reach: if is_through { thickness } else { 2.0 * nearest.cut.radius },
+            },
         })
     }
 
@@ -341,6 +357,19 @@ impl<'s> LeftoverSearch<'s> {
         self.beside(&curve).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| element(one).cmp(&element(other)))
         })
+    }
+
+    /// The curves of a stretch of a ring, which may begin below 0 if it runs across the ring's start.
+    fn ring_section(&self, ring: usize, (from, to): Stretch, whole: f64) -> Vec<Curve> {
+        let mut begin = -whole;
+        let curves = &self.part.part.rings[ring].curves;
+        let section = |curve: &Curve| {
+            let length = curve.length();
+            let (first, last) = ((from - begin).max(0.0), (to - begin).min(length));
+            begin += length;
+            (first < last).then(|| curve.section(first, last))
+        };
+        curves.iter().chain(curves).filter_map(section).collect()
     }
 
     /// The point of a ring at a distance along it, which may be below 0 for a stretch across its start.

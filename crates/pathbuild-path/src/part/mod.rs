@@ -23,6 +23,7 @@ use crate::names::{LayerPattern, PathName};
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts, check_path};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH};
+pub use leftover::LeftMaterial;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts};
 
 /// Settings of the part check.

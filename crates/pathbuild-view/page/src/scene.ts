@@ -77,6 +77,7 @@ export interface Path {
   elements: Element[];
   texts: Label[];
   bars: { element: number; shape: Shape; top: number }[];
+  parts?: FinishedPart[];
   probes: { number: number; at: Point; height: number; label: string | null }[];
   moves: Move[];
   totals: { milling: number; drilling: number; sweeps: number; minutes: number | null } | null;
@@ -85,6 +86,13 @@ export interface Path {
   refusal?: { en: string; de: string };
   native?: { gcode: string; lines: (number | null)[] };
   examples?: { name: string; value: string | null }[];
+}
+
+export interface FinishedPart {
+  rings: Shape[][];
+  top: number;
+  tolerance: number;
+  left: { outline: Shape[]; reach: number }[];
 }
 
 export interface KeepOut {
@@ -116,8 +124,13 @@ export interface Scene {
   findings: Finding[];
 }
 
-/** Degrees of an arc that one straight piece stands for. */
+/** Largest angle in degrees of an arc for which one straight piece stands. */
 const STEP = 6;
+
+/** Degrees of an arc for which one straight piece stands, so that it stays within `sagitta` of it. */
+function step(radius: number, sagitta: number): number {
+  return Math.min(STEP, (360 / Math.PI) * Math.acos(Math.max(-1, 1 - sagitta / radius)) || STEP);
+}
 
 /** The points of a move, from its beginning to its end; empty where it is not known where it leads. Chords stay within `sagitta` of an arc. */
 export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, number][] {
@@ -133,8 +146,7 @@ export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, n
   const [x, y] = spoke(begin);
   const [radius, last] = [Math.hypot(x, y), Math.hypot(...(spoke(end) as Point))];
   const start = Math.atan2(y, x);
-  const fine = (360 / Math.PI) * Math.acos(Math.max(-1, 1 - sagitta / Math.max(radius, last)));
-  const pieces = Math.max(2, Math.ceil(arc.degrees / Math.min(STEP, fine || STEP)));
+  const pieces = Math.max(2, Math.ceil(arc.degrees / step(Math.max(radius, last), sagitta)));
   const way = ((arc.clockwise ? -1 : 1) * arc.degrees * Math.PI) / 180;
   const points = [begin];
   for (let piece = 1; piece < pieces; piece++) {
@@ -150,14 +162,14 @@ export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, n
   return points;
 }
 
-/** The points of a shape. */
-export function pointsOfShape(shape: Shape): Point[] {
+/** The points of a shape. Chords stay within `sagitta` of an arc. */
+export function pointsOfShape(shape: Shape, sagitta = Infinity): Point[] {
   if (shape.type === "line") return [shape.from, shape.to];
   const { centre, radius } = shape;
   const degrees = shape.type === "circle" ? 360 : shape.degrees;
   const start = shape.type === "circle" ? 0 : Math.atan2(shape.from[1] - centre[1], shape.from[0] - centre[0]);
   const way = ((shape.type === "arc" && shape.clockwise ? -1 : 1) * degrees * Math.PI) / 180;
-  const pieces = Math.max(2, Math.ceil(degrees / STEP));
+  const pieces = Math.max(2, Math.ceil(degrees / step(radius, sagitta)));
   return Array.from({ length: pieces + 1 }, (_, piece): Point => {
     const angle = start + (way * piece) / pieces;
     return [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)];

@@ -10,7 +10,7 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import { Kept } from "./kept.js";
 import { Labels, Spot } from "./labels.js";
 import { Model, Pieces } from "./model.js";
-import { KeepOut, Point, Scene, Shape, pointsOfShape } from "./scene.js";
+import { KeepOut, Path, Point, Scene, Shape, pointsOfShape } from "./scene.js";
 import { Texels } from "./stock/heights.js";
 import { StockPicture } from "./stock/picture.js";
 import { Stock } from "./stock/stock.js";
@@ -110,6 +110,7 @@ export class Stage {
     this.scene.add(this.thin(elementShapes(scene), dark ? 0x6c7a86 : 0x8794a0));
     for (const height of [false, true]) this.scene.add(this.thin(keepOuts(scene, height), 0xd55e00));
     for (const it of scene.keep_outs) this.scene.add(clamp(it));
+    this.scene.add(this.fat(outlines(scene), 1.6));
     this.bars = this.fat(bars(scene), 6);
     this.scene.add(this.bars);
     this.holes = this.discs(model.holes);
@@ -430,6 +431,13 @@ function elementShapes(scene: Scene): number[] {
       .filter((element) => path.moves.length === 0 || always.includes(element.kind))
       .flatMap((element) => strokes(element.shape, path.zero, 0)),
   );
+}
+
+/** The outlines of finished parts on their upper faces. */
+function outlines(scene: Scene): Pieces {
+  const ofPart = (path: Path) => (path.parts ?? []).flatMap(({ rings, top }) => rings.flat().flatMap((shape) => strokes(shape, path.zero, top)));
+  const points = scene.paths.flatMap(ofPart);
+  return { points, colors: points.map((_, index) => [0, 0.38, 0.86][index % 3]), until: [], step: [] };
 }
 
 function bars(scene: Scene): Pieces {

@@ -549,14 +549,18 @@ picture.addEventListener("click", (event) => {
   if (chosen !== null) go(chosen + 1);
   describe(chosen);
 });
-let hovering = false;
+/** Where the pointer is; `null` once that was shown. */
+let hovered: PointerEvent | null = null;
 picture.addEventListener("pointermove", (event) => {
-  if (!stage || hovering || event.buttons > 0) return;
-  hovering = true;
+  if (!stage || event.buttons > 0) return;
+  const isDue = hovered !== null;
+  hovered = event;
+  if (isDue) return;
   requestAnimationFrame(() => {
-    hovering = false;
+    const [left, top] = [hovered!.clientX, hovered!.clientY];
+    hovered = null;
     const box = picture.getBoundingClientRect();
-    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    const [x, y] = [left - box.left, top - box.top];
     const at = stage!.plane(x, y, 0);
     const height = shown.stock && !space && stock ? stock.map.at(...at) : NOTHING;
     $("at").textContent = `X${at[0].toFixed(2)} Y${at[1].toFixed(2)}${height === NOTHING ? "" : ` Z${height.toFixed(2)}`}`;

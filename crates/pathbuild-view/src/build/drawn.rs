@@ -10,8 +10,8 @@ use pathbuild_path::{
 };
 
 use crate::scene::{
-    ArcShape, Element, ElementKind, EmbeddedPath, KeepOut, Label, OtherShape, Parameter, Point, ScenePath,
-    Shape,
+    ArcShape, Element, ElementKind, EmbeddedPath, FinishedPart, KeepOut, Label, LeftMaterial, OtherShape,
+    Parameter, Point, ScenePath, Shape,
 };
 
 /// A path as it is drawn.
@@ -168,6 +168,26 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
         layer: clamp.layer.to_string(),
         outline: clamp.outline.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect(),
         height: clamp.height,
+    }
+}
+
+/// A finished part at its place in a program.
+pub fn finished_part(
+    part: &pathbuild_path::Part,
+    left: &[pathbuild_path::LeftMaterial],
+    placement: &Placement,
+    [top, tolerance]: [f64; 2],
+) -> FinishedPart {
+    let shapes =
+        |curves: &[Curve]| curves.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect();
+    FinishedPart {
+        rings: part.rings.iter().map(|ring| shapes(&ring.curves)).collect(),
+        top,
+        tolerance,
+        left: left
+            .iter()
+            .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
+            .collect(),
     }
 }
 

@@ -5,7 +5,7 @@ use std::slice;
 use camino::Utf8PathBuf;
 use pathbuild_db::{
     Database, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
-    other_layers, placed_keep_outs, traced_program,
+    other_layers, placed_keep_outs, placed_parts, traced_program,
 };
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
@@ -126,6 +126,10 @@ impl Session<'_> {
             if let Some(scene) = &mut scene {
                 scene.examples = examples(db, traced, writing);
                 scene.refusal.clone_from(&refusal);
+                let parts = placed_parts(db, *target).into_iter();
+                scene.parts.extend(parts.map(|part| {
+                    view::finished_part(part.drawn, part.left, &part.placement, [part.top, part.tolerance])
+                }));
             }
             let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
             Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))

@@ -35,7 +35,7 @@ export interface Cutting {
 }
 
 /** Distance in mm by which a chord may miss its arc. */
-const SAGITTA = 0.004;
+export const SAGITTA = 0.004;
 
 export function joined(a: Box, b: Box): Box {
   return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];

@@ -1,6 +1,7 @@
 // Colours of the stock as seen from above, for the GPU's texture and for a 2D canvas alike.
 
 import { Heights, NOTHING, Texels } from "./heights.js";
+import { BESIDE, INSIDE } from "./parts.js";
 
 type Color = [number, number, number];
 
@@ -8,6 +9,8 @@ const UNTOUCHED: Color = [219, 189, 133];
 const [SHALLOW, DEEP]: Color[] = [[189, 148, 92], [115, 77, 41]];
 export const PLATE: Color = [204, 214, 224];
 export const RAPID: Color = [229, 13, 26];
+/** Cuts into a part, and material left at one. */
+const [GOUGE, LEFT]: Color[] = [RAPID, [150, 40, 200]];
 
 /** Direction of the light. */
 const LIGHT = normal(-0.42, 0.55, 0.72);
@@ -22,7 +25,7 @@ function normal(x: number, y: number, z: number): Color {
 }
 
 /** Paints these texels and their neighbours. Returns the texels that were painted. */
-export function shade(map: Heights, [x0, y0, x1, y1]: Texels, into: Uint8ClampedArray): Texels {
+export function shade(map: Heights, marked: Uint8Array, [x0, y0, x1, y1]: Texels, into: Uint8ClampedArray): Texels {
   const { heights, tops, through, rapid, columns, rows, texel, cutting } = map;
   const painted: Texels = [Math.max(0, x0 - REACH), Math.max(0, y0 - REACH), Math.min(columns, x1 + REACH), Math.min(rows, y1 + REACH)];
   const depth = Math.max(cutting.top - cutting.low, 1e-6);
@@ -51,10 +54,13 @@ export function shade(map: Heights, [x0, y0, x1, y1]: Texels, into: Uint8Clamped
       const share = Math.min(Math.max((cutting.top - height) / depth, 0), 1);
       const isThrough = height <= through[at];
       const isUntouched = height >= tops[at] - 1e-4;
+      const isGouge = isThrough && marked[at] === INSIDE;
+      const isLeft = !isThrough && marked[at] === BESIDE;
+      const overlay = rapid[at] ? RAPID : isGouge ? GOUGE : isLeft ? LEFT : null;
       for (let part = 0; part < 3; part++) {
         const base = isThrough ? PLATE[part] : isUntouched ? UNTOUCHED[part] : SHALLOW[part] + (DEEP[part] - SHALLOW[part]) * share;
         const lit = base * light;
-        into[out + part] = rapid[at] ? lit * 0.25 + RAPID[part] * 0.75 : lit;
+        into[out + part] = overlay ? lit * 0.25 + overlay[part] * 0.75 : lit;
       }
       into[out + 3] = 255;
     }

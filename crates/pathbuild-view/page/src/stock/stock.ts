@@ -2,27 +2,33 @@
 
 import { Scene } from "../scene.js";
 import { Heights, Texels } from "./heights.js";
+import { marks } from "./parts.js";
 import { Assumed, cutting } from "./pieces.js";
 import { shade } from "./shading.js";
 
 export class Stock {
   readonly colors: Uint8ClampedArray<ArrayBuffer>;
 
-  private constructor(readonly map: Heights) {
+  private constructor(
+    readonly map: Heights,
+    private marked: Uint8Array,
+  ) {
     this.colors = new Uint8ClampedArray(map.columns * map.rows * 4);
-    shade(map, map.whole(), this.colors);
+    shade(map, marked, map.whole(), this.colors);
   }
 
   /** The uncut stock; `null` if no cutter is known or nothing is cut. */
   static of(scene: Scene, assumed: Assumed): Stock | null {
     const cuts = cutting(scene, assumed);
-    return cuts && new Stock(new Heights(cuts));
+    if (!cuts) return null;
+    const map = new Heights(cuts);
+    return new Stock(map, marks(map, scene));
   }
 
   /** Cuts the first so many moves. Returns the texels that were painted anew. */
   seek(moves: number): Texels | null {
     const changed = this.map.seek(moves);
-    return changed && shade(this.map, changed, this.colors);
+    return changed && shade(this.map, this.marked, changed, this.colors);
   }
 
   /** Paints the stock on a 2D canvas, for browsers without WebGL2. */

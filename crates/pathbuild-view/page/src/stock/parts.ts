@@ -1,0 +1,74 @@
+// The finished parts in the map of heights: where a cut would go into one, and where material is left at one.
+
+import { FinishedPart, Path, Point, Scene, Shape, pointsOfShape } from "../scene.js";
+import { Heights } from "./heights.js";
+import { SAGITTA } from "./pieces.js";
+
+/** Marks of a texel: a cut through it goes into a part; stock that stands there is left at a part. */
+export const [INSIDE, BESIDE] = [1, 2];
+
+/** Width in texels on either side of an outline that belongs to neither side, since a texel's height is that of its centre. */
+const BAND = 0.75;
+
+type Segment = [Point, Point];
+
+/** A mark for each texel. */
+export function marks(map: Heights, scene: Scene): Uint8Array {
+  const marked = new Uint8Array(map.columns * map.rows);
+  for (const path of scene.paths) for (const part of path.parts ?? []) mark(map, path, part, marked);
+  return marked;
+}
+
+function mark(map: Heights, path: Path, part: FinishedPart, marked: Uint8Array): void {
+  const segments = (shapes: Shape[]) => shapes.flatMap((shape) => segmentsOf(map, shape, path.zero));
+  const rings = part.rings.map(segments);
+  const inside = new Uint8Array(marked.length);
+  // Rings inside an opening never make a part: they leave it open.
+  rings.forEach((ring, number) => fill(map, ring, inside, number === 0 ? INSIDE : 0));
+  for (let at = 0; at < marked.length; at++) if (inside[at] === INSIDE) marked[at] = INSIDE;
+  for (const { outline, reach } of part.left) {
+    near(map, segments(outline), reach / map.texel + BAND, (at) => {
+      if (inside[at] !== INSIDE) marked[at] = BESIDE;
+    });
+  }
+  near(map, rings.flat(), Math.max(part.tolerance / map.texel, BAND), (at) => (marked[at] &= ~INSIDE));
+}
+
+/** A shape in texels, whose centres have whole numbers. */
+function segmentsOf({ cutting: { box }, texel }: Heights, shape: Shape, zero: Point): Segment[] {
+  const points = pointsOfShape(shape, SAGITTA).map(([x, y]): Point => [(x + zero[0] - box[0]) / texel - 0.5, (y + zero[1] - box[1]) / texel - 0.5]);
+  return points.slice(1).map((point, index) => [points[index], point]);
+}
+
+/** Sets the texels inside a ring. */
+function fill({ columns, rows }: Heights, ring: Segment[], into: Uint8Array, value: number): void {
+  const crossed: number[][] = Array.from({ length: rows }, () => []);
+  for (const [[ax, ay], [bx, by]] of ring) {
+    const last = Math.min(rows, Math.ceil(Math.max(ay, by)));
+    for (let row = Math.max(0, Math.ceil(Math.min(ay, by))); row < last; row++) crossed[row].push(ax + ((bx - ax) * (row - ay)) / (by - ay));
+  }
+  crossed.forEach((places, row) => {
+    places.sort((a, b) => a - b);
+    for (let place = 1; place < places.length; place += 2) {
+      const [first, behind] = [Math.max(0, Math.ceil(places[place - 1])), Math.min(columns, Math.ceil(places[place]))];
+      if (first < behind) into.fill(value, row * columns + first, row * columns + behind);
+    }
+  });
+}
+
+/** Calls back for each texel within a distance, in texels, of segments. */
+function near({ columns, rows }: Heights, segments: Segment[], reach: number, found: (at: number) => void): void {
+  for (const [[ax, ay], [bx, by]] of segments) {
+    const [dx, dy] = [bx - ax, by - ay];
+    const square = dx * dx + dy * dy;
+    const [left, right] = [Math.max(0, Math.ceil(Math.min(ax, bx) - reach)), Math.min(columns - 1, Math.floor(Math.max(ax, bx) + reach))];
+    const upper = Math.min(rows - 1, Math.floor(Math.max(ay, by) + reach));
+    for (let row = Math.max(0, Math.ceil(Math.min(ay, by) - reach)); row <= upper; row++) {
+      for (let column = left; column <= right; column++) {
+        const share = square === 0 ? 0 : Math.min(1, Math.max(0, ((column - ax) * dx + (row - ay) * dy) / square));
+        const [x, y] = [column - ax - dx * share, row - ay - dy * share];
+        if (x * x + y * y <= reach * reach) found(row * columns + column);
+      }
+    }
+  }
+}
