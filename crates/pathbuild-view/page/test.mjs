@@ -117,7 +117,13 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.mouse.click(box.x + 100, box.y + 100);
   await page.mouse.click(box.x + 200, box.y + 100);
   assert.match(await text(page, "#measured"), /mm · ΔX/);
-  await page.keyboard.press("m");
+  await page.keyboard.press("Escape");
+  assert.equal(await text(page, "#measured"), "");
+  // The button says what it does.
+  await page.locator("#play").click();
+  assert.equal(await text(page, "#play"), "Stop");
+  await page.locator("#play").click();
+  assert.equal(await text(page, "#play"), "Run");
   // German, dark, in space.
   await page.keyboard.press("l");
   assert.match(await text(page, "#where"), /^Bewegung/);

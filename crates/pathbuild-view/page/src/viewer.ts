@@ -65,8 +65,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   document.title = visible(scene.title);
   linesOf = null;
   if (!isSame) {
-    measured = null;
-    $("measured").textContent = "";
+    if (measured) acts.measure();
     if (timer) play();
   }
   count = isSame && !atEnd ? count : Infinity;
@@ -436,13 +435,15 @@ function play(): void {
   if (timer) {
     clearInterval(timer);
     timer = 0;
-    return;
+  } else {
+    if (count >= made.steps.length) go(0);
+    timer = window.setInterval(() => {
+      if (count >= made.steps.length) return play();
+      go(count + Math.max(1, Math.round(made.steps.length / 600)));
+    }, 40);
   }
-  if (count >= made.steps.length) go(0);
-  timer = window.setInterval(() => {
-    if (count >= made.steps.length) return play();
-    go(count + Math.max(1, Math.round(made.steps.length / 600)));
-  }, 40);
+  $("play").dataset.word = timer ? "stop" : "play";
+  $("play").textContent = say(timer ? "stop" : "play", lang);
 }
 
 $("native").addEventListener("click", () => {
@@ -459,6 +460,7 @@ const acts = {
   measure: () => {
     measured = measured ? null : [];
     $("measured").textContent = measured ? say("pick", lang) : "";
+    $("measure").toggleAttribute("data-on", measured !== null);
     spots();
   },
   theme: () => {
@@ -491,7 +493,7 @@ function switchLayer(what: keyof typeof shown): void {
 }
 for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
 
-const keys: Record<string, () => void> = {
+const keys: Record<string, () => unknown> = {
   ArrowRight: () => go(count + 1),
   ArrowLeft: () => go(count - 1),
   PageDown: () => go(count + 10),
@@ -509,6 +511,7 @@ const keys: Record<string, () => void> = {
   t: acts.texts,
   o: acts.other,
   m: acts.measure,
+  Escape: () => measured && acts.measure(),
   l: acts.lang,
   d: acts.theme,
 };

@@ -15,6 +15,7 @@ const words = {
   measure: ["Measure", "Messen"],
   theme: ["Light/dark", "Hell/dunkel"],
   play: ["Run", "Ablauf"],
+  stop: ["Stop", "Anhalten"],
   step: ["Move", "Bewegung"],
   of: ["of", "von"],
   tool: ["cutter O", "Fräser O"],
@@ -41,8 +42,8 @@ const words = {
   feed: ["feed", "Vorschub"],
   pick: ["Click two points to measure.", "Zum Messen zwei Punkte anklicken."],
   keys: [
-    "← → one move · PgUp PgDn ten · Home End · space runs · 2 3 view · F fit · S stock · R rapids · A arrows · N order · T texts · O other layers · M measure · L language · D dark",
-    "← → eine Bewegung · Bild↑ Bild↓ zehn · Pos1 Ende · Leertaste läuft · 2 3 Ansicht · F einpassen · S Rohteil · R Eilgänge · A Pfeile · N Reihenfolge · T Texte · O andere Layer · M messen · L Sprache · D dunkel",
+    "← → one move · PgUp PgDn ten · Home End · space runs · 2 3 view · F fit · S stock · R rapids · A arrows · N order · T texts · O other layers · M measure, Esc ends it · L language · D dark",
+    "← → eine Bewegung · Bild↑ Bild↓ zehn · Pos1 Ende · Leertaste läuft · 2 3 Ansicht · F einpassen · S Rohteil · R Eilgänge · A Pfeile · N Reihenfolge · T Texte · O andere Layer · M messen, Esc beendet es · L Sprache · D dunkel",
   ],
   nowebgl: [
     "This browser has no WebGL2: the picture stands still.",
