@@ -151,6 +151,9 @@ fn a_bar_that_another_path_cuts_is_lost() {
     assert_eq!(codes(&second(14.0, 0.79)), [""; 0], "it ends as high as the bar");
     assert_eq!(codes(&second(21.0, -0.2)), [""; 0], "between the bars");
     assert_eq!(codes(&second(0.0, -0.2)), ["PB218"], "half bars at a corner");
+    // The bar from 12.5 to 15.5 loses 0.12 and 0.18 of its 3 mm.
+    assert_eq!(codes(&second(11.64, -0.2)), [""; 0], "4 % of a bar");
+    assert_eq!(codes(&second(11.7, -0.2)), ["PB218"], "6 % of a bar");
 }
 
 #[test]
@@ -415,6 +418,7 @@ fn outlines_of_a_project_are_for_its_own_cuts() {
         let project = project(2.0, 0.0).replace("end 30,24", own) + layer;
         PartTest::default().codes(&[("8001.1P.dxf", &project), ("1234.1P.dxf", &component)])
     };
+    assert!(!drawing("end 30,24").contains(&"PB220".to_owned()), "what is embedded may cut it");
     let gouged = |codes: Vec<String>| codes.iter().any(|code| code == "PB213" || code == "PB214");
     assert!(!gouged(drawing("end 30,24")));
     assert!(gouged(drawing("sweep 30,24 2,0\nmill 2,0 28,0 \"I1 B0\"\nsweep 28,0 30,24\nend 30,24")));
@@ -473,4 +477,51 @@ fn slot_cutters_are_searched_for_gouges_only() {
     let ring = |letter: &str| plate("mill").replace("layer 1234.1P", &format!("layer 1234.1{letter}"));
     assert_eq!(codes(&ring("L")), ["PB212", "PB217"]);
     assert_eq!(codes(&ring("S")), ["PB212"]);
+}
+
+/// A cutter of 2 mm beside an edge reaches 0.2 mm beyond the end of its cut.
+#[test]
+fn stretches_below_a_tenth_are_no_leftover() {
+    let gap = |to: f64| {
+        codes(&format!(
+            "{START}sweep -5,-5 0,0\nmill 0,0 20,0\nsweep 20,0 {to},0\nmill {to},0 40,0\nsweep 40,0 50,-5\n\
+             end 50,-5\n{EDGE}"
+        ))
+    };
+    assert!(!gap(20.49).contains(&"PB215".to_owned()));
+    assert!(gap(20.52).contains(&"PB215".to_owned()));
+}
+
+/// A groove across the rim says nothing about the rim, one along it does.
+#[test]
+fn a_groove_across_the_rim_leaves_nothing() {
+    let groove = |way: &str, end: &str| {
+        let drawing = format!(
+            "{START}sweep -5,-5 0,0\nmill 0,0 40,0\nsweep 40,0 {way}\nsweep {end} 80,-5\nend 80,-5\n{EDGE}"
+        );
+        codes(&drawing).contains(&"PB215".to_owned())
+    };
+    assert!(!groove("60,10\nmill 60,10 38,10 \"B0.5\"", "38,10"));
+    assert!(groove("41,5\nmill 41,5 41,15 \"B0.5\"", "41,15"));
+}
+
+/// What a path with errors cuts is unknown, so nothing is said about what remains; cuts into the part are found all the same.
+#[test]
+fn beside_a_path_with_errors_only_gouges_are_found() {
+    let path = |y: f64, other: &str| {
+        let found = PartTest::default().codes(&[(
+            "1234.1.dxf",
+            &format!(
+                "layer 1234.1P\nstart -5,-5 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -5,-5 0,{y}\n\
+                 mill 0,{y} 40,{y}\nsweep 40,{y} 50,-5\nend 50,-5\n{other}{EDGE}"
+            ),
+        )]);
+        found.into_iter().filter(|code| code.starts_with("PB21")).collect::<Vec<_>>()
+    };
+    let other = |infeed: &str| {
+        format!("layer 1234.1L\nstart 0,40 \"T2 O2 I{infeed} B-0.2 S5\"\nmill 0,40 40,40\nend 40,40\n")
+    };
+    assert_eq!(path(-0.5, &other("0.5")), ["PB215"]);
+    assert_eq!(path(-0.5, &other("x")), [""; 0]);
+    assert_eq!(path(0.5, &other("x")), ["PB213"]);
 }
