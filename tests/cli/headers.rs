@@ -82,6 +82,25 @@ fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z-0.1"), ""), ["PB741"]);
 }
 
+/// Carbide Create states the width of the point of a V-bit.
+#[test]
+fn a_tiny_point_exceeds_no_limit() {
+    let engraved = |diameter: &str, angle: &str| {
+        let tool = format!("(TOOL/MILL,{diameter}, 0.00, 10.00, {angle})");
+        let head = CARBIDE_CREATE.replace("(TOOL/MILL,3.17, 0.00, 12.70, 0.00)", &tool);
+        slots(&head, "G0 Z5\nG0 Y20\nG0 Z1\nG1 Z-2\nG1 X-900\nG1 Y900\nG1 X0 Y0\nG0 Z5\nG0 Z1")
+    };
+    assert_eq!(codes(&engraved("0.03", "45.00"), ""), [""; 0]);
+    // Too small for the map. Without the comment, the check would not be made at all: this is a warning.
+    let place = Place::new().file("a.nc", engraved("0.03", "0.00"));
+    let run = place.run("verify a.nc --dialect linuxcnc --format concise");
+    assert!(run.status == Some(0) && codes_of(&run) == ["PB005"], "{run}");
+    let run = place.run("verify a.nc --dialect linuxcnc --format concise --require rapids=assumed");
+    assert!(run.status == Some(1), "{run}");
+    let run = place.run("verify a.nc --dialect linuxcnc --format concise --cutter 0.03 --surface 0");
+    assert!(run.status == Some(1), "{run}");
+}
+
 #[test]
 fn a_drill_fits_into_its_own_hole() {
     let drill = "(T1 D=5 CR=0 TAPER=118deg - ZMIN=-6 - drill)\nG90\nG21\nT1 M6\nS9000 M3\nG54\nG0 Z15\nG0 X0 Y0\nG0 Z5\nG1 Z-2 F90\nG0 Z2\nG0 Z-1.5\nG1 Z-6\nG0 Z5\n";

@@ -321,6 +321,9 @@ pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = Move
 /// The finest useful resolution in mm; programs have three decimals.
 const FINEST: f64 = 0.01;
 
+/// The smallest width in mm of a cutter that counts as a centre line.
+const FINEST_POINT: f64 = 1.0;
+
 /// Default for the maximum number of visited cells.
 const MOST_VISITED: u64 = 1_000_000_000;
 
@@ -372,7 +375,14 @@ impl Cutter {
 
     /// The width that the map of the material must resolve.
     fn smallest_detail(&self) -> f64 {
-        if self.removed < self.colliding { self.removed.max(self.diameter / 4.0) } else { self.diameter }
+        if self.removed < self.colliding {
+            self.removed.max(self.diameter / 4.0)
+        } else if self.colliding == 0.0 {
+            // The diameter may be that of the point of a V-bit.
+            self.diameter.max(FINEST_POINT)
+        } else {
+            self.diameter
+        }
     }
 
     /// The cutter if another source gives it another diameter: the smaller one removes material, the larger one hits it.

@@ -217,7 +217,7 @@ pub struct VerifyArgs {
     /// Compare with the drawing of this path, which also gives the cutter and the material
     #[arg(long, value_name = "PATH", add = completion::paths())]
     pub against: Option<String>,
-    /// Diameter of the cutter; without it from T and `[tool.NAME]`
+    /// Diameter of the cutter; without it from T and `[tool.NAME]`, or from comments
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub cutter: Option<String>,
     /// Height of the material's upper face; programs by pathbuild contain it
@@ -600,8 +600,8 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
         "Vergleicht mit der Zeichnung dieses Pfads, die auch Fräser und Material angibt",
     ),
     (
-        "Diameter of the cutter; without it from T and `[tool.NAME]`",
-        "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]`",
+        "Diameter of the cutter; without it from T and `[tool.NAME]`, or from comments",
+        "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]` oder aus Kommentaren",
     ),
     (
         "Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps",

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Number, Text};
+use pathbuild_diagnostic::{Code, Diagnostic, Number, Severity, Text};
 use pathbuild_gcode::verify::Machine;
 use pathbuild_workspace::config::types::Requirement;
 use serde_json::{Value, json};
@@ -35,15 +35,23 @@ pub(super) struct CheckReport {
 }
 
 impl CheckReport {
-    /// Adds the checks of a program. Returns an error for each check that is required and was not made.
+    /// Adds the checks of a program, and to what was found in it an error for each check that is required and was not made.
     pub(super) fn add(
         &mut self,
         context: &Context,
         sources: &Sources<'_>,
         machine: Option<&Machine>,
-        is_limit_reached: bool,
+        found: &mut Vec<Diagnostic>,
         required: &[Requirement],
-    ) -> Vec<Diagnostic> {
+    ) {
+        let mut is_limit_reached = false;
+        for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
+            is_limit_reached = true;
+            if sources.is_assumed() {
+                // Without the comments, the check would not be made either.
+                problem.severity = Severity::Warning;
+            }
+        }
         let records = records(context, sources, machine, is_limit_reached);
         let (file, line) = (sources.program.file.to_string(), summary(context, &records));
         let checks: Vec<Value> = records.iter().map(|record| record.json(context)).collect();
@@ -52,8 +60,7 @@ impl CheckReport {
             Some((_, files)) => files.push(file),
             None => self.lines.push((line, vec![file])),
         }
-        let unmade = records.iter().filter_map(|record| record.unmade(required));
-        unmade.collect()
+        found.extend(records.iter().filter_map(|record| record.unmade(required)));
     }
 
     /// Prints the summaries, and adds the records to the document of the run.

@@ -172,10 +172,9 @@ fn check(
         let is_sound = !found.iter().chain(&program.read.problems).any(Diagnostic::is_error);
         found.extend(against.text_differences(context, &program, is_probing, is_sound)?);
     }
-    let is_limit_reached = found.iter().any(|problem| problem.code() == Code::LimitReached);
     let required =
         if args.require.is_empty() { &context.settings.verify.require.value } else { &args.require };
-    found.extend(report.add(context, &sources, machine.as_ref(), is_limit_reached, required));
+    report.add(context, &sources, machine.as_ref(), &mut found, required);
     program.place(&mut found);
     let mut diagnostics = program.read.problems;
     if is_rewritten {
