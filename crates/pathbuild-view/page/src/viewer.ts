@@ -493,7 +493,7 @@ function switchLayer(what: keyof typeof shown): void {
 }
 for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
 
-const keys: Record<string, () => unknown> = {
+const keys: Record<string, () => void> = {
   ArrowRight: () => go(count + 1),
   ArrowLeft: () => go(count - 1),
   PageDown: () => go(count + 10),
@@ -511,7 +511,7 @@ const keys: Record<string, () => unknown> = {
   t: acts.texts,
   o: acts.other,
   m: acts.measure,
-  Escape: () => measured && acts.measure(),
+  Escape: acts.measure,
   l: acts.lang,
   d: acts.theme,
 };
@@ -520,7 +520,9 @@ addEventListener("keydown", (event) => {
   const { target } = event;
   const isButton = target instanceof HTMLButtonElement && event.key === " ";
   const isTyping = target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target !== slider);
-  if (!act || isButton || isTyping || !(isOpen || "ld".includes(event.key))) return;
+  // On the live page, Escape leads back to the library otherwise.
+  const isOther = event.key === "Escape" && !measured;
+  if (!act || isOther || isButton || isTyping || !(isOpen || "ld".includes(event.key))) return;
   event.preventDefault();
   act();
   if (event.key.startsWith("Arrow")) describe((chosen = count > 0 ? count - 1 : null));
