@@ -79,6 +79,7 @@ const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("machine.rates", "[machine]\nrates = [1, 1, 1]", NONE),
     ("machine.accelerations", "[machine]\naccelerations = [1, 1, 1]", NONE),
     ("machine.junction-deviation", "[machine]\njunction-deviation = 1", NONE),
+    ("verify.require", "[verify]\nrequire = ['rapids']", NONE),
     ("warnings.below-plate", "[warnings]\nbelow-plate = 1", BOTH),
     ("warnings.infeed", "[warnings]\ninfeed = 2", BOTH),
     ("warnings.mark-depth", "[warnings]\nmark-depth = 1", BOTH),
@@ -108,7 +109,7 @@ fn every_setting_is_tried() {
     };
     let mut expected = BTreeSet::new();
     for name in keys(&schema) {
-        if matches!(&*name, "emit" | "limits" | "machine" | "warnings" | "watch") {
+        if matches!(&*name, "emit" | "limits" | "machine" | "verify" | "warnings" | "watch") {
             expected.extend(keys(&schema["properties"][&name]).iter().map(|key| format!("{name}.{key}")));
         } else {
             expected.insert(name);
