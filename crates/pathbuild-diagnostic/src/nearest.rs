@@ -1,4 +1,7 @@
-//! Suggestions for misspelt names.
+//! Suggestions for misspelt names. Their distance is that of optimal string alignment: letters to change, put in, leave out or swap with
+//! their neighbour.
+
+use strsim::osa_distance;
 
 /// Bytes beyond which a name is not compared: every known name is shorter, and comparing takes the product of both lengths.
 const LONGEST: usize = 200;
@@ -13,20 +16,21 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         return None;
     }
     let numbers = Numbers::of(name);
-    let name: Vec<char> = name.to_lowercase().chars().collect();
-    let (most, own) = (name.len().div_ceil(3), letters(&name));
+    let name = name.to_lowercase();
+    let length = name.chars().count();
+    let (most, own) = (length.div_ceil(3), letters(&name));
     let near = |candidate: &'a str| {
         // A letter more or less is one that differs.
-        if candidate.chars().count().abs_diff(name.len()) > most {
+        if candidate.chars().count().abs_diff(length) > most {
             return None;
         }
-        let other: Vec<char> = candidate.to_lowercase().chars().collect();
+        let other = candidate.to_lowercase();
         let others = letters(&other);
         // Each letter that only one of them has is one that differs: nearly all names are told apart by this.
         if (own & !others).count_ones().max((others & !own).count_ones()) as usize > most {
             return None;
         }
-        let distance = distance(&name, &other);
+        let distance = osa_distance(&name, &other);
         (distance <= most && numbers.may_mean(&Numbers::of(candidate))).then_some((distance, candidate))
     };
     known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
@@ -35,13 +39,13 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 /// Whether one name is the other with a single slip of the pen: a character changed, added, left out or swapped with its neighbour. Case
 /// and leading zeros do not count, and a neighbour in a numbering is another name.
 pub fn is_slip(name: &str, other: &str) -> bool {
-    let plain = |name: &str| -> Vec<char> {
+    let plain = |name: &str| {
         let name = name.to_lowercase();
         let parts: Vec<&str> = name.split('.').map(|part| part.trim_start_matches('0')).collect();
-        parts.join(".").chars().collect()
+        parts.join(".")
     };
     name.len().max(other.len()) <= LONGEST
-        && distance(&plain(name), &plain(other)) <= 1
+        && osa_distance(&plain(name), &plain(other)) <= 1
         && Numbers::of(name).may_mean(&Numbers::of(other))
 }
 
@@ -100,27 +104,8 @@ fn is_misspelt(number: &str, other: &str) -> bool {
 }
 
 /// The letters of a name, a bit for each; some share theirs.
-fn letters(name: &[char]) -> u32 {
-    name.iter().fold(0, |found, letter| found | 1 << (u32::from(*letter) % 32))
-}
-
-/// The number of letters to change, put in, leave out or swap with their neighbour (optimal string alignment).
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut above: Vec<usize> = (0..=b.len()).collect();
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let change = above[j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut least = change.min(above[j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                least = least.min(before[j - 2] + 1);
-            }
-            row.push(least);
-        }
-        before = std::mem::replace(&mut above, row);
-    }
-    above[b.len()]
+fn letters(name: &str) -> u32 {
+    name.chars().fold(0, |found, letter| found | 1 << (u32::from(letter) % 32))
 }
 
 #[cfg(test)]
