@@ -21,8 +21,9 @@
 //! # }
 //! ```
 //!
-//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. Names of files are relative to the directory that was opened.
-//! What the letters, lines and texts of a drawing mean stands in the book, which comes with pathbuild.
+//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. Names of files are relative to the directory that was opened if
+//! they lie below it, otherwise absolute. The letters of parameters (M for the material, T, O, F) and everything else that a drawing
+//! means are described in the book that comes with pathbuild; "(book: language/letters)" is its page `docs/en/src/language/letters.md`.
 //!
 //! A [`Finding`] is a result, like an error message of a compiler; [`Error`] says why a request has no result. Nothing here panics because
 //! of a drawing.

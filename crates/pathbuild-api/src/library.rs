@@ -38,21 +38,24 @@ type Request = Box<dyn FnOnce(&mut Session<'_>) + Send>;
 const STACK: usize = 8 << 20;
 
 impl Library {
-    /// Opens the library in a directory, without options: see [`LibraryOptions`].
+    /// Opens the library of a directory, without options: see [`LibraryOptions`]. The configuration is the `pathbuild.toml` in the directory
+    /// or in the nearest one above it; the library that it names may be larger than the directory.
     ///
     /// # Errors
-    /// If the configuration has errors.
+    /// If there is no such directory, or if the configuration has errors.
     pub fn open(directory: impl AsRef<FilePath>) -> Result<Self, Error> {
         LibraryOptions::new().open(directory)
     }
 
-    /// Checks drawings, paths and directories as `pathbuild check` does; without any, the whole library.
+    /// Checks drawings, paths and directories as `pathbuild check` does; without any, the whole library, or the directory if the configuration
+    /// names none.
     ///
     /// # Errors
     /// If an internal error occurs. What is wrong with the drawings is in the report.
     pub fn check(&self, inputs: &[&str]) -> Result<CheckReport, Error> {
         let inputs = owned(inputs);
         self.ask(move |session| {
+            let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
             let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
             // Only a request that is limited to changed drawings is refused.
             let outcome = request.run(session).unwrap_or_else(|InputsNotDirectories| CheckOutcome::default());
@@ -86,10 +89,11 @@ impl Library {
     }
 
     /// A path with its elements, their parameters, and the moves of its program. It is named, or it is the only path of the drawing that is
-    /// named. A path with variables has example values.
+    /// named. The variables of a path with variables have the first of their values, as in `pathbuild check`; what embeds it may give it
+    /// others. The moves are those of the native program, whatever post-processor is configured.
     ///
     /// # Errors
-    /// If there is no such path. What is wrong with the path is in the result, which has no moves then.
+    /// If there is no such path. What is wrong with the path is in [`Path::findings`]; a path with errors has no statistics.
     pub fn path(&self, name: &str) -> Result<Path, Error> {
         let name = name.to_owned();
         self.ask(move |session| {
@@ -206,8 +210,7 @@ impl Library {
     pub fn watch(&self, seen: impl FnMut(WatchReport) -> bool + Send + 'static) -> Result<WatchEnd, Error> {
         self.ask(move |session| {
             let workspace = session.workspace();
-            let directory = (!session.has_library()).then_some(&workspace.working_directory);
-            let inputs = Inputs::places(directory);
+            let inputs = whole_library(session);
             let request = watch::Request { inputs: &inputs, emits: false, lists: false, polls: false };
             let end = request.run(&absolute(workspace), &Reports::new(workspace, seen));
             // What the session knew may be out of date.
@@ -286,6 +289,12 @@ fn gone() -> Error {
 
 fn owned(inputs: &[&str]) -> Inputs {
     Inputs { inputs: inputs.iter().map(|input| (*input).to_owned()).collect() }
+}
+
+/// The inputs that mean the configured library, or the directory if there is none.
+fn whole_library(session: &Session<'_>) -> Inputs {
+    let directory = (!session.has_library()).then_some(&session.workspace().working_directory);
+    Inputs::places(directory)
 }
 
 /// The post-processor that is named, or else configured; `None` for native programs.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{BasedSystem, MemorySystem, OsSystem, clean};
+use pathbuild_db::system::{BasedSystem, FileKind, MemorySystem, OsSystem, clean};
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{self, GivenOptions, OptionValues, Overrides};
@@ -87,7 +87,7 @@ impl LibraryOptions {
     /// Opens the library in a directory.
     ///
     /// # Errors
-    /// If the configuration has errors, or if an option does.
+    /// If there is no such directory, or if the configuration or an option has errors.
     pub fn open(self, directory: impl AsRef<Path>) -> Result<Library, Error> {
         Library::start(Source::Directory(directory.as_ref().to_owned()), self)
     }
@@ -195,6 +195,9 @@ impl Source {
             Self::Directory(directory) => {
                 let directory = std::path::absolute(&directory).unwrap_or(directory);
                 let directory = clean(&utf8(directory)?);
+                if OsSystem.kind(&directory) != FileKind::Directory {
+                    return Err(Error::Refused(format!("there is no directory {directory}")));
+                }
                 Ok((Arc::new(BasedSystem::new(OsSystem::shared(), directory.clone())), directory))
             }
             Self::Files(files) => {

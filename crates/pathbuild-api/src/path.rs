@@ -13,7 +13,8 @@ pub struct Path {
     pub name: String,
     /// Its drawing.
     pub file: String,
-    /// Material (M).
+    /// Material (M), as the drawing writes it; `None` if it does not. A path that is embedded may have another one: see the parameters of its
+    /// elements.
     pub material: Option<String>,
     /// Upper face of the material (T), in mm.
     pub thickness: Option<f64>,
@@ -25,9 +26,9 @@ pub struct Path {
     pub zero: [f64; 2],
     /// What is drawn on the layers of the path and of those that it embeds.
     pub elements: Vec<Element>,
-    /// The moves of the tool, in order. Empty if the path has errors.
+    /// The moves of the tool, in order. Empty if the path has errors, except for cuts into its part, which are to be seen.
     pub moves: Vec<Move>,
-    /// Lengths and times; `None` if the path has errors.
+    /// Lengths and times; `None` if the path has errors, and then there is no program.
     pub statistics: Option<Statistics>,
     /// What is wrong with the path, and with what it embeds.
     pub findings: Vec<Finding>,
@@ -47,7 +48,7 @@ pub struct Element {
     pub layer: String,
     /// Its handle in the drawing, in hexadecimal digits.
     pub handle: Option<String>,
-    /// The line of the file at which it begins.
+    /// The line of the drawing's file at which it begins, counted from 1.
     pub line: Option<u32>,
     /// The parameters in force for it.
     pub parameters: Vec<Parameter>,
@@ -77,11 +78,11 @@ pub struct Move {
     pub to: [Option<f64>; 3],
     /// Its arc; `None` for a straight move.
     pub arc: Option<Arc>,
-    /// The feed in mm/min; `None` for a rapid move.
+    /// The feed in mm/min, which is written in the program; `None` for a rapid move.
     pub feed: Option<f64>,
     /// Its length in mm.
     pub length: f64,
-    /// What it mills, as an index into [`Path::elements`].
+    /// What it belongs to, as an index into [`Path::elements`]: what it mills, or into which it plunges. `None` for moves between elements.
     pub element: Option<usize>,
     /// Its line in the program, counted from 1.
     pub line: Option<u32>,
@@ -208,7 +209,7 @@ impl MoveKind {
         }
     }
 
-    /// Whether it removes material.
+    /// Whether it removes material: milling, marking and plunging, but not probing.
     pub fn cuts(self) -> bool {
         matches!(self, Self::Plunge | Self::Mill | Self::Mark)
     }

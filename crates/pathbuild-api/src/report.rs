@@ -26,7 +26,8 @@ pub struct PathListing {
     pub paths: Vec<PathSummary>,
     /// Number of drawings that were searched.
     pub drawings: usize,
-    /// What is wrong with directories, with drawings by themselves, and with the inputs.
+    /// What is wrong with directories, with drawings by themselves, and with the inputs. What is wrong with paths is in
+    /// [`PathSummary::findings`]; [`Library::check`](crate::Library::check) gives all of it, each once.
     pub findings: Vec<Finding>,
 }
 
@@ -52,7 +53,7 @@ pub struct PathSummary {
     pub minutes: Option<f64>,
     /// The program on disk.
     pub program: ProgramState,
-    /// What is wrong with the path, and with what it embeds.
+    /// What is wrong with the path, and with what it embeds: a fault of an embedded path is found in each path that embeds it.
     pub findings: Vec<Finding>,
 }
 

@@ -1,7 +1,6 @@
 //! Requests, on the library of the fixtures and on drawings that change.
 
 use std::fs;
-use std::path::PathBuf;
 
 use pathbuild_api::{
     EmitOptions, Error, FileState, Lang, Library, LibraryOptions, MoveKind, Path, ProgramState, WatchEnd,
@@ -270,10 +269,23 @@ fn threads_share_a_library() {
     assert_ne!(counts[0], counts[1]);
 }
 
-/// The directory may be gone, or never have been there: then there are no drawings, which is said.
+/// A slip in the name of the directory is no library without faults.
 #[test]
-fn a_missing_directory_has_no_drawings() {
-    let library = Library::open(PathBuf::from("no/such/directory"));
-    let listed = library.and_then(|library| library.paths(&[]));
-    assert!(listed.is_err() || listed.is_ok_and(|listed| listed.paths.is_empty()));
+fn a_missing_directory_is_no_library() {
+    let directory = on_disk();
+    for name in ["none", "pathbuild.toml"] {
+        assert!(refusal(Library::open(directory.path().join(name))).contains(name));
+    }
+}
+
+#[test]
+fn without_a_configuration_the_directory_is_the_library() {
+    let directory = on_disk();
+    let library = || Library::open(directory.path().join("lib")).unwrap();
+    // The configuration above applies, with its library.
+    assert_eq!(library().paths(&[]).unwrap().paths[0].file, "8001.1P.dxf");
+    fs::remove_file(directory.path().join("pathbuild.toml")).unwrap();
+    assert_eq!(library().check(&[]).unwrap().paths, 1);
+    fs::remove_file(directory.path().join("lib/8001.1P.dxf")).unwrap();
+    assert!(library().check(&[]).unwrap().findings.iter().any(pathbuild_api::Finding::is_error));
 }
