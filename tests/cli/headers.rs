@@ -82,6 +82,20 @@ fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, "G0 Z5\nG0 Y20\nG0 Z-0.1"), ""), ["PB741"]);
 }
 
+/// A program that is too large for the map was not examined at cutting depth, which is said; without such a rapid move there is nothing
+/// to examine.
+#[test]
+fn what_is_too_large_to_doubt_is_told() {
+    let head = fusion("flat end mill");
+    for (between, expected) in [(THROUGH, "too large"), (OVER, "only those at")] {
+        let place = Place::new().file("pathbuild.toml", "[limits]\nverify-cells = 100\n");
+        let place = place.file("a.nc", slots(&head, between));
+        let run = place.run("verify a.nc --dialect linuxcnc --format concise");
+        assert!(run.status == Some(0) && run.stderr.contains(expected), "{run}");
+        assert_eq!(codes_of(&run).contains(&"PB005".into()), expected == "too large", "{run}");
+    }
+}
+
 /// Carbide Create states the width of the point of a V-bit.
 #[test]
 fn a_tiny_point_exceeds_no_limit() {

@@ -108,9 +108,10 @@ impl LibraryOptions {
     /// The workspace with these options.
     pub(crate) fn workspace(self, source: Source) -> Result<Workspace, Error> {
         let settings = self.given()?;
+        let utf8 = |path| utf8(path, self.lang);
         let config = self.config.map(utf8).transpose()?;
         let cache = self.cache.map(utf8).transpose()?.map(CacheHome::Named);
-        let (system, directory) = source.open()?;
+        let (system, directory) = source.open(self.lang)?;
         let overrides = Overrides { settings, config, untrusted: self.untrusted, ..Overrides::default() };
         let (settings, faults) = config::load(&system, &overrides, &Inputs::default(), &directory);
         let system = match &settings.confined {
@@ -135,11 +136,17 @@ impl LibraryOptions {
         let mut given: Vec<(&'static str, Vec<String>)> = Vec::new();
         for (name, value) in &self.settings {
             let option = OPTIONS.iter().find(|option| option.name == name);
-            let option = option.ok_or_else(|| Error::Refused(format!("there is no setting `{name}`")))?;
+            let option = option.ok_or_else(|| {
+                refused(self.lang, "there is no setting `{}`", "es gibt keine Einstellung `{}`", name)
+            })?;
             let values = match option.values {
                 OptionValues::Switch if value == "true" => Vec::new(),
                 OptionValues::Switch => {
-                    return Err(Error::Refused(format!("`{name}` is a switch: its only value is `true`")));
+                    let [en, de] = [
+                        "`{}` is a switch: its only value is `true`",
+                        "`{}` ist ein Schalter: sein einziger Wert ist `true`",
+                    ];
+                    return Err(refused(self.lang, en, de, name));
                 }
                 OptionValues::Texts(_) | OptionValues::Directories => {
                     let earlier = given.iter().find(|(earlier, _)| *earlier == option.name);
@@ -190,13 +197,14 @@ pub(crate) enum Source {
 
 impl Source {
     /// The files, and the directory that relative names start from.
-    fn open(self) -> Result<(Arc<dyn System>, Utf8PathBuf), Error> {
+    fn open(self, lang: Option<Lang>) -> Result<(Arc<dyn System>, Utf8PathBuf), Error> {
         match self {
             Self::Directory(directory) => {
                 let directory = std::path::absolute(&directory).unwrap_or(directory);
-                let directory = clean(&utf8(directory)?);
+                let directory = clean(&utf8(directory, lang)?);
                 if OsSystem.kind(&directory) != FileKind::Directory {
-                    return Err(Error::Refused(format!("there is no directory {directory}")));
+                    let [en, de] = ["there is no directory {}", "es gibt kein Verzeichnis {}"];
+                    return Err(refused(lang, en, de, directory.as_str()));
                 }
                 Ok((Arc::new(BasedSystem::new(OsSystem::shared(), directory.clone())), directory))
             }
@@ -211,7 +219,12 @@ impl Source {
     }
 }
 
-fn utf8(path: PathBuf) -> Result<Utf8PathBuf, Error> {
-    Utf8PathBuf::from_path_buf(path)
-        .map_err(|path| Error::Refused(format!("{}: the name is not UTF-8", path.display())))
+fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
+    let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist nicht in UTF-8"];
+    Utf8PathBuf::from_path_buf(path).map_err(|path| refused(lang, en, de, &path.to_string_lossy()))
+}
+
+/// A refusal before the configuration is read, which may name another language.
+fn refused(lang: Option<Lang>, en: &str, de: &str, value: &str) -> Error {
+    Error::Refused(lang.unwrap_or_default().choose(en, de).replace("{}", value))
 }

@@ -276,6 +276,8 @@ fn a_missing_directory_is_no_library() {
     for name in ["none", "pathbuild.toml"] {
         assert!(refusal(Library::open(directory.path().join(name))).contains(name));
     }
+    let in_german = LibraryOptions::new().lang(Lang::De).open(directory.path().join("none"));
+    assert!(refusal(in_german).starts_with("es gibt kein Verzeichnis"));
 }
 
 #[test]

@@ -1,11 +1,13 @@
 // The compiler: a worker that is asked, is ended when it takes too long, and begun anew after that and after a bug.
 
-import { Finding } from "./scene.js";
+import type { Finding, Opened } from "../../../../packaging/npm/index.js";
 import { LibraryRow } from "./source.js";
 import type { Answered } from "./worker.js";
 
 /** Files by their places below the folder that was given. */
 export type Files = Map<string, ArrayBuffer>;
+
+export type { Opened };
 
 /** What the page says beside the configuration. */
 export interface Options {
@@ -15,16 +17,6 @@ export interface Options {
   "probe-feed"?: string;
   post?: string;
   lang: string;
-}
-
-/** What the files are. */
-export interface Opened {
-  halted: string | null;
-  problems: Finding[];
-  drawings: string[];
-  posts: { name: string; for: string }[];
-  /** How long a path may take. */
-  seconds: number;
 }
 
 /** A path of a drawing, or all of them. */

@@ -1,5 +1,8 @@
 // The scene as data: the form is that of pathbuild-view's src/scene.rs, version 1.
 
+import type { Finding } from "../../../../packaging/npm/index.js";
+
+export type { Finding };
 export type Point = [number, number];
 export type Place = [number | null, number | null, number | null];
 
@@ -99,17 +102,6 @@ export interface KeepOut {
   layer: string;
   outline: Shape[];
   height: number;
-}
-
-export interface Finding {
-  number: number;
-  code: string;
-  is_error: boolean;
-  message: { en: string; de: string };
-  help: { en: string; de: string };
-  file: string | null;
-  path: string | null;
-  at: Point | null;
 }
 
 export interface Scene {

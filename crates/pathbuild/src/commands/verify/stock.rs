@@ -129,11 +129,12 @@ impl<'s> Sources<'s> {
         let stock = self.limited(Stock::with_unknown_surface(&cutters));
         let mut doubts = rapids_at_depth(&self.program.drawn(), &stock);
         let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
-        // In a program that is too large for this check, nothing is doubtful.
-        doubts.retain(|doubt| {
-            doubt.code() == Code::RapidAtDepth
-                && !found.iter().any(|error| error.is_error() && is_same_line(error, doubt))
+        doubts.retain(|doubt| match doubt.code() {
+            Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
+            _ => !found.iter().any(|error| error.is_error() && is_same_line(error, doubt)),
         });
+        // A program is not wrong because it is too large for a check that only doubts.
+        doubts.iter_mut().for_each(|doubt| doubt.severity = Severity::Warning);
         doubts
     }
 
