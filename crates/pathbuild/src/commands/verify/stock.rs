@@ -134,7 +134,9 @@ impl<'s> Sources<'s> {
             _ => !found.iter().any(|error| error.is_error() && is_same_line(error, doubt)),
         });
         // A program is not wrong because it is too large for a check that only doubts.
-        doubts.iter_mut().for_each(|doubt| doubt.severity = Severity::Warning);
+        for doubt in &mut doubts {
+            doubt.severity = Severity::Warning;
+        }
         doubts
     }
 
