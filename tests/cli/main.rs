@@ -42,6 +42,7 @@ mod left_out;
 mod library;
 mod limits;
 mod list;
+mod machine_import;
 mod machines;
 mod meanwhile;
 mod nesting;

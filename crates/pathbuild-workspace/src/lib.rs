@@ -10,6 +10,8 @@ pub mod files;
 pub mod findings;
 mod inputs;
 pub mod list;
+#[cfg(not(target_family = "wasm"))]
+pub mod machine;
 pub mod memo;
 pub mod posting;
 pub mod session;

@@ -22,6 +22,7 @@ pub mod configuration;
 pub mod drawing;
 pub mod files;
 pub mod gcode;
+pub mod import;
 pub mod outputs;
 pub mod parameters;
 pub mod part;
@@ -41,6 +42,7 @@ pub fn all() -> impl Iterator<Item = &'static crate::Message> {
         paths::ALL,
         outputs::ALL,
         probes::ALL,
+        import::ALL,
         gcode::ALL,
         verify::ALL,
         posts::ALL,

@@ -422,6 +422,28 @@ pub enum ConfigCommand {
     Schema,
 }
 
+/// `pathbuild machine`
+#[derive(Clone, Debug, Args)]
+pub struct MachineArgs {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: MachineCommand,
+}
+
+/// What can be done with a description of a machine.
+#[derive(Clone, Debug, Subcommand)]
+pub enum MachineCommand {
+    /// Compare descriptions of the machine with `[machine]`, and take them over with --write
+    Import {
+        /// GRBL's and grblHAL's answer to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<Utf8PathBuf>,
+        /// Write the values into pathbuild.toml
+        #[arg(long)]
+        write: bool,
+    },
+}
+
 /// `pathbuild completions`
 #[derive(Clone, Debug, Args)]
 pub struct CompletionsArgs {
@@ -454,6 +476,15 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
     ("Remove all cached results", "Löscht alle gespeicherten Ergebnisse"),
     ("Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden"),
     ("Print the values in force", "Gibt die geltenden Werte aus"),
+    (
+        "Compare descriptions of the machine with `[machine]`, and take them over with --write",
+        "Vergleicht Beschreibungen der Maschine mit `[machine]` und übernimmt sie mit --write",
+    ),
+    (
+        "GRBL's and grblHAL's answer to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file",
+        "die Antwort von GRBL und grblHAL auf $$, die YAML-Datei von `FluidNC`, die ini-Datei von `LinuxCNC`",
+    ),
+    ("Write the values into pathbuild.toml", "Schreibt die Werte in die pathbuild.toml"),
     ("Print the JSON schema of pathbuild.toml", "Gibt das JSON-Schema von pathbuild.toml aus"),
     (
         "Patterns of path names (8*, 20[0-5]?.1P), drawings (.dxf), directories; without drawings or directories the library",

@@ -22,6 +22,7 @@ pub use self::commands::{
 };
 pub use self::commands::{GraphArgs, ListArgs};
 pub use self::commands::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCodesArg, VerifyArgs};
+pub use self::commands::{MachineArgs, MachineCommand};
 pub use self::commands::{ServeArgs, WatchArgs};
 pub use self::shared::CommonArgs;
 pub use self::shared::Deferred;
@@ -95,6 +96,8 @@ pub enum Command {
     Init(Deferred<InitArgs>),
     /// Show the configuration
     Config(Deferred<ConfigArgs>),
+    /// Take over what a controller or a CAM program knows about the machine
+    Machine(Deferred<MachineArgs>),
     /// Print a completion script for a shell
     Completions(Deferred<CompletionsArgs>),
     /// Print the manual page
@@ -184,6 +187,7 @@ impl Command {
             Self::Explain(_) => "explain",
             Self::Init(_) => "init",
             Self::Config(_) => "config",
+            Self::Machine(_) => "machine",
             Self::Completions(_) => "completions",
             Self::Man => "man",
             Self::Compat(_) => "compat",
@@ -321,6 +325,10 @@ const COMMANDS: &[(&str, &str)] = &[
         "Schreibt eine kommentierte pathbuild.toml ins Arbeitsverzeichnis",
     ),
     ("Show the configuration", "Zeigt die Konfiguration"),
+    (
+        "Take over what a controller or a CAM program knows about the machine",
+        "Übernimmt, was eine Steuerung oder ein CAM-Programm über die Maschine weiß",
+    ),
     ("Print a completion script for a shell", "Gibt ein Skript aus, mit dem eine Shell Eingaben ergänzt"),
     ("Print the manual page", "Gibt die Handbuchseite (man) aus"),
     (

@@ -15,6 +15,7 @@ pub mod import;
 pub mod init;
 pub mod list;
 pub mod locate;
+pub mod machine;
 pub mod man;
 mod picture_output;
 pub mod post;
@@ -76,6 +77,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Cache(args) => cache::run(context, args),
         Command::Init(args) => init::run(context, args.example),
         Command::Config(args) => config::run(context, args),
+        Command::Machine(args) => machine::run(context, args),
         Command::Watch(_) | Command::Compat(_) => unreachable!("they make their own surroundings"),
     }
 }

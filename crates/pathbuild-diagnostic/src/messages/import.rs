@@ -1,0 +1,81 @@
+//! Messages about descriptions of machines and tools. (PB612, PB613; book: howto/machine)
+
+messages! {
+    /// The format is not recognized.
+    UNKNOWN_FORMAT: UnreadableDescription {
+        en: "the file describes neither a machine nor tools in a known format",
+        de: "die Datei beschreibt weder Maschine noch Werkzeuge in einem bekannten Format",
+        help_en: "known are GRBL's and grblHAL's answer to $$, FluidNC's YAML and LinuxCNC's ini file",
+        help_de: "bekannt sind die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML und die ini-Datei von LinuxCNC",
+    }
+    /// The file cannot be read.
+    DESCRIPTION_UNREADABLE: UnreadableDescription {
+        en: "cannot read the file: {reason}",
+        de: "die Datei ist nicht lesbar: {reason}",
+        help_en: "export the settings again, as text",
+        help_de: "die Einstellungen noch einmal als Text exportieren",
+    }
+    /// A syntax error.
+    BROKEN_DESCRIPTION: UnreadableDescription {
+        en: "the file is broken here: {reason}",
+        de: "die Datei ist hier fehlerhaft: {reason}",
+        help_en: "correct the line, or export the settings again",
+        help_de: "die Zeile berichtigen oder die Einstellungen noch einmal exportieren",
+    }
+    /// The configuration cannot take the values.
+    NOT_EDITABLE: UnreadableDescription {
+        en: "the values cannot be inserted into this configuration",
+        de: "die Werte lassen sich in diese Konfiguration nicht einsetzen",
+        help_en: "write them into it by hand",
+        help_de: "sie von Hand hineinschreiben",
+    }
+    /// A value that a key cannot take.
+    VALUE_NOT_TAKEN: UnusableValue {
+        en: "`{name}` is `{value}`, but {expected} is needed; the value is not taken",
+        de: "`{name}` ist `{value}`, nötig ist aber {expected}; der Wert wird nicht übernommen",
+        help_en: "set the key in pathbuild.toml by hand",
+        help_de: "den Schlüssel in pathbuild.toml von Hand setzen",
+    }
+    /// A key for three axes, not all of which are described.
+    AXES_INCOMPLETE: UnusableValue {
+        en: "`{key}` needs X, Y and Z, but there is only {given}",
+        de: "`{key}` braucht X, Y und Z, vorhanden ist aber nur {given}",
+        help_en: "set the key in pathbuild.toml by hand",
+        help_de: "den Schlüssel in pathbuild.toml von Hand setzen",
+    }
+    /// A spindle without a range of speeds.
+    EMPTY_SPEEDS: UnusableValue {
+        en: "the spindle's speeds from {from} to {to} are no range; they are not taken",
+        de: "die Drehzahlen von {from} bis {to} sind kein Bereich; sie werden nicht übernommen",
+        help_en: "set `spindle-speeds` in pathbuild.toml by hand",
+        help_de: "`spindle-speeds` in pathbuild.toml von Hand setzen",
+    }
+    /// A laser.
+    LASER: UnusableValue {
+        en: "the controller is in laser mode ($32), so $30 and $31 are no spindle speeds",
+        de: "die Steuerung ist im Laserbetrieb ($32), daher sind $30 und $31 keine Drehzahlen",
+        help_en: "if the machine has a spindle as well, set `spindle-speeds` by hand",
+        help_de: "hat die Maschine auch eine Spindel, `spindle-speeds` von Hand setzen",
+    }
+    /// Several spindles.
+    SEVERAL_SPINDLES: UnusableValue {
+        en: "there are several spindles, so no speeds are taken: {names}",
+        de: "es gibt mehrere Spindeln, daher werden keine Drehzahlen übernommen: {names}",
+        help_en: "set `spindle-speeds` by hand to those of the spindle that mills",
+        help_de: "`spindle-speeds` von Hand auf die der Spindel setzen, die fräst",
+    }
+    /// An ini file without a unit.
+    UNIT_MISSING: UnusableValue {
+        en: "[TRAJ] has no LINEAR_UNITS, so the unit of the lengths is not known; none is taken",
+        de: "in [TRAJ] fehlt LINEAR_UNITS, daher ist die Einheit der Längen unbekannt; keine wird übernommen",
+        help_en: "add LINEAR_UNITS = mm or LINEAR_UNITS = inch",
+        help_de: "LINEAR_UNITS = mm oder LINEAR_UNITS = inch ergänzen",
+    }
+    /// Axes without limits.
+    NO_TRAVEL: UnusableValue {
+        en: "the limits of the axes are no travel; they are not taken",
+        de: "die Grenzen der Achsen ergeben keinen Verfahrweg; sie werden nicht übernommen",
+        help_en: "set `travel` in pathbuild.toml by hand",
+        help_de: "`travel` in pathbuild.toml von Hand setzen",
+    }
+}

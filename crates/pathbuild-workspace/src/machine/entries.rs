@@ -1,0 +1,157 @@
+//! The entries of a description, from which values are taken one by one. Entries that remain have no key.
+
+use pathbuild_diagnostic::messages::configuration::{NUMBER, POSITIVE};
+use pathbuild_diagnostic::messages::import as say;
+use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
+use rustc_hash::FxHashMap;
+
+use super::{DescribedValue, Description, Quantity};
+
+/// An entry of a description.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The name, for example `$110` or `axes/x/max_travel_mm`.
+    pub name: String,
+    /// The text of the value.
+    pub value: String,
+    /// The line, counted from 1.
+    pub line: u32,
+}
+
+/// A number and its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading {
+    pub(super) number: f64,
+    line: u32,
+}
+
+/// The entries of a description.
+#[derive(Debug, Default)]
+pub(super) struct Entries {
+    list: Vec<Entry>,
+    is_used: Vec<bool>,
+    /// The last entry of each name, which is the one in force.
+    by_name: FxHashMap<String, usize>,
+    values: Vec<DescribedValue>,
+    problems: Vec<Diagnostic>,
+}
+
+impl Entries {
+    pub(super) fn add(&mut self, name: impl Into<String>, value: impl Into<String>, line: usize) {
+        let name = name.into();
+        self.by_name.insert(name.clone(), self.list.len());
+        let line = u32::try_from(line).unwrap_or(u32::MAX);
+        self.list.push(Entry { name, value: value.into(), line });
+        self.is_used.push(false);
+    }
+
+    /// An entry, which does not count as used by that.
+    pub(super) fn get(&self, name: &str) -> Option<&Entry> {
+        Some(&self.list[*self.by_name.get(name)?])
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Entry> {
+        self.list.iter()
+    }
+
+    /// Takes the entry of this name.
+    pub(super) fn take(&mut self, name: &str) -> Option<&Entry> {
+        let index = *self.by_name.get(name)?;
+        self.is_used[index] = true;
+        Some(&self.list[index])
+    }
+
+    /// Takes the number of this name. Reports a value that is not a number.
+    pub(super) fn number(&mut self, name: &str) -> Option<Reading> {
+        self.number_where(name, |_| true, &NUMBER)
+    }
+
+    fn positive(&mut self, name: &str) -> Option<Reading> {
+        self.number_where(name, |number| number > 0.0, &POSITIVE)
+    }
+
+    fn number_where(
+        &mut self,
+        name: &str,
+        is_fit: fn(f64) -> bool,
+        expected: &'static Text,
+    ) -> Option<Reading> {
+        let entry = self.take(name)?;
+        let number = entry.value.parse().ok().filter(|number: &f64| number.is_finite() && is_fit(*number));
+        if let Some(number) = number {
+            return Some(Reading { number, line: entry.line });
+        }
+        let entry = entry.clone();
+        self.not_taken(&entry, expected);
+        None
+    }
+
+    /// Reports an entry whose value is not what the key needs.
+    pub(super) fn not_taken(&mut self, entry: &Entry, expected: &'static Text) {
+        let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
+        let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));
+        self.problems.push(problem.at_line(entry.line, None));
+    }
+
+    pub(super) fn report(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
+    }
+
+    /// Adds a value for a key.
+    pub(super) fn set(&mut self, key: &'static str, value: Quantity, sources: &[&str]) {
+        self.values.push(DescribedValue { key, value, source: sources.join(", ") });
+    }
+
+    /// Sets a key to the number of an entry, multiplied by `scale`.
+    pub(super) fn set_number(&mut self, key: &'static str, name: &str, scale: f64) {
+        if let Some(reading) = self.positive(name) {
+            self.set(key, Quantity::Number(rounded(reading.number * scale)), &[name]);
+        }
+    }
+
+    /// Sets a key to the numbers of the entries for X, Y and Z, multiplied by `scale`. The key takes all three or none.
+    pub(super) fn set_axes(&mut self, key: &'static str, names: [&str; 3], scale: f64) {
+        let readings = names.map(|name| self.positive(name));
+        let given: Vec<&str> =
+            names.into_iter().zip(readings).filter_map(|(name, reading)| reading.map(|_| name)).collect();
+        if let [Some(x), Some(y), Some(z)] = readings {
+            let numbers = [x, y, z].map(|reading| rounded(reading.number * scale));
+            self.set(key, Quantity::Numbers(numbers.to_vec()), &names);
+        } else if let Some(first) = readings.into_iter().flatten().next()
+            && names.iter().any(|name| self.get(name).is_none())
+        {
+            let problem = Diagnostic::new(&say::AXES_INCOMPLETE).quoting("key", key);
+            self.report(problem.quoting("given", given.join(", ")).at_line(first.line, None));
+        }
+    }
+
+    /// Sets `spindle-speeds` from the entries of the lowest and the highest speed. The lowest is 0 if the description does not limit it.
+    pub(super) fn set_speeds(&mut self, least: &str, most: &str) {
+        let (lower, upper) = (self.number(least), self.number(most));
+        let from = lower.map_or(0.0, |reading| reading.number);
+        let Some(upper) = upper else { return };
+        self.set_range(from, upper.number, upper.line, &[least, most]);
+    }
+
+    /// Sets `spindle-speeds`, or reports that the range is empty.
+    pub(super) fn set_range(&mut self, from: f64, to: f64, line: u32, sources: &[&str]) {
+        if 0.0 <= from && from < to {
+            self.set("spindle-speeds", Quantity::Numbers(vec![rounded(from), rounded(to)]), sources);
+        } else {
+            let problem = Diagnostic::new(&say::EMPTY_SPEEDS).with("from", from).with("to", to);
+            self.report(problem.at_line(line, None));
+        }
+    }
+
+    pub(super) fn finish(self, format: &'static str) -> Description {
+        let unused = self.list.into_iter().zip(self.is_used).filter(|(_, is_used)| !is_used);
+        let unused = unused.map(|(entry, _)| entry).collect();
+        Description { format, values: self.values, unused, problems: self.problems }
+    }
+}
+
+/// Removes the digits that a conversion of units leaves behind.
+pub(super) fn rounded(number: f64) -> f64 {
+    const DIGITS: f64 = 1e6;
+    (number * DIGITS).round() / DIGITS
+}

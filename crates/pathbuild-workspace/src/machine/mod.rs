@@ -1,0 +1,100 @@
+//! Descriptions of machines and tools that controllers and CAM programs keep, turned into `[machine]` and `[tool]`. (book: howto/machine)
+
+mod edit;
+mod entries;
+mod fluidnc;
+mod grbl;
+mod linuxcnc;
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::messages::import as say;
+use pathbuild_diagnostic::{Diagnostic, Value as Shown};
+
+pub use self::edit::{Change, edit};
+use self::entries::Entries;
+pub use self::entries::Entry;
+
+/// Upper bound on the size of a description in bytes. The settings of a machine take a few kilobytes.
+pub const LARGEST: u64 = 4 << 20;
+
+/// The unit of lengths that a description does not name itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Millimetres.
+    Millimetre,
+    /// Inches.
+    Inch,
+}
+
+impl LengthUnit {
+    /// The length of the unit in mm.
+    fn millimetres(self) -> f64 {
+        match self {
+            Self::Millimetre => 1.0,
+            Self::Inch => 25.4,
+        }
+    }
+}
+
+/// The contents of a description.
+#[derive(Debug)]
+pub struct Description {
+    /// The controller or program that writes this format.
+    pub format: &'static str,
+    /// The values that a key of the configuration takes.
+    pub values: Vec<DescribedValue>,
+    /// The entries for which there is no key.
+    pub unused: Vec<Entry>,
+    /// Entries that a key should take, but whose values it cannot.
+    pub problems: Vec<Diagnostic>,
+}
+
+/// A value for the configuration.
+#[derive(Clone, Debug)]
+pub struct DescribedValue {
+    /// Key of `[machine]`.
+    pub key: &'static str,
+    /// The value, in the configuration's units.
+    pub value: Quantity,
+    /// Names of the entries that the value was read from.
+    pub source: String,
+}
+
+/// A value as the configuration takes it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    /// A number.
+    Number(f64),
+    /// A list of numbers.
+    Numbers(Vec<f64>),
+}
+
+/// Reads a description. The format is recognized by the content.
+///
+/// # Errors
+/// The text is in none of the known formats, or is broken.
+pub fn read(file: &Utf8Path, text: &str) -> Result<Description, Box<Diagnostic>> {
+    let read = if grbl::is_listing(text) {
+        Ok(grbl::read(text))
+    } else if linuxcnc::is_ini(text) {
+        linuxcnc::read(text)
+    } else if fluidnc::is_configuration(text) {
+        fluidnc::read(text)
+    } else {
+        Err(Box::new(Diagnostic::new(&say::UNKNOWN_FORMAT)))
+    };
+    let place = |problem: Diagnostic| problem.in_file(file);
+    match read {
+        Ok(description) => {
+            let problems = description.problems.into_iter().map(place).collect();
+            Ok(Description { problems, ..description })
+        }
+        Err(problem) => Err(Box::new(place(*problem))),
+    }
+}
+
+/// PB612 at a line: the description is broken.
+fn broken(reason: &str, line: usize) -> Box<Diagnostic> {
+    let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));
+    Box::new(problem.at_line(u32::try_from(line).unwrap_or(u32::MAX), None))
+}

@@ -1,0 +1,135 @@
+//! `pathbuild machine import`: compares descriptions of the machine with the configuration, and takes them over. (book: howto/machine)
+
+use std::fmt::Write;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::join;
+use pathbuild_diagnostic::messages::import as say;
+use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_workspace::config::{FILE_NAME, faults};
+use pathbuild_workspace::files;
+use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, Entry};
+use serde_json::json;
+
+use crate::args::{MachineArgs, MachineCommand};
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::render::Format;
+
+/// Prints the differences, and writes them if requested. Nothing is written if a file cannot be read.
+pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
+    let MachineCommand::Import { files, write } = &args.command;
+    let (mut values, mut diagnostics) = (Vec::new(), Vec::new());
+    let mut unused = Vec::new();
+    for file in files {
+        match description(context, file) {
+            Ok(description) => {
+                values.extend(description.values);
+                diagnostics.extend(description.problems);
+                unused.push((file.as_path(), description.format, description.unused));
+            }
+            Err(problem) => diagnostics.push(*problem),
+        }
+    }
+    if !diagnostics.iter().any(Diagnostic::is_error)
+        && let Err(problems) = compare(context, &values, &unused, *write)
+    {
+        diagnostics.extend(problems);
+    }
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+fn description(context: &Context, file: &Utf8Path) -> Result<Description, Box<Diagnostic>> {
+    let place = context.working_directory.join(file);
+    let text = files::read(&*context.system, &place, machine::LARGEST).map_err(|reason| {
+        Box::new(Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(file))
+    })?;
+    machine::read(file, &text)
+}
+
+/// Entries without a key: the file, its format, and the entries.
+type Unused<'f> = (&'f Utf8Path, &'static str, Vec<Entry>);
+
+/// Shows the values beside those of the configuration, and writes them if requested.
+fn compare(
+    context: &Context,
+    values: &[DescribedValue],
+    unused: &[Unused<'_>],
+    write: bool,
+) -> Result<(), Vec<Diagnostic>> {
+    let file = configuration(context);
+    let is_there = files::is_named(&file);
+    let old = if is_there {
+        files::read(&*context.system, &file, machine::LARGEST).map_err(|reason| {
+            vec![Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(&file)]
+        })?
+    } else {
+        String::new()
+    };
+    let (new, changes) = machine::edit(&file, &old, values).map_err(|problem| vec![*problem])?;
+    let problems = faults(&file, &new);
+    if problems.iter().any(Diagnostic::is_error) {
+        return Err(problems);
+    }
+    show(context, &file, &changes, unused);
+    if new == old {
+        context.printer.status(context.choose("nothing differs", "nichts weicht ab"));
+    } else if !write {
+        let hint = "nothing was written; --write takes the values over";
+        context.printer.status(context.choose(hint, "nichts geschrieben; --write übernimmt die Werte"));
+    } else if is_there {
+        files::replace(context, &file, &new).map_err(|problem| vec![*problem])?;
+    } else {
+        files::create(context, &[(file, new.as_bytes())])?;
+    }
+    Ok(())
+}
+
+/// The configuration of the run, or the one that would be created in the working directory.
+fn configuration(context: &Context) -> Utf8PathBuf {
+    context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
+}
+
+fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[Unused<'_>]) {
+    if context.format == Format::Json {
+        for Change { table, key, old, new, source, is_new } in changes {
+            let row = json!({ "table": table, "key": key, "old": old, "new": new, "from": source, "differs": is_new });
+            context.row("value", row);
+        }
+        for (file, format, entries) in unused {
+            for Entry { name, value, line } in entries {
+                let row = json!({ "file": context.file(file), "format": format, "line": line, "name": name, "value": value });
+                context.row("unused", row);
+            }
+        }
+        return;
+    }
+    let mut text = String::new();
+    let mut table = "";
+    for change in changes {
+        if table != change.table {
+            table = &change.table;
+            _ = writeln!(text, "{} [{table}]", shown::line(context.file(file).as_str()));
+        }
+        change_lines(&mut text, change);
+    }
+    for (file, format, entries) in unused.iter().filter(|(_, _, entries)| !entries.is_empty()) {
+        let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        let no_key = context.choose("no key for", "kein Schlüssel für");
+        let file = shown::line(file.as_str());
+        _ = writeln!(text, "{file} ({format}): {no_key} {}", shown::line(&names.join(", ")));
+    }
+    context.printer.result(text);
+}
+
+/// Adds the old and the new value of a key.
+fn change_lines(text: &mut String, change: &Change) {
+    let Change { key, old, new, source, is_new, .. } = change;
+    if let Some(old) = old.as_ref().filter(|_| *is_new) {
+        _ = writeln!(text, "  - {key} = {}", shown::line(old));
+    }
+    let sign = if *is_new { '+' } else { '=' };
+    _ = writeln!(text, "  {sign} {key} = {}  ({})", shown::line(new), shown::line(source));
+}
