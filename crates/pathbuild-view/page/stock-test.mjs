@@ -132,6 +132,15 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
     assert.ok(Buffer.from(stock.colors.buffer).equals(Buffer.from(fresh.colors.buffer)), `jump ${jump} to move ${to}`);
     assert.ok(Buffer.from(stock.map.heights.buffer).equals(Buffer.from(fresh.map.heights.buffer)), `heights after jump ${jump}`);
   }
+  // A move that is cut in part leaves no trace once the tool is elsewhere.
+  for (let jump = 0; jump < 60; jump++) {
+    stock.seek(Math.floor(random() * total), random());
+    const to = Math.floor(random() * (total + 1));
+    stock.seek(to);
+    const fresh = Stock.of(scene, given);
+    fresh.seek(to);
+    assert.ok(Buffer.from(stock.colors.buffer).equals(Buffer.from(fresh.colors.buffer)), `after a share, jump ${jump} to move ${to}`);
+  }
   console.log("60 jumps: each as a fresh map");
 }
 
@@ -147,6 +156,15 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   assert.ok(Math.abs(wide - 3) <= 2 * texel, `the bar is ${wide} mm wide`);
   assert.ok(stock.map.rapid.every((it) => it === 0), "no rapid move cuts");
   console.log(`bar: ${wide.toFixed(3)} mm of 3 mm, texels of ${texel.toFixed(3)} mm`);
+}
+
+{
+  // Half of a move cuts half of its way.
+  const stock = Stock.of(plain(2, 2, [move("mill", [0, 0, 0], [20, 0, 0]), move("mill", [20, 0, 0], [20, 20, 0])]), given);
+  stock.seek(1, 0.5);
+  assert.deepEqual([[20, 9], [20, 12], [10, 0]].map((at) => stock.map.at(...at)), [0, 2, 0]);
+  stock.seek(0, 0.25);
+  assert.deepEqual([[20, 9], [4, 0], [8, 0]].map((at) => stock.map.at(...at)), [2, 0, 2]);
 }
 
 {

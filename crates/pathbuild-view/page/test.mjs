@@ -162,6 +162,107 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
+  // The tool runs by time: along a long move while the count of moves stays, ten times as far at ten times the speed.
+  const program = ["G21 G90 G94 G17", "G00 X0 Y0 Z5", "G01 Z-1 F600", "G01 X200 F600", "G01 Y50", "G00 Z5", "M30", ""];
+  const file = join(directory, "by-time.gcode");
+  writeFileSync(file, program.join("\n"));
+  const { page, faults } = await open(file);
+  assert.match(await text(page, "#clock"), /^0:36 elapsed · 0:00 remaining$/, "26 s by 10 mm/s, and 1.4 times as long");
+  await page.locator("#assumedTool").fill("3");
+  const way = async (speed) => {
+    await page.locator("#speed").selectOption(speed);
+    await page.locator("#slider").fill("2");
+    const at = async () => Number(/X([\d.-]+)/.exec(await text(page, "#place"))[1]);
+    const from = await at();
+    const [begun] = [Date.now(), await page.locator("#play").click()];
+    await page.waitForTimeout(600);
+    await page.locator("#play").click();
+    assert.match(await text(page, "#where"), /^Move 2 of/);
+    return ((await at()) - from) / (Date.now() - begun);
+  };
+  // 600 mm/min are 10 mm/s, for which a machine takes 1.4 times as long.
+  const [real, ten] = [await way("1"), await way("10")];
+  assert.ok(real > 0.003 && real < 0.0072, `${real} mm/ms`);
+  assert.ok(ten > 0.03 && ten < 0.072, `${ten} mm/ms`);
+  assert.match(await text(page, "#pace"), /^F600 mm\/min$/);
+  // The keys for speed, the list of keys.
+  await page.locator("#picture").click({ position: { x: 5, y: 5 } });
+  await page.keyboard.press("+");
+  assert.equal(await page.locator("#speed").inputValue(), "100");
+  await page.keyboard.press("-");
+  await page.keyboard.press("-");
+  assert.equal(await page.locator("#speed").inputValue(), "1");
+  await page.keyboard.press("?");
+  assert.ok(await page.locator("#help").isVisible());
+  const listed = await text(page, "#key-list");
+  const keys = [..."23FSRATNOGMLD?+", "PgUp", "Home", "Space", "→", "<"];
+  assert.deepEqual(keys.filter((key) => !listed.includes(key)), []);
+  await shot(page, "keys");
+  await page.keyboard.press("Escape");
+  assert.ok(await page.locator("#help").isHidden());
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // Operations: a click goes there and makes the moves stand out, and the row follows the tool.
+  const { page, faults } = await open("8001.1P");
+  await page.locator("#work summary").click();
+  const rows = page.locator("#operations tr");
+  const total = await rows.count();
+  assert.ok(total > 10 && total < 100, `${total} operations`);
+  await rows.nth(5).click();
+  assert.equal(await rows.nth(5).getAttribute("aria-current"), "true");
+  const there = await text(page, "#where");
+  await shot(page, "operation");
+  await page.keyboard.press(">");
+  assert.equal(await rows.nth(6).getAttribute("aria-current"), "true");
+  await page.keyboard.press("<");
+  assert.equal(await text(page, "#where"), there);
+  await page.keyboard.press("End");
+  assert.equal(await page.locator("#operations [aria-current]").count(), 0);
+  // Scales and colours are explained, until they are hidden.
+  assert.match(await text(page, "#scale"), /^[125]0* mm$/);
+  assert.match(await text(page, "#legend"), /Z-0.2[^]*cuts ahead[^]*outline of a part/);
+  await page.keyboard.press("3");
+  await page.waitForFunction(() => document.getElementById("scale").hidden);
+  await page.keyboard.press("g");
+  assert.ok(await page.locator("#legend").isHidden());
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // What comes next is faint: at the beginning there is more to see than the tool.
+  const { page, faults } = await open("2051.1P");
+  const ahead = () => page.locator("#picture canvas").last().screenshot();
+  for (const key of ["s", "n", "t", "o", "g", "Home"]) await page.keyboard.press(key);
+  await page.waitForTimeout(200);
+  const [first, pixels] = [await ahead(), () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))))];
+  await page.keyboard.press("End");
+  await pixels();
+  assert.ok(!first.equals(await ahead()));
+  await page.keyboard.press("Home");
+  await pixels();
+  assert.ok(first.equals(await ahead()));
+  await shot(page, "ahead");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // On a telephone whatever can be tapped is as large as a finger.
+  const { page, faults } = await open("8001.1P", { viewport: { width: 390, height: 800 }, hasTouch: true });
+  await page.locator("#work summary").click();
+  await page.waitForTimeout(100);
+  const small = await page.evaluate(() => {
+    const all = [...document.querySelectorAll("button, select, input, summary, #operations tr, .row")].filter((node) => node.offsetParent !== null);
+    return all.map((node) => [node.id || node.className || node.tagName, node.getBoundingClientRect()]).filter(([, { width, height }]) => width < 44 || height < 44).map(([name, { width, height }]) => `${name} ${width}x${height}`);
+  });
+  assert.deepEqual(small, []);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await shot(page, "phone");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
   // So many moves are kept as a picture; it is the same by whatever way a step is reached.
   const program = ["G21 G90 G94 G17", "G00 Z5", "G00 X0 Y0", "G01 Z-1 F100"];
   for (let move = 0; move < 30_000; move++) program.push(`G01 X${(Math.cos(move * 0.7) * (10 + move / 500)).toFixed(3)} Y${(Math.sin(move * 0.7) * (10 + move / 500)).toFixed(3)}`);

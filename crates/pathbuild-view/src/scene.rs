@@ -58,6 +58,9 @@ pub struct ScenePath {
     pub sweep_height: Option<f64>,
     /// Material M.
     pub material: Option<String>,
+    /// Speed of rapid moves in mm/min.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rapid: Option<f64>,
     /// The path itself and everything it embeds, directly or indirectly.
     pub embedded: Vec<EmbeddedPath>,
     /// The elements on the layers of all these paths.

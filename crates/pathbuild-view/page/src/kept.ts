@@ -26,11 +26,15 @@ export class Kept {
   private view = new THREE.Matrix4();
   private size = new THREE.Vector2();
 
-  constructor(pieces: Pieces) {
+  /** With a colour all strokes have it, and there is one picture: of all of them. */
+  constructor(
+    pieces: Pieces,
+    private color?: number,
+  ) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(pieces.points, 3));
     geometry.setAttribute("color", new THREE.Float32BufferAttribute(pieces.colors, 3));
-    this.lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: true, depthTest: false, depthWrite: false }));
+    this.lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: color ?? 0xffffff, vertexColors: color === undefined, depthTest: false, depthWrite: false }));
     this.lines.frustumCulled = false;
     this.total = pieces.step.length;
     this.object = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), sheet());
@@ -45,7 +49,7 @@ export class Kept {
   /** Makes the picture, before it is shown. */
   prepare(renderer: THREE.WebGLRenderer, camera: THREE.Camera): void {
     const shown = this.begun(renderer, camera);
-    const most = Math.min(MOST_PICTURES, Math.floor(MOST_PIXELS / (this.size.x * this.size.y)));
+    const most = this.color !== undefined ? 1 : Math.min(MOST_PICTURES, Math.floor(MOST_PIXELS / (this.size.x * this.size.y)));
     const part = Math.ceil(this.total / Math.max(most, 1));
     this.resume(renderer, shown);
     while (shown.count < this.wanted) {

@@ -1,5 +1,6 @@
 // The moves of all paths behind each other, flattened once.
 
+import { Color, color as named, depthColor, depths } from "./palette.js";
 import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape } from "./scene.js";
 
 export interface Step {
@@ -29,36 +30,11 @@ export interface Model {
   shallowest: number;
 }
 
-const DEPTHS = [
-  [115, 192, 232],
-  [52, 148, 209],
-  [24, 104, 172],
-  [30, 61, 130],
-  [42, 20, 84],
-];
-const DARK = [
-  [30, 90, 130],
-  [40, 130, 190],
-  [70, 170, 230],
-  [150, 210, 250],
-  [235, 248, 255],
-];
-const RAPID = [0.9, 0.62, 0];
-
-export function depthColor(share: number, dark: boolean): [number, number, number] {
-  const stops = dark ? DARK : DEPTHS;
-  const place = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
-  const stop = Math.min(Math.floor(place), stops.length - 2);
-  return [0, 1, 2].map(
-    (part) => (stops[stop][part] + (stops[stop + 1][part] - stops[stop][part]) * (place - stop)) / 255,
-  ) as [number, number, number];
-}
-
-export function model(scene: Scene, dark: boolean): Model {
+export function model(scene: Scene): Model {
   const steps = scene.paths.flatMap((path) => path.moves.map((move) => ({ path, move })));
-  const depths = steps.filter((it) => isCut(it.move.kind)).map((it) => it.move.to[2] ?? 0);
-  const shallowest = depths.reduce((a, b) => Math.max(a, b), -Infinity);
-  const deepest = depths.reduce((a, b) => Math.min(a, b), Infinity);
+  const heights = steps.filter((it) => isCut(it.move.kind)).map((it) => it.move.to[2] ?? 0);
+  const shallowest = heights.reduce((a, b) => Math.max(a, b), -Infinity);
+  const deepest = heights.reduce((a, b) => Math.min(a, b), Infinity);
   const empty = (): Pieces => ({ points: [], colors: [], until: [], step: [] });
   const made: Model = {
     steps,
@@ -99,10 +75,11 @@ export function model(scene: Scene, dark: boolean): Model {
     made.high = [10, 10, 0];
   }
   const extent = Math.max(made.high[0] - made.low[0], made.high[1] - made.low[1], 1);
+  const [stops, rapid]: [Color[], Color] = [depths(), named("rapid")];
   steps.forEach(({ path, move }, index) => {
     const cuts = isCut(move.kind);
     const share = shallowest > deepest ? (shallowest - (move.to[2] ?? 0)) / (shallowest - deepest) : 0.5;
-    const color = cuts ? depthColor(share, dark) : RAPID;
+    const color = cuts ? depthColor(stops, share) : rapid;
     const into = cuts ? made.cuts : made.rapids;
     const points = flat[index];
     for (let piece = 1; piece < points.length; piece++) push(into, points[piece - 1], points[piece], color, index);

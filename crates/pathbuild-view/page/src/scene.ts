@@ -76,6 +76,8 @@ export interface Path {
   tool: number | null;
   thickness: number | null;
   material: string | null;
+  /** Speed of rapid moves in mm/min. */
+  rapid?: number | null;
   embedded: Embedded[];
   elements: Element[];
   texts: Label[];

@@ -10,12 +10,14 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import { Kept } from "./kept.js";
 import { Labels, Spot } from "./labels.js";
 import { Model, Pieces } from "./model.js";
-import { KeepOut, Path, Point, Scene, Shape, pointsOfShape } from "./scene.js";
+import { color, hex } from "./palette.js";
+import { KeepOut, Path, Point, Scene, Shape, isCut, pointsOfShape } from "./scene.js";
 import { Texels } from "./stock/heights.js";
 import { StockPicture } from "./stock/picture.js";
 import { Stock } from "./stock/stock.js";
+import { wayUpTo } from "./timeline.js";
 
-/** Strokes of which a number can be drawn. */
+/** Strokes of which the first ones are drawn, so many. */
 interface Strokes {
   object: THREE.Object3D;
   draw(count: number): void;
@@ -56,6 +58,7 @@ export class Stage {
   private controls: OrbitControls;
   private materials: LineMaterial[] = [];
   private holes!: Strokes;
+  private ahead!: Strokes;
   private cuts!: Strokes;
   private rapids!: Strokes;
   private arrows!: Strokes;
@@ -64,6 +67,8 @@ export class Stage {
   private other!: THREE.LineSegments;
   private tool!: THREE.Mesh;
   private mark!: LineSegments2;
+  /** The part of the current move that is done. */
+  private progress!: LineSegments2;
   private bars!: LineSegments2;
   private stock: StockPicture | null = null;
   private labels: Labels;
@@ -78,6 +83,8 @@ export class Stage {
     private host: HTMLElement,
     labels: HTMLElement,
     readonly isThick: boolean,
+    /** Hears of px for each mm of the plane; `null`: they differ by direction. */
+    private hearScale: (perMm: number | null) => void,
   ) {
     this.labels = new Labels(labels);
     const canvas = document.createElement("canvas");
@@ -100,32 +107,34 @@ export class Stage {
   }
 
   /** Draws this instead of what was drawn before. */
-  load(model: Model, scene: Scene, dark: boolean): void {
+  load(model: Model, scene: Scene): void {
     this.empty();
     this.model = model;
-    this.renderer.setClearColor(dark ? 0x11181f : 0xffffff);
+    this.renderer.setClearColor(hex("paper"));
     const { low, high } = model;
     this.unit = Math.max(high[0] - low[0], high[1] - low[1], 1);
-    this.other = this.thin(otherShapes(scene), dark ? 0x4a5560 : 0xb8bfc6);
-    this.scene.add(this.thin(elementShapes(scene), dark ? 0x6c7a86 : 0x8794a0));
-    for (const height of [false, true]) this.scene.add(this.thin(keepOuts(scene, height), 0xd55e00));
+    this.other = this.thin(otherShapes(scene), hex("faint"));
+    this.scene.add(this.thin(elementShapes(scene), hex("element")));
+    for (const height of [false, true]) this.scene.add(this.thin(keepOuts(scene, height), hex("clamp")));
     for (const it of scene.keep_outs) this.scene.add(clamp(it));
     this.scene.add(this.fat(outlines(scene), 1.6));
     this.bars = this.fat(bars(scene), 6);
     this.scene.add(this.bars);
+    this.ahead = this.strokesAhead(model.cuts);
     this.holes = this.discs(model.holes);
     this.rapids = this.strokes(model.rapids, 1.1);
     this.rapidArrows = this.strokes(model.rapidArrows, 1.2);
     this.cuts = this.strokes(model.cuts, CUT_WIDTH);
     this.arrows = this.strokes(model.arrows, 1.4);
-    this.mark = this.fat({ points: [0, 0, 0, 0, 0, 0], colors: [1, 0.2, 0.1, 1, 0.2, 0.1], until: [], step: [0] }, 5);
-    this.mark.visible = false;
+    this.progress = this.fat(colored([0, 0, 0, 0, 0, 0], "error"), CUT_WIDTH);
+    this.mark = this.fat(colored([0, 0, 0, 0, 0, 0], "error"), 5);
+    this.mark.visible = this.progress.visible = false;
     const diameter = scene.paths.find((path) => path.tool)?.tool ?? this.unit / 60;
     const height = Math.max(diameter * 3, this.unit / 20);
     const body = new THREE.CylinderGeometry(diameter / 2, diameter / 2, height, 24).rotateX(Math.PI / 2).translate(0, 0, height / 2);
-    this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.5, depthTest: false }));
-    this.scene.add(this.other, this.mark, this.tool);
-    this.all = [this.holes, this.cuts, this.rapids, this.arrows, this.rapidArrows];
+    this.tool = new THREE.Mesh(body, new THREE.MeshBasicMaterial({ color: hex("error"), transparent: true, opacity: 0.5, depthTest: false }));
+    this.scene.add(this.other, this.progress, this.mark, this.tool);
+    this.all = [this.ahead, this.holes, this.cuts, this.rapids, this.arrows, this.rapidArrows];
     for (const { object } of this.all) this.scene.add(object);
     this.resize();
   }
@@ -149,7 +158,7 @@ export class Stage {
     // The stock shows bars and grooves at their true width: lines as wide as usual would cover them.
     this.bars.visible = !stock;
     if (this.cuts.object instanceof LineSegments2) this.cuts.object.material.linewidth = stock ? 0.8 : CUT_WIDTH;
-    else this.cuts.object.visible = !stock;
+    else this.cuts.object.visible = this.ahead.object.visible = !stock;
     this.draw();
   }
 
@@ -226,10 +235,11 @@ export class Stage {
     return 0.86 * Math.min(width / wide, height / tall);
   }
 
-  /** Draws the first so many moves, with the tool where they lead. */
-  show(count: number): void {
+  /** Draws the first so many moves and a share of the next one, with the tool where they lead. */
+  show(count: number, share = 0): void {
     const of = (pieces: Pieces) => (count === 0 ? 0 : pieces.until[count - 1]);
     const all = [
+      [this.ahead, this.model.cuts],
       [this.holes, this.model.holes],
       [this.cuts, this.model.cuts],
       [this.rapids, this.model.rapids],
@@ -237,10 +247,15 @@ export class Stage {
       [this.rapidArrows, this.model.rapidArrows],
     ] as const;
     for (const [strokes, pieces] of all) strokes.draw(of(pieces));
-    const step = this.model.steps[Math.max(count - 1, 0)];
+    const { steps } = this.model;
+    const way = share > 0 ? wayUpTo(steps[count], share) : [];
+    this.progress.visible = way.length > 1 && (isCut(steps[count].move.kind) || this.rapids.object.visible);
+    if (this.progress.visible) replace(this.progress, way.slice(1).flatMap((to, index) => [...way[index], ...to]));
+    const step = steps[Math.max(count - 1, 0)];
     const at = step && (count === 0 ? step.move.from : step.move.to);
-    this.tool.visible = !!at && at[0] !== null && at[1] !== null;
-    if (this.tool.visible && at) this.tool.position.set(at[0]! + step.path.zero[0], at[1]! + step.path.zero[1], at[2] ?? 0);
+    const place = way.at(-1) ?? (at && at[0] !== null && at[1] !== null ? [at[0] + step.path.zero[0], at[1] + step.path.zero[1], at[2] ?? 0] : null);
+    this.tool.visible = place !== null && place !== undefined;
+    if (place) this.tool.position.set(place[0], place[1], place[2]);
     this.draw();
   }
 
@@ -250,22 +265,19 @@ export class Stage {
     this.draw();
   }
 
-  /** Makes a move stand out; none: nothing does. */
-  point(step: number | null): void {
+  /** Makes moves stand out, from the first to the one behind the last; none: nothing does. */
+  point(moves: [number, number] | null): void {
     const points: number[] = [];
-    if (step !== null) {
-      for (const pieces of [this.model.cuts, this.model.rapids]) {
-        const from = step === 0 ? 0 : pieces.until[step - 1];
-        points.push(...pieces.points.slice(from * 6, pieces.until[step] * 6));
+    if (moves !== null) {
+      const [first, last] = moves;
+      const all = last - first > 1 ? [this.model.cuts] : [this.model.cuts, this.model.rapids];
+      for (const pieces of all) {
+        const from = first === 0 ? 0 : pieces.until[first - 1];
+        for (const part of pieces.points.slice(from * 6, Math.min(pieces.until[last - 1], from + MOST_THICK) * 6)) points.push(part);
       }
     }
     this.mark.visible = points.length > 0;
-    if (points.length > 0) {
-      this.mark.geometry.dispose();
-      const geometry = new LineSegmentsGeometry().setPositions(points);
-      geometry.setColors(points.map((_, index) => [1, 0.25, 0.1][index % 3]));
-      this.mark.geometry = geometry;
-    }
+    if (points.length > 0) replace(this.mark, points);
     this.draw();
   }
 
@@ -339,6 +351,7 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.host;
     const [before, ...size] = this.labelled ?? [];
     if (width === 0 || (before?.equals(view) && size[0] === width && size[1] === height)) return;
+    this.hearScale(this.controls.enableRotate ? null : this.camera.zoom);
     this.labelled = [view, width, height];
     this.labels.place((at) => this.project(at), width, height);
   }
@@ -361,6 +374,22 @@ export class Stage {
     const kept = new Kept(pieces);
     kept.object.renderOrder = ++this.layer;
     return kept;
+  }
+
+  /** Cuts that are still to come: faint, and behind those that are done. */
+  private strokesAhead(pieces: Pieces): Strokes {
+    const order = ++this.layer;
+    if (pieces.step.length > MOST_THICK) {
+      const kept = new Kept(pieces, hex("ahead"));
+      kept.object.renderOrder = order;
+      kept.draw(pieces.step.length);
+      return { object: kept.object, draw: () => {}, prepare: (renderer, camera) => kept.prepare(renderer, camera), dispose: () => kept.dispose() };
+    }
+    const lines = this.thin(pieces.points, hex("ahead"));
+    lines.material.depthTest = lines.material.depthWrite = false;
+    lines.frustumCulled = false;
+    lines.renderOrder = order;
+    return { object: lines, draw: (count) => lines.geometry.setDrawRange(count * 2, Infinity) };
   }
 
   private discs({ points, colors }: Pieces): Strokes {
@@ -387,11 +416,25 @@ export class Stage {
     return lines;
   }
 
-  private thin(points: number[], color: number): THREE.LineSegments {
+  private thin(points: number[], color: number): THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial> {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
     return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color }));
   }
+}
+
+/** Pieces of one colour. */
+function colored(points: number[], name: string): Pieces {
+  const parts = color(name);
+  return { points, colors: points.map((_, index) => parts[index % 3]), until: [], step: [] };
+}
+
+/** Puts other pieces, of the colour of errors, into lines. */
+function replace(lines: LineSegments2, points: number[]): void {
+  lines.geometry.dispose();
+  const { colors } = colored(points, "error");
+  lines.geometry = new LineSegmentsGeometry().setPositions(points);
+  lines.geometry.setColors(colors);
 }
 
 function distance([x, y]: Point, [ax, ay]: Point, [bx, by]: Point): number {
@@ -419,7 +462,7 @@ function keepOuts(scene: Scene, high: boolean): number[] {
 function clamp(it: KeepOut): THREE.Mesh {
   const corners = it.outline.flatMap((shape) => pointsOfShape(shape).slice(1)).map(([x, y]) => new THREE.Vector2(x, y));
   const body = new THREE.ExtrudeGeometry(new THREE.Shape(corners), { depth: it.height, bevelEnabled: false });
-  const material = new THREE.MeshBasicMaterial({ color: 0xd55e00, transparent: true, opacity: 0.16, depthWrite: false });
+  const material = new THREE.MeshBasicMaterial({ color: hex("clamp"), transparent: true, opacity: 0.16, depthWrite: false });
   return new THREE.Mesh(body, material);
 }
 
@@ -437,10 +480,10 @@ function elementShapes(scene: Scene): number[] {
 function outlines(scene: Scene): Pieces {
   const ofPart = (path: Path) => (path.parts ?? []).flatMap(({ rings, top }) => rings.flat().flatMap((shape) => strokes(shape, path.zero, top)));
   const points = scene.paths.flatMap(ofPart);
-  return { points, colors: points.map((_, index) => [0, 0.38, 0.86][index % 3]), until: [], step: [] };
+  return colored(points, "outline");
 }
 
 function bars(scene: Scene): Pieces {
   const points = scene.paths.flatMap((path) => path.bars.flatMap((bar) => strokes(bar.shape, path.zero, bar.top)));
-  return { points, colors: points.map((_, index) => [0.8, 0.47, 0.65][index % 3]), until: [], step: [] };
+  return colored(points, "bar");
 }

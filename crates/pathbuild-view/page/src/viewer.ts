@@ -1,31 +1,40 @@
 // What shows a scene: the picture, its G-code, and what goes between them.
 
-import { visible } from "./visible.js";
+import { sayKeys, toggleHelp } from "./help.js";
 import { Spot } from "./labels.js";
+import { sayLegend, sayScale, showLegend } from "./legend.js";
 import { Model, model } from "./model.js";
+import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
 import { Finding, Parameter, Path, Scene, isCut, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
 import { Stock } from "./stock/stock.js";
+import { Timeline, clock, wayUpTo } from "./timeline.js";
+import { visible } from "./visible.js";
 import { Lang, Word, mm, say, sayKind, sayOption } from "./words.js";
 
 const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const slider = $<HTMLInputElement>("slider");
+const speed = $<HTMLSelectElement>("speed");
 const picture = $("picture");
 const code = $("code");
 const rows = $("rows");
 const details = $("details");
 
-/** A row of G-code in px. */
-const ROW = 18;
+/** Height in px of a row of G-code: a finger needs more. */
+const ROW = innerWidth > 700 ? 18 : 44;
 /** Numbers and texts beyond so many would cover the picture. */
 const MOST_SPOTS = 600;
 
 export let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
 let dark = matchMedia("(prefers-color-scheme: dark)").matches;
 let scene: Scene = { schema: "", version: 1, title: "", through: 0, paths: [], other_layers: [], keep_outs: [], findings: [] };
-let made: Model = model(scene, dark);
+let made: Model = model(scene);
+let timeline = new Timeline(made, null);
+let work: Operation[] = [];
+/** The operation that the tool is in. */
+let working: number | null = null;
 /** Whether there is something to see: without, keys are for others. */
 let isOpen = false;
 /** Draws what stands still, where there is no WebGL. */
@@ -37,11 +46,14 @@ let stage: Stage | null = null;
 let stock: Stock | null | undefined;
 let space = false;
 let count = made.steps.length;
+/** Share of the next move that is done. */
+let share = 0;
 let chosen: number | null = null;
-let timer = 0;
+/** The next picture of the run; 0: it rests. */
+let frame = 0;
 let measured: [number, number][] | null = null;
 /** On a telephone texts would cover the picture. */
-const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true };
+const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true, explain: innerWidth > 700 };
 /** Whether the native program is listed where a post writes another one. */
 let isNative = false;
 let lines: string[] = [];
@@ -66,7 +78,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   linesOf = null;
   if (!isSame) {
     if (measured) acts.measure();
-    if (timer) play();
+    if (frame) play();
   }
   count = isSame && !atEnd ? count : Infinity;
   start(isSame);
@@ -110,7 +122,7 @@ function whose(path: Path | undefined): void {
 /** Nothing is shown any more. */
 export function hide(): void {
   isOpen = false;
-  if (timer) play();
+  if (frame) play();
 }
 
 /** Which move of which element a step is, by what outlives an edit. */
@@ -154,15 +166,16 @@ function text(tag: string, content: string, className = ""): HTMLElement {
 
 /** Starts or starts again: colours are part of the buffers. */
 function start(keepsView: boolean): void {
-  made = model(scene, dark);
+  made = model(scene);
+  placeWork();
   const view = keepsView ? stage?.view() : undefined;
   try {
     if (stage && stage.isThick !== isThick(made)) {
       stage.dispose();
       stage = null;
     }
-    stage ??= new Stage(picture, $("labels"), isThick(made));
-    stage.load(made, scene, dark);
+    stage ??= new Stage(picture, $("labels"), isThick(made), sayScale);
+    stage.load(made, scene);
   } catch {
     stage = null;
     $("still").hidden = false;
@@ -188,19 +201,97 @@ function assumed(): Assumed {
 function placeStock(): void {
   const cuts = scene.paths.filter(({ moves }) => moves.some((move) => isCut(move.kind)));
   const hasTool = assumed().tool !== null;
-  $("assumed").hidden = !cuts.some(({ tool }) => tool === null);
+  $("typeTool").hidden = $("typeThickness").hidden = !cuts.some(({ tool }) => tool === null);
+  $("typeRapid").hidden = scene.paths.every(({ rapid, moves }) => moves.length === 0 || rapid);
+  $("assumed").hidden = $("typeTool").hidden && $("typeRapid").hidden;
   $("stock").hidden = !cuts.some(({ tool }) => tool !== null || hasTool);
   if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed());
   stage?.showStock(shown.stock ? stock! : null);
   $("flat").hidden = stage !== null || !shown.stock || !stock;
   picture.classList.toggle("still", stage === null);
   cutStock();
+  legend();
+}
+
+function legend(): void {
+  const hasStock = shown.stock && !!stock;
+  sayLegend(made, { rapids: shown.rapids, stock: hasStock, parts: scene.paths.some(({ parts }) => parts?.length), clamps: scene.keep_outs.length > 0 }, lang);
+  showLegend(shown.explain);
+}
+
+/** Times of the moves, and the table of operations. */
+function placeWork(): void {
+  const typed = $<HTMLInputElement>("assumedRapid").valueAsNumber;
+  timeline = new Timeline(made, typed > 0 ? typed : null);
+  work = operations(made, timeline);
+  working = null;
+  $("work").hidden = work.length === 0 || work.length > MOST_OPERATIONS;
+  $("workCount").textContent = String(work.length);
+  const cells = (tag: string, texts: string[]) => {
+    const row = document.createElement("tr");
+    row.append(...texts.map((content) => text(tag, content)));
+    return row;
+  };
+  $("workHead").replaceChildren(cells("th", [say("number", lang), say("what", lang), "Z", "mm", ...(timeline.isKnown ? [say("duration", lang)] : [])]));
+  if ($("work").hidden) return $("operations").replaceChildren();
+  const rows = work.map((it, index) => {
+    const what = [sayKind(it.kind, lang), it.name, scene.paths.length > 1 ? made.steps[it.moves[0]].path.name : ""].filter((part) => part !== "");
+    const row = cells("td", [String(index + 1), what.join(" · "), it.depth === null ? "" : mm(it.depth), it.length.toFixed(0), ...(timeline.isKnown ? [clock(it.seconds)] : [])]);
+    row.tabIndex = 0;
+    row.addEventListener("click", () => choose(index));
+    row.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter") return;
+      event.preventDefault();
+      choose(index);
+    });
+    return row;
+  });
+  $("operations").replaceChildren(...rows);
+}
+
+/** Goes to an operation, and makes its moves stand out. */
+function choose(index: number): void {
+  const it = work[Math.min(Math.max(index, 0), work.length - 1)];
+  if (!it) return;
+  chosen = null;
+  go(it.moves[0]);
+  mark(work.indexOf(it));
+  summary();
+  stage?.point(it.moves);
+}
+
+/** The operation before or after the one that the tool is in. */
+function chooseNext(step: 1 | -1): void {
+  const next = work.findIndex(({ moves }) => moves[0] > count);
+  choose(step > 0 ? (next < 0 ? work.length - 1 : next) : (next < 0 ? work.length : next) - (working === null ? 1 : 2));
+}
+
+/** Marks the row of an operation. */
+function mark(index: number | null): void {
+  if (working === index) return;
+  const rows = $("operations").children;
+  if (working !== null) rows[working]?.removeAttribute("aria-current");
+  working = index;
+  const row = index === null ? undefined : (rows[index] as HTMLElement | undefined);
+  row?.setAttribute("aria-current", "true");
+  if (row && $<HTMLDetailsElement>("work").open) row.scrollIntoView({ block: "nearest" });
+}
+
+/** The last operation that begins at a move or before it, unless it has ended. */
+function operationAt(step: number): number | null {
+  let [low, high] = [0, work.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (work[middle].moves[0] <= step) low = middle + 1;
+    else high = middle;
+  }
+  return low > 0 && step < work[low - 1].moves[1] ? low - 1 : null;
 }
 
 /** Cuts the stock up to the current move. */
 function cutStock(): void {
   if (!shown.stock || !stock) return;
-  const changed = stock.seek(Math.min(count, made.steps.length));
+  const changed = stock.seek(Math.min(count, made.steps.length), share);
   if (!stage) stock.paint($("flat"));
   else if (changed) stage.cut(changed);
 }
@@ -266,24 +357,45 @@ function middle(shape: { from: [number, number]; centre: [number, number]; clock
   ];
 }
 
-/** Runs the tool to behind so many moves. */
-function go(to: number): void {
+/** Runs the tool to behind so many moves, and along a share of the next one. */
+function go(to: number, part = 0): void {
   count = Math.min(Math.max(to, 0), made.steps.length);
+  share = count < made.steps.length ? part : 0;
   slider.value = String(count);
-  $("where").textContent = `${say("step", lang)} ${count} ${say("of", lang)} ${made.steps.length}`;
-  stage?.show(count);
+  stage?.show(count, share);
   cutStock();
+  mark(operationAt(share > 0 ? count : count - 1) ?? operationAt(count));
+  readout();
   listing(true);
+}
+
+/** Says where the tool is, how fast, and since when. */
+function readout(): void {
+  $("where").textContent = `${say("step", lang)} ${count} ${say("of", lang)} ${made.steps.length}`;
+  const step = made.steps[share > 0 ? count : Math.max(count - 1, 0)];
+  if (!step) {
+    for (const id of ["place", "pace", "clock"]) $(id).textContent = "";
+    return;
+  }
+  const { path, move } = step;
+  const [x, y] = path.zero;
+  const end = wayUpTo(step, share > 0 ? share : count === 0 ? 0 : 1).at(-1);
+  const place = end ? [end[0] - x, end[1] - y, end[2]] : count === 0 ? move.from : move.to;
+  $("place").textContent = ["X", "Y", "Z"].map((axis, index) => (place[index] === null ? "" : `${axis}${place[index]!.toFixed(2)}`)).join(" ");
+  const rapid = move.kind === "sweep" || move.kind === "lift";
+  $("pace").textContent = rapid ? say("sweep", lang) : move.feed ? `F${mm(move.feed)} mm/min` : "";
+  const seconds = timeline.seconds(count, share);
+  $("clock").textContent = timeline.isKnown ? `${clock(seconds)} ${say("elapsed", lang)} · ${clock(timeline.total - seconds)} ${say("remaining", lang)}` : "";
 }
 
 /** The line of G-code that is being run. */
 function current(): number | null {
-  return count === 0 ? null : lineOf[count - 1];
+  return share > 0 ? lineOf[count] : count === 0 ? null : lineOf[count - 1];
 }
 
 /** Shows the G-code round the present line; only the rows that can be seen are made. */
 function listing(follow: boolean): void {
-  const path = pathOf[Math.max(count - 1, 0)] ?? 0;
+  const path = pathOf[share > 0 ? count : Math.max(count - 1, 0)] ?? 0;
   if (linesOf !== path) {
     linesOf = path;
     lines = listed(scene.paths[path]).split("\n");
@@ -314,7 +426,7 @@ function listing(follow: boolean): void {
 
 /** What there is to say of a move and its element. */
 function describe(at: number | null): void {
-  stage?.point(at);
+  stage?.point(at === null ? null : [at, at + 1]);
   if (at === null) return summary();
   const { path, move } = made.steps[at];
   const list: [string, string][] = [[say("step", lang), `${at + 1}: ${sayKind(move.kind, lang)}`]];
@@ -406,15 +518,20 @@ export function speak(): void {
   document.querySelectorAll<HTMLElement>("[data-word]").forEach((node) => {
     node.textContent = say(node.dataset.word as Word, lang);
   });
-  $("keys").title = say("keys", lang);
+  $("keys").setAttribute("aria-label", say("keys", lang));
+  sayKeys(lang);
+  $("speed").setAttribute("aria-label", say("speed", lang));
+  $<HTMLSelectElement>("speed").options[0].textContent = `1× (${say("realSpeed", lang)})`;
   slider.setAttribute("aria-label", say("step", lang));
   hearers.forEach((hear) => hear());
   if (!isOpen) return;
   linesOf = null;
   findings();
+  placeWork();
+  legend();
   describe(chosen);
   spots();
-  go(count);
+  go(count, share);
 }
 
 /** Whom to tell of another language. */
@@ -431,19 +548,31 @@ function measure(at: [number, number]): void {
   spots();
 }
 
+/** Runs the tool by time, or stops it. */
 function play(): void {
-  if (timer) {
-    clearInterval(timer);
-    timer = 0;
+  if (frame) {
+    cancelAnimationFrame(frame);
+    frame = 0;
   } else {
     if (count >= made.steps.length) go(0);
-    timer = window.setInterval(() => {
+    describe((chosen = null));
+    let before = performance.now();
+    const next = (now: number) => {
+      const seconds = timeline.seconds(count, share) + (Math.max(now - before, 0) / 1000) * Number(speed.value);
+      before = now;
+      go(...timeline.at(seconds));
       if (count >= made.steps.length) return play();
-      go(count + Math.max(1, Math.round(made.steps.length / 600)));
-    }, 40);
+      frame = requestAnimationFrame(next);
+    };
+    frame = requestAnimationFrame(next);
   }
-  $("play").dataset.word = timer ? "stop" : "play";
-  $("play").textContent = say(timer ? "stop" : "play", lang);
+  $("play").dataset.word = frame ? "stop" : "play";
+  $("play").textContent = say(frame ? "stop" : "play", lang);
+}
+
+/** Runs faster or slower. */
+function changeSpeed(step: 1 | -1): void {
+  speed.selectedIndex = Math.min(Math.max(speed.selectedIndex + step, 0), speed.options.length - 1);
 }
 
 $("native").addEventListener("click", () => {
@@ -460,13 +589,14 @@ const acts = {
   measure: () => {
     measured = measured ? null : [];
     $("measured").textContent = measured ? say("pick", lang) : "";
-    $("measure").toggleAttribute("data-on", measured !== null);
+    $("measure").setAttribute("aria-pressed", String(measured !== null));
     spots();
   },
   theme: () => {
     dark = !dark;
     paint();
     if (isOpen) start(true);
+    if (isOpen) describe(chosen);
   },
   lang: () => {
     lang = lang === "en" ? "de" : "en";
@@ -479,6 +609,8 @@ const acts = {
   order: () => switchLayer("order"),
   texts: () => switchLayer("texts"),
   other: () => switchLayer("other"),
+  explain: () => switchLayer("explain"),
+  keys: toggleHelp,
 };
 
 /** What the buttons for colours and language do, wherever they are. */
@@ -489,7 +621,8 @@ function switchLayer(what: keyof typeof shown): void {
   $(what).setAttribute("aria-pressed", String(shown[what]));
   if (what === "order" || what === "texts") spots();
   else if (what === "stock") placeStock();
-  else stage?.toggle(what, shown[what]);
+  else if (what !== "explain") stage?.toggle(what, shown[what]);
+  legend();
 }
 for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
 
@@ -501,6 +634,12 @@ const keys: Record<string, () => void> = {
   Home: () => go(0),
   End: () => go(made.steps.length),
   " ": play,
+  "+": () => changeSpeed(1),
+  "-": () => changeSpeed(-1),
+  "<": () => chooseNext(-1),
+  ">": () => chooseNext(1),
+  g: acts.explain,
+  "?": acts.keys,
   "2": acts.view2,
   "3": acts.view3,
   f: acts.fit,
@@ -518,17 +657,22 @@ const keys: Record<string, () => void> = {
 addEventListener("keydown", (event) => {
   const act = event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented ? undefined : keys[event.key];
   const { target } = event;
+  const isHelping = $<HTMLDialogElement>("help").open && event.key !== "?";
   const isButton = target instanceof HTMLButtonElement && event.key === " ";
   const isTyping = target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target !== slider);
   // On the live page, Escape leads back to the library otherwise.
   const isOther = event.key === "Escape" && !measured;
-  if (!act || isOther || isButton || isTyping || !(isOpen || "ld".includes(event.key))) return;
+  if (!act || isOther || isButton || isTyping || isHelping || !(isOpen || "ld?".includes(event.key))) return;
   event.preventDefault();
   act();
   if (event.key.startsWith("Arrow")) describe((chosen = count > 0 ? count - 1 : null));
 });
 
 slider.addEventListener("input", () => go(Number(slider.value)));
+$("assumedRapid").addEventListener("input", () => {
+  placeWork();
+  go(count, share);
+});
 for (const id of ["assumedTool", "assumedThickness"]) {
   $(id).addEventListener("input", () => {
     stock = undefined;
@@ -552,6 +696,10 @@ picture.addEventListener("click", (event) => {
   if (measured) return measure(stage.plane(x, y, count));
   chosen = stage.pick(x, y, count);
   if (chosen !== null) go(chosen + 1);
+  describe(chosen);
+});
+picture.addEventListener("pointerleave", () => {
+  $("at").textContent = "";
   describe(chosen);
 });
 /** Where the pointer is; `null` once that was shown. */

@@ -81,6 +81,7 @@ pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
         sweep_height: Some(program.sweep_height),
         material: root.1.material.as_ref().map(ToString::to_string),
         probes: program.probes.iter().enumerate().map(probe).collect(),
+        rapid: *rapid,
         totals: Some(totals),
         gcode: Some(plain_lines(bytes)),
         written: emitted.and_then(|emitted| emitted.file).map(str::to_owned),
@@ -219,6 +220,7 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
         name: source.file.to_owned(),
         file: source.file.to_owned(),
         tool: source.tool,
+        rapid: source.rapid,
         moves: moves.map(|(line, way)| SceneMove::new(way, Some(line))).collect(),
         totals: Some(Totals {
             milling: summary.milling.total.length,

@@ -37,6 +37,8 @@ export class Heights {
   /** 255 where a rapid move has cut. */
   readonly rapid: Uint8Array;
   private count = 0;
+  /** Texels of a move that is cut in part, beyond the pieces that count. */
+  private partial: Texels | null = null;
   private keyframes: Keyframe[] = [];
   private mostKeyframes: number;
 
@@ -57,20 +59,58 @@ export class Heights {
     return [0, 0, this.columns, this.rows];
   }
 
-  /** Cuts the first so many moves. Returns the texels that may have changed. */
-  seek(moves: number): Texels | null {
-    const wanted = moves === 0 ? 0 : this.cutting.until[moves - 1];
+  /** Cuts the first so many moves, and a share of the next one. Returns the texels that may have changed. */
+  seek(moves: number, share = 0): Texels | null {
+    const wanted = this.until(moves);
+    const undone = this.partial;
+    if (undone) this.undo(undone);
+    const changed = this.cutUpTo(wanted);
+    this.partial = share > 0 ? this.cutShare(wanted, this.until(moves + 1), share) : null;
+    return [undone, changed, this.partial].reduce((all, texels) => (all && texels ? joined(all, texels) : (all ?? texels)), null);
+  }
+
+  /** Number of pieces of so many moves. */
+  private until(moves: number): number {
+    return moves === 0 ? 0 : this.cutting.until[moves - 1];
+  }
+
+  private cutUpTo(wanted: number): Texels | null {
     if (wanted === this.count) return null;
-    const changed = this.touched(Math.min(wanted, this.count), Math.max(wanted, this.count));
+    const { pieces } = this.cutting;
+    const changed = this.touched(pieces, Math.min(wanted, this.count), Math.max(wanted, this.count));
     const keyframe = this.keyframes.filter((it) => it.count <= wanted).at(-1);
     const isBack = wanted < this.count;
     if (isBack || (keyframe && keyframe.count > this.count)) {
       if (changed) this.restore(keyframe, changed);
-      if (changed) this.cut(keyframe?.count ?? 0, wanted, changed);
+      if (changed) this.cut(pieces, keyframe?.count ?? 0, wanted, changed);
       this.count = wanted;
     }
     this.advance(wanted);
     return changed;
+  }
+
+  /** Takes back the move that was cut in part. */
+  private undo(texels: Texels): void {
+    const keyframe = this.keyframes.filter((it) => it.count <= this.count).at(-1);
+    this.restore(keyframe, texels);
+    this.cut(this.cutting.pieces, keyframe?.count ?? 0, this.count, texels);
+  }
+
+  /** Cuts a share of a move, which has these pieces. */
+  private cutShare(from: number, to: number, share: number): Texels | null {
+    const pieces = this.cutting.pieces.slice(from * WIDTH, to * WIDTH);
+    const lengths = Array.from({ length: to - from }, (_, index) => Math.hypot(...[0, 1, 2].map((axis) => pieces[index * WIDTH + 3 + axis] - pieces[index * WIDTH + axis])));
+    let left = share * lengths.reduce((sum, length) => sum + length, 0);
+    let count = 0;
+    for (const length of lengths) {
+      if (left <= 0) break;
+      if (length > left) for (const axis of [0, 1, 2]) pieces[count * WIDTH + 3 + axis] = pieces[count * WIDTH + axis] + ((pieces[count * WIDTH + 3 + axis] - pieces[count * WIDTH + axis]) * left) / length;
+      left -= length;
+      count++;
+    }
+    const texels = this.touched(pieces, 0, count);
+    if (texels) this.cut(pieces, 0, count, texels);
+    return texels;
   }
 
   /** Height at a place in mm. */
@@ -87,7 +127,7 @@ export class Heights {
     while (this.count < wanted) {
       const next = Math.floor(this.count / part) + 1;
       const until = Math.min(wanted, next * part);
-      this.cut(this.count, until, this.whole());
+      this.cut(this.cutting.pieces, this.count, until, this.whole());
       this.count = until;
       if (until === next * part && this.keyframes.length < next && next <= this.mostKeyframes) {
         this.keyframes.push({ heights: this.heights.slice(), rapid: this.rapid.slice(), count: until });
@@ -123,8 +163,8 @@ export class Heights {
   }
 
   /** Texels that pieces may touch. */
-  private touched(from: number, to: number): Texels | null {
-    const { pieces, top } = this.cutting;
+  private touched(pieces: Float32Array, from: number, to: number): Texels | null {
+    const { top } = this.cutting;
     const [left, lower] = this.cutting.box;
     let box = EMPTY;
     for (let at = from * WIDTH; at < to * WIDTH; at += WIDTH) {
@@ -141,8 +181,8 @@ export class Heights {
   }
 
   /** Cuts pieces where they touch these texels. Each piece is the area within a radius of a segment, filled row by row. */
-  private cut(from: number, to: number, [x0, y0, x1, y1]: Texels): void {
-    const { pieces, top, box } = this.cutting;
+  private cut(pieces: Float32Array, from: number, to: number, [x0, y0, x1, y1]: Texels): void {
+    const { top, box } = this.cutting;
     const { heights, rapid, columns } = this;
     const scale = 1 / this.texel;
     for (let at = from * WIDTH; at < to * WIDTH; at += WIDTH) {

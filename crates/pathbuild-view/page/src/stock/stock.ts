@@ -25,9 +25,9 @@ export class Stock {
     return new Stock(map, marks(map, scene));
   }
 
-  /** Cuts the first so many moves. Returns the texels that were painted anew. */
-  seek(moves: number): Texels | null {
-    const changed = this.map.seek(moves);
+  /** Cuts the first so many moves, and a share of the next one. Returns the texels that were painted anew. */
+  seek(moves: number, share = 0): Texels | null {
+    const changed = this.map.seek(moves, share);
     return changed && shade(this.map, this.marked, changed, this.colors);
   }
 

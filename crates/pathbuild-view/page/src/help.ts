@@ -1,0 +1,45 @@
+// The list of keys, which "?" opens.
+
+import { Lang, Word, say } from "./words.js";
+
+/** Keys in English and German, and what they do. */
+const KEYS: [string, string, Word][] = [
+  ["← →", "← →", "keyMove"],
+  ["PgUp PgDn", "Bild↑ Bild↓", "keyTen"],
+  ["Home End", "Pos1 Ende", "keyEnds"],
+  ["Space", "Leertaste", "keyRun"],
+  ["+ −", "+ −", "keySpeed"],
+  ["< >", "< >", "keyOperation"],
+  ["2 3", "2 3", "keyView"],
+  ["F", "F", "keyFit"],
+  ["S", "S", "stock"],
+  ["R", "R", "rapids"],
+  ["A", "A", "arrows"],
+  ["N", "N", "order"],
+  ["T", "T", "texts"],
+  ["O", "O", "other"],
+  ["G", "G", "legend"],
+  ["M", "M", "keyMeasure"],
+  ["L", "L", "keyLanguage"],
+  ["D", "D", "theme"],
+  ["?", "?", "keyHelp"],
+];
+
+const dialog = document.getElementById("help") as HTMLDialogElement;
+
+/** Writes the list in a language. */
+export function sayKeys(lang: Lang): void {
+  const node = (tag: string, text: string) => Object.assign(document.createElement(tag), { textContent: text });
+  const rows = KEYS.map(([english, german, word]) => {
+    const row = document.createElement("tr");
+    row.append(node("th", lang === "de" ? german : english), node("td", say(word, lang)));
+    return row;
+  });
+  document.getElementById("key-list")!.replaceChildren(...rows);
+}
+
+/** Opens the list, or closes it. */
+export function toggleHelp(): void {
+  if (dialog.open) dialog.close();
+  else dialog.showModal();
+}

@@ -1,0 +1,61 @@
+// The legend of the picture: a scale of lengths, one of depths, and what the colours mean.
+
+import { Model } from "./model.js";
+import { Lang, Word, mm, say } from "./words.js";
+
+/** Length in px that the scale may have at most. */
+const LONGEST = 130;
+
+const host = document.getElementById("legend")!;
+const scale = document.getElementById("scale")!;
+const depths = document.getElementById("depths")!;
+const items = document.getElementById("meanings")!;
+
+export interface Shown {
+  rapids: boolean;
+  stock: boolean;
+  parts: boolean;
+  clamps: boolean;
+}
+
+/** Says what is to be seen. */
+export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
+  const hasCuts = Number.isFinite(model.deepest);
+  depths.hidden = !hasCuts;
+  document.getElementById("shallowest")!.textContent = hasCuts ? `Z${mm(model.shallowest)}` : "";
+  document.getElementById("deepest")!.textContent = hasCuts ? `Z${mm(model.deepest)}` : "";
+  const all: [boolean, string, Word][] = [
+    [hasCuts, "ahead", "legendAhead"],
+    [shown.rapids, "rapid", "rapids"],
+    [shown.stock, "uncut", "legendUncut"],
+    [shown.stock, "plate", "legendThrough"],
+    [shown.stock, "crash", "legendCrash"],
+    [shown.parts, "outline", "legendOutline"],
+    [shown.parts && shown.stock, "leftover", "legendLeft"],
+    [shown.clamps, "clamp", "legendClamp"],
+  ];
+  items.replaceChildren(
+    ...all.filter(([isShown]) => isShown).map(([, name, word]) => {
+      const item = document.createElement("li");
+      const patch = document.createElement("i");
+      patch.style.background = `var(--${name})`;
+      item.append(patch, say(word, lang));
+      return item;
+    }),
+  );
+}
+
+/** Sets the scale for a picture with so many px for each mm; `null`: lengths are foreshortened. */
+export function sayScale(perMm: number | null): void {
+  scale.hidden = perMm === null;
+  if (perMm === null) return;
+  const power = 10 ** Math.floor(Math.log10(LONGEST / perMm));
+  const length = [5, 2, 1].map((step) => step * power).find((length) => length * perMm <= LONGEST) ?? power;
+  scale.style.width = `${length * perMm}px`;
+  scale.textContent = `${mm(length)} mm`;
+}
+
+/** Shows the legend, or hides it. */
+export function showLegend(isShown: boolean): void {
+  host.hidden = !isShown;
+}

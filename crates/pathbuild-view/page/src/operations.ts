@@ -1,0 +1,80 @@
+// The operations of a scene: what is cut between two rapid moves across. In a program that names its sections by comments, each section.
+
+import { Model } from "./model.js";
+import { MoveKind, isCut } from "./scene.js";
+import { Timeline } from "./timeline.js";
+
+export interface Operation {
+  /** Its moves: from the first one to the one behind the last. */
+  moves: [number, number];
+  kind: MoveKind;
+  /** Where it comes from: numbers of elements, or the comment above it. */
+  name: string;
+  /** Deepest Z in mm. */
+  depth: number | null;
+  /** Length of its cuts in mm. */
+  length: number;
+  seconds: number;
+  tool: number | null;
+}
+
+/** Beyond so many operations without names, a table of them helps nobody. */
+export const MOST_OPERATIONS = 2000;
+
+export function operations(model: Model, timeline: Timeline): Operation[] {
+  const { steps } = model;
+  const sections = sectionsOf(model);
+  const found: Operation[] = [];
+  let current: Operation | null = null;
+  let numbers: [number, number] | null = null;
+  let hasTravelled = true;
+  const close = (end: number) => {
+    if (!current) return;
+    current.moves[1] = end;
+    current.seconds = timeline.seconds(end) - timeline.seconds(current.moves[0]);
+    if (numbers && !current.name) current.name = numbers[0] === numbers[1] ? String(numbers[0]) : `${numbers[0]}–${numbers[1]}`;
+    [current, numbers] = [null, null];
+  };
+  let last = 0;
+  steps.forEach(({ path, move }, index) => {
+    if (!isCut(move.kind)) {
+      hasTravelled ||= move.kind === "sweep";
+      return;
+    }
+    const isNamed = sections !== null;
+    const isNew = isNamed ? !current || sections[index] !== sections[last] : hasTravelled;
+    if (!current || isNew || steps[last].path !== path) {
+      close(last + 1);
+      current = { moves: [index, index + 1], kind: move.kind, name: sections?.[index] ?? "", depth: null, length: 0, seconds: 0, tool: path.tool };
+      found.push(current);
+    }
+    [hasTravelled, last] = [false, index];
+    current.length += move.length;
+    if (current.kind === "plunge") current.kind = move.kind;
+    for (const z of [move.from[2], move.to[2]]) if (z !== null && z < (current.depth ?? Infinity)) current.depth = z;
+    const order = move.element === undefined ? null : path.elements[move.element].order;
+    if (order !== null) numbers = numbers ? [Math.min(numbers[0], order), Math.max(numbers[1], order)] : [order, order];
+  });
+  close(last + 1);
+  return found;
+}
+
+/** The comment above each move, where comments divide a program into a few sections; else `null`. */
+function sectionsOf({ steps }: Model): string[] | null {
+  if (steps.length === 0 || steps.some(({ path }) => path.elements.length > 0 || !path.gcode)) return null;
+  const names: string[] = [];
+  const found = new Set<string>();
+  let [path, lines, next, name] = [steps[0].path, steps[0].path.gcode!.split("\n"), 0, ""];
+  let run = 0;
+  for (const { path: own, move } of steps) {
+    if (own !== path) [path, lines, next, name] = [own, own.gcode!.split("\n"), 0, ""];
+    for (; next < (move.line ?? 0) - 1; next++) {
+      const comment = /^\s*(?:N\d+\s*)?(?:\((.*)\)|;(.*))\s*$/.exec(lines[next]);
+      const text = (comment?.[1] ?? comment?.[2] ?? "").trim();
+      if (text) [name, run] = [text, run + 1];
+    }
+    names.push(name);
+    if (isCut(move.kind)) found.add(`${run} ${name}`);
+  }
+  return found.size > 1 && found.size <= 200 ? names : null;
+}

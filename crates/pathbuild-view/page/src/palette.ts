@@ -1,0 +1,27 @@
+// The colours of the picture. They stand in style.css, where a test measures their contrast.
+
+/** Red, green and blue from 0 to 1. */
+export type Color = [number, number, number];
+
+/** The value of a CSS variable of the form `#rrggbb`. */
+export function color(name: string): Color {
+  const value = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  return [1, 3, 5].map((at) => parseInt(value.slice(at, at + 2), 16) / 255) as Color;
+}
+
+/** The same as a number. */
+export function hex(name: string): number {
+  return color(name).reduce((sum, part) => sum * 256 + Math.round(part * 255), 0);
+}
+
+/** Colours of depths, from the upper face to the deepest cut. */
+export function depths(): Color[] {
+  return [1, 2, 3, 4, 5].map((stop) => color(`depth${stop}`));
+}
+
+/** The colour of a share of the depth. */
+export function depthColor(stops: Color[], share: number): Color {
+  const place = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
+  const stop = Math.min(Math.floor(place), stops.length - 2);
+  return [0, 1, 2].map((part) => stops[stop][part] + (stops[stop + 1][part] - stops[stop][part]) * (place - stop)) as Color;
+}
