@@ -164,6 +164,13 @@ impl Path {
     }
 }
 
+impl Element {
+    /// The parameter with this letter that is in force for it.
+    pub fn parameter(&self, letter: char) -> Option<&Parameter> {
+        self.parameters.iter().find(|parameter| parameter.letter == letter)
+    }
+}
+
 impl Parameter {
     fn new(parameter: &view::Parameter) -> Self {
         Self { letter: parameter.letter, value: parameter.value.clone(), source: parameter.from.to_owned() }

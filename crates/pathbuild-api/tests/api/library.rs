@@ -88,7 +88,7 @@ fn a_path_has_elements_and_moves() {
     let milled = path.moves.iter().find(|it| it.kind == MoveKind::Mill).unwrap();
     let element = &path.elements[milled.element.unwrap()];
     assert_eq!((&*element.path, &*element.file), ("2050.1P", "components/2050.1P.dxf"));
-    let feed = element.parameters.iter().find(|parameter| parameter.letter == 'F').unwrap();
+    let feed = element.parameter('F').unwrap();
     assert_eq!(Some(feed.value.parse::<f64>().unwrap()), milled.feed);
     assert!(path.moves.iter().all(|it| it.kind.cuts() || it.feed.is_none()));
 }
