@@ -1,8 +1,7 @@
 //! Estimates the duration of a program on a machine with limited acceleration. (book: program/reading)
 //!
 //! The planner is similar to that of GRBL: along each move the tool accelerates, moves at its feed and decelerates; the speed in corners
-//! follows
-//! from the junction deviation. It looks ahead as far as useful, whereas a control only sees a few moves.
+//! follows from the junction deviation. It looks ahead as far as useful, whereas a control only sees a few moves.
 
 use pathbuild_motion::{Action, Move, MoveShape, Pace, Step};
 
@@ -59,7 +58,7 @@ struct Way {
     /// Directions at the start and at the end, as unit vectors.
     begin: [f64; 3],
     end: [f64; 3],
-    /// Whether the tool stops at the end, because it is unknown where a probe stops.
+    /// Whether the tool stops at the end, as after a probing move, whose end is unknown.
     stops: bool,
 }
 

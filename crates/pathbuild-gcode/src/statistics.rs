@@ -25,8 +25,7 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
 }
 
 /// Decides which moves of a parsed program have a length: those between positions that are completely known and that the program has
-/// specified
-/// since the last tool change.
+/// specified since the last tool change.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counting {
     /// The axes specified before the current step.
@@ -101,7 +100,7 @@ impl Tally {
                 return;
             }
             Pace::Rapid => &mut self.rapid,
-            Pace::Feed(_) if it.is_upright() => &mut self.drilling,
+            Pace::Feed(_) if it.is_vertical() => &mut self.drilling,
             Pace::Feed(_) => &mut self.milling,
         };
         kind.moves += 1;

@@ -348,7 +348,7 @@ impl Move {
     }
 
     /// Whether the move is vertical: its length in the plane XY is below 0.0005 mm, less than a program with three decimals can express.
-    pub fn is_upright(&self) -> bool {
+    pub fn is_vertical(&self) -> bool {
         let in_plane = match self.shape {
             MoveShape::Arc(arc) if arc.plane == Plane::Xy => {
                 Course::new(arc, &self.from, &self.to).length_in_plane()

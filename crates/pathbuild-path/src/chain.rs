@@ -300,7 +300,7 @@ impl Passage {
         self
     }
 
-    /// The passage from a point close to its start, for which the end of a line is moved.
+    /// The passage with its start moved to a nearby point; a cut then runs straight from there to its end.
     pub(crate) fn starting_at(self, start: Xy, segment: &Segment) -> Self {
         let line = Curve::Line(Line { start, end: self.end });
         let moved = matches!(segment.kind, SegmentKind::Cut(_)).then(|| Box::new(line));

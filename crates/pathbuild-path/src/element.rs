@@ -230,9 +230,18 @@ pub(crate) fn curve_role(line_type: LineType) -> Option<Role> {
     })
 }
 
+/// Radius in mm of the circle at which a path starts. (book: language/markers)
+pub const START_RADIUS: f64 = 0.5;
+/// Radius in mm of the circle at which a chain turns.
+pub(crate) const TURN_RADIUS: f64 = 0.75;
+/// Radius in mm of the circle at which a path ends.
+pub const END_RADIUS: f64 = 1.0;
+/// Radius in mm of a probe's circle.
+pub(crate) const PROBE_RADIUS: f64 = 3.0;
+
 /// The meaning of a circle.
 pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {
-    let is_probe = near(radius, 3.0);
+    let is_probe = near(radius, PROBE_RADIUS);
     match line_type {
         LineType::Continuous => CircleMeaning::Cut(Cut::Mill),
         LineType::Divide => CircleMeaning::Cut(Cut::Mark),
@@ -240,9 +249,9 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
         LineType::Dashed | LineType::Hidden => CircleMeaning::UnknownLineType,
         LineType::Dashdot | LineType::Phantom if is_probe => CircleMeaning::Probe,
         LineType::Dot if is_probe => CircleMeaning::IgnoredProbe,
-        LineType::Phantom if near(radius, 0.5) => CircleMeaning::Start,
-        LineType::Phantom if near(radius, 0.75) => CircleMeaning::Turn,
-        LineType::Phantom if near(radius, 1.0) => CircleMeaning::End,
+        LineType::Phantom if near(radius, START_RADIUS) => CircleMeaning::Start,
+        LineType::Phantom if near(radius, TURN_RADIUS) => CircleMeaning::Turn,
+        LineType::Phantom if near(radius, END_RADIUS) => CircleMeaning::End,
         LineType::Dashdot | LineType::Dot | LineType::Phantom => CircleMeaning::UnknownDiameter,
     }
 }
@@ -254,9 +263,9 @@ impl MeantMarker {
     /// What a PHANTOM circle whose radius means nothing was probably meant as.
     pub(crate) fn of_radius(radius: f64) -> Self {
         let is_about = |known: f64| (radius - known).abs() <= RADIUS_SLIP;
-        if is_about(0.5) {
+        if is_about(START_RADIUS) {
             Self::Start
-        } else if is_about(1.0) {
+        } else if is_about(END_RADIUS) {
             Self::End
         } else {
             Self::Other

@@ -300,7 +300,7 @@ enum Rule<'a> {
 }
 
 /// Tolerance in mm for the length of a segment and the path it embeds.
-const CHORD_TOLERANCE: f64 = 0.001;
+pub(crate) const CHORD_TOLERANCE: f64 = 0.001;
 
 impl<'a> Judge<'a> {
     /// Creates a judge for the embeddings of a path, by its E or else by these restrictions.

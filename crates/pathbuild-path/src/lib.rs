@@ -30,7 +30,7 @@ mod walk;
 pub use bind::{ExaminedPath, bind, examine, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
-pub use element::{Cut, Element, Marker, Origin, Role, Shape, Source};
+pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source};
 pub use embedding::{Judge, with_near_names};
 pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};

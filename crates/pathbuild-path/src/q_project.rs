@@ -7,6 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
 
 use crate::approx::{coincide, near};
 use crate::bind::bind;
+use crate::embedding::CHORD_TOLERANCE;
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::names::PathName;
@@ -144,9 +145,6 @@ fn text(raw: &RawPath, path: &Path, proxy: Option<&ProxyLine>) -> String {
     pieces.join(" ")
 }
 
-/// Tolerance in mm for lengths, the same as for embedded paths.
-const LENGTH_TOLERANCE: f64 = 0.001;
-
 /// Disagreements between a component and its Q-project.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QProjectFindings {
@@ -202,7 +200,7 @@ impl<'a> Judge<'a> {
             .map(|difference| differing(&messages::PROXY_VALUE_DIFFERS, difference, &name))
             .collect();
         let (here, there) = (proxy.curve.chord(), (path.end - path.start).norm());
-        if (here - there).abs() > LENGTH_TOLERANCE {
+        if (here - there).abs() > CHORD_TOLERANCE {
             let problem = Diagnostic::new(&messages::PROXY_LENGTH_DIFFERS).quoting("name", name.as_str());
             problems.push(problem.with("here", here).with("there", there));
         }
@@ -279,7 +277,7 @@ impl<'a> Judge<'a> {
         let differing = differences.map(|difference| differing(&messages::Q_VALUE_DIFFERS, difference, name));
         let mut problems: Vec<Diagnostic> = differing.collect();
         let (here, there) = ((subpath.end - subpath.start).norm(), proxy.curve.chord());
-        if (here - there).abs() > LENGTH_TOLERANCE {
+        if (here - there).abs() > CHORD_TOLERANCE {
             let problem = Diagnostic::new(&messages::Q_LENGTH_DIFFERS).quoting("name", name.as_str());
             problems.push(problem.with("here", here).with("there", there));
         }

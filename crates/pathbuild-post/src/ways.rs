@@ -298,7 +298,7 @@ impl<'m> Way<'m> {
         let height = |at: &Position| {
             if at.known.has(Axes::Z) { Some(at.z()) } else { is_home.then_some(f64::INFINITY) }
         };
-        let is_upright = movement.from.known.has(Axes::XY)
+        let is_vertical = movement.from.known.has(Axes::XY)
             && movement.to.known.has(Axes::XY)
             && is_over(&movement.from.at, &movement.to.at, self.slack)
             || !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
@@ -314,10 +314,10 @@ impl<'m> Way<'m> {
         if movement.from.known.and(movement.to.known) != Axes::ALL {
             // Above a known position, coming from a height above everything.
             return movement.to.known == Axes::ALL
-                && is_upright
+                && is_vertical
                 && self.floor(&movement.to.at).is_some_and(|floor| lowest >= floor - self.slack);
         }
-        if is_upright {
+        if is_vertical {
             if movement.to.z() >= movement.from.z() {
                 return true;
             }

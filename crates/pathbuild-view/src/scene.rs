@@ -517,12 +517,12 @@ impl SceneMove {
 
 impl MoveKind {
     fn of(way: &motion::Move) -> Self {
-        let is_upright = way.is_upright();
+        let is_vertical = way.is_vertical();
         match way.pace {
             Pace::Probe { .. } => Self::Probe,
-            Pace::Rapid if is_upright => Self::Lift,
+            Pace::Rapid if is_vertical => Self::Lift,
             Pace::Rapid => Self::Sweep,
-            Pace::Feed(_) if is_upright => Self::Plunge,
+            Pace::Feed(_) if is_vertical => Self::Plunge,
             Pace::Feed(_) => Self::Mill,
         }
     }

@@ -174,7 +174,7 @@ fn compare(
     let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.minutes.is_some());
     let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
     let targets: Vec<Target> = targets.collect();
-    let states = emit::on_disk(session, post_processor, &targets);
+    let states = emit::freshness_on_disk(session, post_processor, &targets);
     let mut problems = Vec::new();
     for ((file, name), listed) in paths.iter().zip(listed) {
         let target = session.target_in(*file, name, Role::Emitted);

@@ -6,7 +6,10 @@ use std::cell::OnceCell;
 use pathbuild_diagnostic::messages::{drawing, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Note, Number, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
-use pathbuild_path::{Arc, Curve, Language, Line, LineType, PathName, TextCircle, Xy, on_circle};
+use pathbuild_path::approx::near;
+use pathbuild_path::{
+    Arc, Curve, END_RADIUS, Language, Line, LineType, PathName, START_RADIUS, TextCircle, Xy, on_circle,
+};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -174,7 +177,7 @@ impl AllLayers {
 /// Whether an entity is a marker of this radius on a layer without a path.
 fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> bool {
     let Geometry::Circle(circle) = &entity.geometry else { return false };
-    (circle.radius - radius).abs() < SAME_RADIUS
+    near(circle.radius, radius)
         && LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Phantom)
         && language.path_pattern.layer(layer).is_none()
 }
@@ -188,12 +191,9 @@ fn distance_of(note: &Note) -> Option<f64> {
 }
 
 /// Radii of the start and the end marker in mm.
-const MARKER_RADII: [f64; 2] = [0.5, 1.0];
+const MARKER_RADII: [f64; 2] = [START_RADIUS, END_RADIUS];
 const START: usize = 0;
 const END: usize = 1;
-
-/// Tolerance in mm for the radius of a circle to count as a marker.
-const SAME_RADIUS: f64 = 0.001;
 
 /// The distance of an element from the circle of a text; `None` for texts.
 fn gap(text: &TextCircle, geometry: &Geometry) -> Option<f64> {

@@ -105,21 +105,21 @@ messages! {
     NEARLY_OTHER_ELEMENT: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, but {other} at {other_point} is only {margin} mm farther away",
         de: "zum Text \"{text}\" gehört {element} bei {point}, aber {other} bei {other_point} ist nur {margin} mm weiter entfernt",
-        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name; `text-margin` under [warnings] sets the limit",
+        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name; `text-margin` under [warnings] sets the limit",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen; `text-margin` unter [warnings] setzt die Grenze",
     }
     /// A text that belongs to an element because of the order of kinds, although one of another kind is nearer.
     NEARER_OF_OTHER_KIND: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: circles come before arcs, arcs before lines",
         de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: Kreise gehen vor Bögen, Bögen vor Linien",
-        help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a layer of their own with ~ and letters behind the name",
+        help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a layer of their own with ~ and letters after the name",
         help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder kleiner machen, oder Text und Element auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
     /// A text that is equally near to two elements.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}, to which it belongs only because that comes first in the file",
         de: "zum Text \"{text}\" gehört {element} bei {point} nur, weil es in der Datei zuerst kommt: {other} bei {other_point} ist genauso nah",
-        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters behind the name",
+        help_en: "move the text nearer to its element, or put both on a layer of their own with ~ and letters after the name",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Layer mit ~ und Buchstaben hinter dem Namen legen",
     }
     /// Note: the nearest element.

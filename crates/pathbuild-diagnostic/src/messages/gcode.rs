@@ -101,7 +101,7 @@ messages! {
     WORD_WITHOUT_NUMBER: InvalidWord {
         en: "`{letter}` has no number; the line is left out",
         de: "`{letter}` hat keine Zahl; die Zeile bleibt unbeachtet",
-        help_en: "write the number right behind the letter",
+        help_en: "write the number directly after the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
     /// A malformed number such as `X1.2.3`.
@@ -162,7 +162,7 @@ messages! {
     }
     /// A parameter such as `#1` without `=`.
     ASSIGNMENT_EXPECTED: InvalidExpression {
-        en: "`=` is missing behind the parameter; the line is left out",
+        en: "`=` is missing after the parameter; the line is left out",
         de: "hinter dem Parameter fehlt `=`; die Zeile bleibt unbeachtet",
         help_en: "a parameter at the beginning of a word is set: #1=2.5",
         help_de: "ein Parameter am Anfang eines Worts wird gesetzt: #1=2.5",
@@ -199,7 +199,7 @@ messages! {
     BLANK_AFTER_LETTER: DoubtfulSpelling {
         en: "there is a space between letter and number, which {dialect} may not accept",
         de: "zwischen Buchstabe und Zahl steht ein Leerzeichen, das {dialect} vielleicht nicht annimmt",
-        help_en: "write the number right behind the letter",
+        help_en: "write the number directly after the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
     /// A decimal comma such as `X1,5`.
@@ -218,7 +218,7 @@ messages! {
     }
     /// Text after `%`.
     TEXT_AFTER_PERCENT: DoubtfulSpelling {
-        en: "text behind `%` is read as a comment",
+        en: "text after `%` is read as a comment",
         de: "Text hinter `%` wird als Kommentar gelesen",
         help_en: "write `%` on a line of its own",
         help_de: "`%` allein in eine Zeile schreiben",
@@ -255,7 +255,7 @@ messages! {
     SLASH_DROPPED: OptionalLine {
         en: "{dialect} drops `/` and runs the line",
         de: "{dialect} lässt `/` weg und führt die Zeile aus",
-        help_en: "remove the line if it is not meant",
+        help_en: "remove the line if it is not meant to run",
         help_de: "die Zeile entfernen, wenn sie nicht ausgeführt werden soll",
     }
     /// An unknown G or M code.
@@ -517,7 +517,7 @@ messages! {
     FEED_CLEARED: MissingFeed {
         en: "this cutting move has no feed: {word} in line {line} has cleared F",
         de: "diese Fräsbewegung hat keinen Vorschub: {word} in Zeile {line} hat F gelöscht",
-        help_en: "write F behind {word}",
+        help_en: "write F after {word}",
         help_de: "F nach {word} schreiben",
     }
     /// G93 without F.

@@ -179,10 +179,10 @@ messages! {
     }
     /// A Q-project that needs several paths, with a name that allows no further names.
     NO_NAME_FOR_CUTTER: CannotWrite {
-        en: "the drawing's paths have several O, and a Q-project has a path for each: no name follows {name}",
-        de: "die Pfade der Zeichnung haben mehrere O, und ein Q-Projekt hat für jedes einen Pfad: auf {name} folgt kein Name",
-        help_en: "give a name whose last number can grow with --path-name",
-        help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl wachsen kann",
+        en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but no name can be counted up from {name}",
+        de: "die Pfade der Zeichnung haben verschiedene O, das Q-Projekt braucht also für jedes einen Pfad, aber {name} lässt sich nicht weiterzählen",
+        help_en: "use --path-name to give a name whose last number can be counted up",
+        help_de: "mit --path-name einen Namen angeben, dessen letzte Zahl sich hochzählen lässt",
     }
     /// Note: the moves only differ because of `--compatible`.
     SAME_IF_COMPATIBLE: MovesDiffer {

@@ -617,8 +617,8 @@ messages! {
     }
     /// Note: a different way between two cuts.
     WAY_NOT_FREE: PostDiffers {
-        en: "this is {found} from {from} to {to}; at this point the program does not go there, or only higher up",
-        de: "das ist {found} von {from} nach {to}; an dieser Stelle fährt das Programm dort nicht oder nur weiter oben",
+        en: "this is {found} from {from} to {to}; between these two cuts the program makes no such move, or only a higher one",
+        de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten macht das Programm keine solche Bewegung oder nur eine weiter oben",
     }
     /// An M word or axis in a text without a dialect.
     WORD_NOT_FOLLOWED: DoubtfulPost {

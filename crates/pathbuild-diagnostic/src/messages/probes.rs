@@ -12,7 +12,7 @@ messages! {
     NO_VALUE: InvalidProbeLine {
         en: "#{probe} has no value",
         de: "#{probe} hat keinen Wert",
-        help_en: "enter the measured height behind the =",
+        help_en: "enter the measured height after the =",
         help_de: "die gemessene Höhe hinter das = schreiben",
     }
     /// A measured value that is not a number.

@@ -87,8 +87,7 @@ impl Interpreter<'_> {
     }
 
     /// Stores R, Z, P and Q for this line and the following ones of the same cycle. R and Z are stored as heights, so that in relative mode
-    /// the
-    /// next line drills to the same depth.
+    /// the next line drills to the same depth.
     fn remember(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let shift = self.state.offsets.shift(self.state.plane.third());
         let old = self.old_height();

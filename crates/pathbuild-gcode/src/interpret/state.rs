@@ -256,8 +256,7 @@ pub enum Heights {
     #[default]
     AsWritten,
     /// That number minus the correction, which is the difference between the formula's values with the measured and with the drawn heights.
-    /// This
-    /// is where the tool would go if the material were as thick as drawn.
+    /// This is where the tool would go if the material were as thick as drawn.
     Nominal,
 }
 

@@ -16,8 +16,7 @@ pub fn f3(number: f64) -> String {
 }
 
 /// Appends a number. `{:.3}` takes a long division for numbers as close to a thousandth as those of drawings, which was a quarter of the
-/// time
-/// for compiling a project.
+/// time for compiling a project.
 pub(super) fn push_f3(text: &mut String, number: f64) {
     let Some(thousandths) = thousandths(number) else {
         _ = write!(text, "{number:.3}");

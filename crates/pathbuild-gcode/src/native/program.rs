@@ -123,8 +123,7 @@ pub fn is_compatible(text: &[u8]) -> bool {
 }
 
 /// Writes a program with LF as line ends. Statistics are those of the program before splitting: a move that is split for its correction
-/// counts
-/// as one.
+/// counts as one.
 pub fn program(program: &Program, header: &Header, options: &WriteOptions) -> String {
     program_within(program, header, options, usize::MAX).unwrap_or_default()
 }

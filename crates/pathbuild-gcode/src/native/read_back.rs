@@ -80,8 +80,7 @@ pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Di
 }
 
 /// Compares the moves found with those expected, one by one. Nearly all programs are as expected, and building both lists for comparison
-/// takes as
-/// long as reading the program.
+/// takes as long as reading the program.
 struct Abreast<E> {
     expected: E,
     tolerance: Tolerance,
@@ -223,8 +222,7 @@ fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
 }
 
 /// Reports a text whose formulas were applied with heights that it does not list, as in programs of PathDxf2GCode. Then nothing tells
-/// whether the
-/// numbers before them are right.
+/// whether the numbers before them are right.
 pub fn unstated_heights(text: &[u8]) -> Option<Diagnostic> {
     let is_stated = !probe_entries(text).is_empty() || Provenance::of_head(text).is_some();
     let mut formulas = formula_texts(text).filter(|formula| !is_stated && formula.is_applied);

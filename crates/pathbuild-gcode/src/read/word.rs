@@ -338,8 +338,7 @@ pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
 }
 
 /// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Leaves anything else,
-/// without
-/// changing the parts, to the reader of expressions.
+/// without changing the parts, to the reader of expressions.
 ///
 /// In a program with probes, nearly all bytes belong to such formulas.
 #[inline]

@@ -49,8 +49,7 @@ pub fn verify(program: &(impl Program + ?Sized), checks: &Checks<'_>) -> Vec<Dia
 }
 
 /// Like [`verify`], but also passes each step to `take`, so that the program need not be processed again for another purpose. Only the map
-/// of
-/// the material requires further passes.
+/// of the material requires further passes.
 pub fn verify_with(
     program: &(impl Program + ?Sized),
     checks: &Checks<'_>,

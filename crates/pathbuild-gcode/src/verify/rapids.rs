@@ -1,8 +1,7 @@
 //! Finds rapid moves into material in every program that is about to be written. (book: program/reading)
 //!
 //! The cost is proportional to the number of moves: only rapid moves below a surface are examined, and accepted if the preceding cuts have
-//! made
-//! room. Otherwise a map of the material near them decides.
+//! made room. Otherwise a map of the material near them decides.
 
 #[cfg(test)]
 mod tests;

@@ -240,8 +240,7 @@ impl<'w> WordRules<'w> {
     }
 
     /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height; if the post
-    /// raises the
-    /// cutter before, the line for that is missing. (Moves at unknown height are checked in [`super::rules`].)
+    /// raises the cutter before, the line for that is missing. (Moves at unknown height are checked in [`super::rules`].)
     fn first_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);

@@ -287,7 +287,8 @@ impl<'s> LeftoverSearch<'s> {
         numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
     }
 
-    /// Describes a stretch. `None` for the shoulder at the end of a cut, beyond which the edge of the plate is the edge of the part.
+    /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: from there
+    /// on the edge of the plate is the edge of the part.
     fn leftover(&self, ring: usize, (from, to): Stretch, stretches: &RingStretches) -> Option<Leftover> {
         let whole = stretches.length;
         let place = |along: f64| self.ring_point(ring, along, whole);

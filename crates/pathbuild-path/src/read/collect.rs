@@ -10,7 +10,8 @@ use smol_str::SmolStr;
 
 use crate::approx::near;
 use crate::element::{
-    CircleMeaning, Cut, Element, Marker, MeantMarker, Origin, Role, Shape, Source, circle_meaning, curve_role,
+    CircleMeaning, Cut, END_RADIUS, Element, Marker, MeantMarker, Origin, PROBE_RADIUS, Role, Shape, Source,
+    TURN_RADIUS, circle_meaning, curve_role,
 };
 use crate::geometry::{Curve, Line, Xy};
 use crate::language::Language;
@@ -484,11 +485,6 @@ fn exact(length: f64) -> Value {
     if is_shown { length.into() } else { Value::quoted(format!("{length:.9}").trim_end_matches('0')) }
 }
 
-/// Radii of the markers, in mm.
-const END: f64 = 1.0;
-const TURN: f64 = 0.75;
-const PROBE: f64 = 3.0;
-
 impl PathCollector<'_> {
     /// Chooses the circles that were probably meant as start and end. Each problem has been reported already, or is reported here.
     fn settle_markers(&mut self, texts: &mut Texts<'_>) {
@@ -527,9 +523,9 @@ impl PathCollector<'_> {
     fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
         let unclear = self.unclear.iter();
         let unclear = unclear.map(|circle| (&circle.marker, circle.shape.radius().unwrap_or_default()));
-        let ends = self.ends.iter().map(|end| (end, END));
-        let turns = self.turns.iter().map(|turn| (turn, TURN));
-        let probes = self.probes.iter().map(|probe| (probe, PROBE));
+        let ends = self.ends.iter().map(|end| (end, END_RADIUS));
+        let turns = self.turns.iter().map(|turn| (turn, TURN_RADIUS));
+        let probes = self.probes.iter().map(|probe| (probe, PROBE_RADIUS));
         let circles: Vec<(&Marker, f64)> = ends.chain(unclear).chain(turns).chain(probes).collect();
         let (marker, radius) =
             circles.into_iter().find(|(marker, radius)| texts.has_path_text(marker, *radius))?;
@@ -564,7 +560,7 @@ impl PathCollector<'_> {
     fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let is_like_end = |element: &Element| {
             element.role == Role::Cut(Cut::Mill)
-                && element.shape.radius().is_some_and(|radius| near(radius, END))
+                && element.shape.radius().is_some_and(|radius| near(radius, END_RADIUS))
         };
         let mut like_end = self.elements.iter().enumerate().filter(|(_, element)| is_like_end(element));
         let (Some((index, _)), None) = (like_end.next(), like_end.next()) else { return None };

@@ -1,4 +1,4 @@
-//! Determines the order in which a program calls its control texts. (section 1.6)
+//! Determines the order in which a program calls its control texts. (book: reference/post-definitions)
 //!
 //! CAD6 thinks in contours: move above a point at safety height, descend to working height, plunge, cut the elements, and retract to
 //! safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error; they are
@@ -412,12 +412,10 @@ fn same_plane(a: Point, b: Point) -> bool {
     a[..2] == b[..2]
 }
 
-// A call of a control text before its variables are set.
-
 /// X, Y, Z in mm.
 pub(super) type Point = [f64; 3];
 
-/// A call and the operation it belongs to.
+/// A call of a control text before its variables are set, and the operation it belongs to.
 #[derive(Debug)]
 pub(super) struct Call<'a> {
     pub(super) operation: usize,

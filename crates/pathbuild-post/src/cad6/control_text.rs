@@ -1,4 +1,4 @@
-//! The control texts a definition can have, when each is called, and errors at their positions. (section 1.6)
+//! The control texts a definition can have, when each is called, and errors at their positions. (book: reference/post-definitions)
 
 use std::ops::Range;
 

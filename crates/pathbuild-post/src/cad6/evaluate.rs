@@ -1,4 +1,4 @@
-//! The second phase of a call: replaces every statement by its result. (sections 1.2 and 1.7)
+//! The second phase of a call: replaces every statement by its result. (book: reference/post-definitions)
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! The first phase of a call: replaces every variable of the control text by its value. (section 1.4)
+//! The first phase of a call: replaces every variable of the control text by its value. (book: reference/post-definitions)
 
 use camino::{Utf8Component, Utf8PathBuf};
 use pathbuild_diagnostic::Value;

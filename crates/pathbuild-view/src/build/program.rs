@@ -295,7 +295,7 @@ impl Finder<'_> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
         let rapids: Vec<&Move> = rapids.take(SEARCHED).map(|(_, written)| written).collect();
-        let moved = if movement.is_upright() { Axes::Z } else { Axes::XY };
+        let moved = if movement.is_vertical() { Axes::Z } else { Axes::XY };
         let has_both = |written: &&Move| {
             is_same(&written.from, &movement.from, Axes::ALL) && is_same(&written.to, &movement.to, Axes::ALL)
         };

@@ -229,7 +229,7 @@ fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answ
 }
 
 /// For each target with a program on disk, whether that program is up to date, or the errors that keep it from being generated.
-pub(crate) fn on_disk(
+pub(crate) fn freshness_on_disk(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
     targets: &[Target],

@@ -55,7 +55,7 @@ impl Session<'_> {
                 checked.diagnostics.into_iter().filter(stops_making).collect();
             let moves = hash.unwrap_or_else(|problem| {
                 let problem = about(&self.db, checked.target, *problem);
-                // A timeout of the check has caused the same diagnostic.
+                // A timeout may already have been reported by the check.
                 problems.extend((!problems.contains(&problem)).then_some(problem));
                 None
             });

@@ -139,8 +139,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
     }
 
     /// Permitted difference in height within the next expected move. Its position is determined in the plane, where a rounding error on a
-    /// steep arc
-    /// means a difference in height.
+    /// steep arc means a difference in height.
     fn slack_of_height(&mut self) -> f64 {
         let within = self.expected.peek().filter(|_| self.done > 0.0);
         let steepness = within.map_or(0.0, |(_, movement)| {

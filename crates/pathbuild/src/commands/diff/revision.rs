@@ -43,7 +43,7 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     let whole = place.join("tree");
     // Mark it as a repository like the original, so that ignore files apply and no link leads out of it.
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
-    // Stop the search for a configuration here: the directories above are unrelated. This one is empty.
+    // An empty configuration here ends the search for one: the directories above are unrelated.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
     let largest = context.settings.limits.file_size.value.max(LARGE);
     let mut checkout = Checkout { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
