@@ -13,9 +13,18 @@ export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine INSTA_WORKSPACE_ROOT=$PWD 
 # Wine has neither git nor cargo. Random libraries, kills and the book ask nothing of Windows that others do not, and take long.
 skipped=(since:: diff::revisions german::refusals_of_git dependencies:: agreement:: kills:: book:: machines::)
 run() {
-  cargo test --quiet --no-fail-fast --target x86_64-pc-windows-gnu --package pathbuild --package pathbuild-db \
-    --package pathbuild-cache --package pathbuild-files --package pathbuild-workspace --tests -- "${skipped[@]/#/--skip=}" "$@" </dev/null
+  cargo test --quiet --no-fail-fast --target x86_64-pc-windows-gnu "${packages[@]}" "${targets[@]}" -- "${skipped[@]/#/--skip=}" "$@" </dev/null
 }
+packages=(--package pathbuild --package pathbuild-files)
+if [ $# -gt 0 ]; then
+  # Of the files everything, of the program what is named.
+  targets=(--test os_system --test other_systems)
+  run
+  targets=(--test cli)
+else
+  packages+=(--package pathbuild-db --package pathbuild-cache --package pathbuild-workspace)
+  targets=(--tests)
+fi
 said=$(mktemp)
 if run --test-threads 2 "$@" 2>&1 | tee "$said"; then exit; fi
 # What failed is tried again alone, and must pass then. More than a few failures are no loss of Wine's.
