@@ -200,7 +200,7 @@ codes! {
     733 MissingFeed "missing-feed" Error "a cutting move without feed, or with feed 0";
     734 ArcRadiiDiffer "arc-radii-differ" Error "an arc whose ends have different radii";
     735 InvalidArc "invalid-arc" Error "an impossible arc";
-    736 DoubtfulArc "doubtful-arc" Warning "an arc that depends on the last digit of its numbers";
+    736 DoubtfulArc "doubtful-arc" Warning "an arc that depends on the last digit of its numbers, or that probably runs the wrong way round";
     737 StopBeforeMotion "stop-before-motion" Warning "M5 or M9 in the line of a move, which most controls execute before the move";
     738 UselessProbe "useless-probe" Warning "a probing move that cannot touch anything";
     739 MovesDiffer "moves-differ" Error "two programs that should have the same moves differ";
@@ -246,6 +246,7 @@ codes! {
     779 UnnamedDialect "unnamed-dialect" Warning "a word on which dialects disagree, in a program whose dialect is not named";
     780 HeaderContradiction "header-contradiction" Warning "comments that describe a tool or the stock in two ways";
     781 RapidAtDepth "rapid-at-depth" Warning "a rapid move at cutting depth, where the surface of the material is unknown";
+    782 UnknownPosition "unknown-position" Warning "a cut that begins where the program has not stated X and Y";
 }
 
 impl Code {

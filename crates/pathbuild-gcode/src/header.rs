@@ -279,6 +279,9 @@ impl HeaderReader {
         if header.changes.is_empty() {
             collector.only_tool();
         }
+        if !header.has_calls {
+            collector.never_selected(&header.changes);
+        }
         header.tools = collector.tools;
         header.surface = collector.surface;
         header.is_of_pathbuild = collector.is_of_pathbuild;
@@ -415,6 +418,18 @@ impl Collector {
                 }
                 _ => {}
             }
+        }
+    }
+
+    /// Reports listed tools that the program does not change to, unless none of its changes is to a listed one.
+    fn never_selected(&mut self, changes: &[(u32, u32)]) {
+        let is_used = |number: &u32| changes.iter().any(|(_, change)| change == number);
+        let is_list_of_program = self.numbered.keys().any(is_used);
+        let unused = self.numbered.iter().filter(|(number, _)| is_list_of_program && !is_used(number));
+        for (number, cutter) in unused {
+            self.problems.add_at_line(&say::TOOL_NEVER_SELECTED, cutter.line, |d| {
+                d.with("number", u64::from(*number))
+            });
         }
     }
 

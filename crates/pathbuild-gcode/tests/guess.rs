@@ -1,7 +1,7 @@
 //! Tests of guessing dialects.
 
 use pathbuild_gcode::dialect::Dialect::{
-    self, Fanuc, Grbl, Haas, LinuxCnc, Marlin, Native, Rs274, Xpertmill,
+    self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
 };
 use pathbuild_gcode::interpret::guess;
 
@@ -19,6 +19,8 @@ fn signs_of_one_dialect_decide() {
     assert_eq!(guessed("G21\n#<depth>=1\n"), (LinuxCnc, Some(2)));
     assert_eq!(guessed("o100 sub\no100 endsub\n"), (LinuxCnc, Some(1)));
     assert_eq!(guessed("( Grbl Post Processor )\nG0 X1\n"), (Grbl, Some(1)));
+    assert_eq!(guessed("(tap)\n( for Mach2/3 from Vectric )\nG0 X1\n"), (Mach3, Some(2)));
+    assert_eq!(guessed("G17 G21 G40 G49 G54 G80 G90 G94\n#<depth>=1\n"), (LinuxCnc, Some(2)));
 }
 
 #[test]

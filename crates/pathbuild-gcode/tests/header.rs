@@ -188,6 +188,15 @@ fn a_tool_with_two_diameters_is_reported() {
 }
 
 #[test]
+fn a_listed_tool_that_is_never_selected_is_reported() {
+    let list = "(T1 D=6 CR=0 - flat end mill)\n(T2 D=3 CR=0 - drill)\nG21 G90\n";
+    assert_eq!(problems(&format!("{list}T1 M6\nG1 X1 F9\nT2 M6\nG1 X2")), [""; 0]);
+    assert_eq!(problems(&format!("{list}T1 M6\nG1 X1 F9\nG1 X2")).len(), 1);
+    assert_eq!(problems(&format!("{list}G1 X1 F9\nG1 X2")), [""; 0], "tools are changed by hand");
+    assert_eq!(problems(&format!("{list}T7 M6\nG1 X1 F9")), [""; 0], "another list");
+}
+
+#[test]
 fn the_origin_of_a_stock_block_places_its_surface() {
     let surface = |comments: &str| header(&format!("{comments}\nG21\nG90")).surface;
     assert_eq!(surface("(STOCK/BLOCK,100.00, 100.00, 1.00,0.00, 0.00, 1.00)"), Some(0.0));

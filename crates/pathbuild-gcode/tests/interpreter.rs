@@ -218,6 +218,27 @@ fn arcs_need_a_centre() {
     );
 }
 
+/// GRBL ignores K in the XY plane, LinuxCNC refuses it ("K word given for arc in xy plane").
+#[test]
+fn a_centre_of_the_third_axis_may_be_0_where_it_is_ignored() {
+    let arc = |words: &str| format!("G0 X10 Y0 Z0\nG3 X10 Y0 {words} F10");
+    assert_eq!(wrong(Grbl, &arc("I-10 K0.000")), FINE);
+    assert_eq!(wrong(Grbl, &arc("I-10 K1")), ["3 unused-word"]);
+    assert_eq!(wrong(Grbl, &arc("K0")), ["3 invalid-arc"]);
+    assert_eq!(wrong(LinuxCnc, &arc("I-10 K0")), ["3 unused-word"]);
+    assert_eq!(wrong(Grbl, "G18\nG0 X10 Y0 Z0\nG3 X10 Z0 I-10 J0 F10"), FINE);
+}
+
+/// The beginning of programs that Vectric posts for Mach3.
+#[test]
+fn mach3_ends_cycles_beside_a_motion_and_has_two_words_for_each_unit() {
+    assert_eq!(wrong(Mach3, "G00G21G17G90G40G49G80\nG71G91.1\nX1Y1"), FINE);
+    assert_eq!(run(Mach3, "G80 G0 G20\nX1 Y1 Z1")[0], run(Mach3, "G0 G70\nX1 Y1 Z1")[0]);
+    assert_eq!(run(Mach3, "G80 G0 G20\nX1 Y1 Z1")[0], "3 rapid to 25.4 25.4 25.4");
+    assert_eq!(wrong(LinuxCnc, "G0 G80 X1 Y1"), ["2 conflicting-words"]);
+    assert_eq!(wrong(Mach3, "G0 G1 X1 Y1 F10"), ["2 conflicting-words"]);
+}
+
 /// Marlin and XpertMILL are not known to repeat the previous motion.
 #[test]
 fn a_motion_that_is_not_stated_is_missed_where_it_must_be() {

@@ -337,4 +337,6 @@ fn a_file_that_just_ends_is_reported() {
     assert_eq!(faults(Native, "G21 G90\nG0 X1\n"), ["2 no-program-end"]);
     assert_eq!(faults(Native, "%\nG21 G90\nG0 X1\n"), ["3 no-program-end"]);
     assert_eq!(faults(Native, "G21 G90\nM30\nG0 X1\n"), ["3 after-program-end"]);
+    assert_eq!(faults(Native, "G21 G90\nM30\n(end)\n; end\n%\n"), [""; 0]);
+    assert_eq!(faults(Native, "G21 G90\nM30\n(end)\n(now) G0 X1 (back)\n"), ["4 after-program-end"]);
 }

@@ -196,6 +196,10 @@ fn the_cutter_is_raised_before_it_moves_in_the_plane() {
     assert_eq!(wrong("G0 X1 Y1\nG0 Z5"), ["2 start-not-raised"]);
     assert_eq!(wrong("G0 Z5\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G0 X1 Y1 Z5\nG1 X2"), FINE);
+    // Named positions.
+    assert_eq!(wrong("G53 G0 Z0\nG0 X1 Y1"), FINE);
+    assert_eq!(wrong("G28 G91 Z0\nG90\nG0 X1 Y1"), FINE);
+    assert_eq!(wrong("G53 G0 X5 Y5\nG0 X1 Y1"), ["3 start-not-raised"]);
 }
 
 #[test]
@@ -226,6 +230,31 @@ fn the_spindle_turns_while_cutting() {
     );
     assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nT2 M6\nG1 Z1"), ["7 spindle-off"]);
     assert_eq!(wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5\nM5"), FINE);
+    // The first height may be set by feed.
+    assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nM3 S1000\nG1 Z1\nG0 Z5\nM5"), FINE);
+    assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nG1 Z1\nM3 S1000\nG0 Z5\nM5"), ["4 spindle-off"]);
+}
+
+#[test]
+fn cuts_are_made_where_the_program_has_stated_x_and_y() {
+    let wrong = |program| wrong(program, &Checks::default());
+    assert_eq!(wrong("G91\nG0 Z5\nG0 X9 Y9\nG1 Z-6\nX20\nX9"), ["5 unknown-position"]);
+    assert_eq!(wrong("G0 Z5\nX9\nG1 Z-6"), ["4 unknown-position"]);
+    assert_eq!(wrong("G0 Z5\nX0 Y0\nG91\nX9 Y9\nG1 Z-6\nX20"), FINE);
+    assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nG1 Z-6"), FINE);
+}
+
+#[test]
+fn an_arc_does_not_turn_back_from_both_its_neighbours() {
+    let corner = |arc: &str, out: &str| {
+        wrong(&format!("G0 X0 Y0 Z1\nG1 X10\n{arc} X15 Y5 I0 J5\nG1 {out}\nG0 Z9"), &Checks::default())
+    };
+    assert_eq!(corner("G3", "Y20"), FINE);
+    assert_eq!(corner("G2", "Y20"), ["4 doubtful-arc"]);
+    assert_eq!(corner("G2", "X30"), FINE, "it turns back from one of them only");
+    assert_eq!(corner("G2", "X15.8 Y20"), ["4 doubtful-arc"]);
+    assert_eq!(corner("G2", "X18 Y20"), FINE);
+    assert_eq!(corner("G2", "Z0\nY20"), FINE, "another depth");
 }
 
 #[test]
@@ -531,6 +560,20 @@ fn a_rapid_move_where_the_program_has_cut_is_not_doubtful() {
     // Cut there, but not as deep.
     let shallow = "G0 X0 Y0 Z5\nG1 Z-1 F100\nX20\nG1 Z-2\nG0 X0\nG0 Z5";
     assert_eq!(at_depth(shallow), ["6 rapid-at-depth"]);
+}
+
+#[test]
+fn a_thin_cutter_leaves_no_rapid_move_at_depth_undoubted() {
+    let at_depth = |diameter: f64, between: &str| {
+        let stock = Stock::with_unknown_surface(&[(0, Cutter::flat(diameter))]);
+        let program = format!("G0 X0 Y0 Z5\nG1 Z-0.1 F100\nX20\n{between}\nG1 Z-0.1\nX0\nG0 Z5");
+        rapids_at_depth(&run(&program).steps, &stock).iter().map(fault_text).collect::<Vec<_>>()
+    };
+    for diameter in [0.01, 0.1, 3.0, 50.0] {
+        assert_eq!(at_depth(diameter, "G0 Y60"), ["5 rapid-at-depth"], "{diameter}");
+        assert_eq!(at_depth(diameter, "G0 Z1\nG0 Y60\nG0 Z0"), FINE, "{diameter}");
+        assert_eq!(at_depth(diameter, "G0 X0\nG0 X20"), FINE, "{diameter}");
+    }
 }
 
 #[test]

@@ -208,13 +208,14 @@ impl PostProcessor {
         output: Option<&Utf8Path>,
         inserted: &mut Vec<ExtraInput>,
     ) -> Result<Output, Vec<Diagnostic>> {
-        self.write_with(job, output, self.manner.unchecked, inserted)
+        self.write_with(job, output, (self.manner.unchecked, self.machine.as_ref()), inserted)
     }
 
-    /// The words that it writes in a dialect, collected from sample programs that use every feature.
+    /// The words that it writes in a dialect, collected from sample programs that use every feature, which the machine need not be able to
+    /// run.
     pub fn words(&self, dialect: Dialect) -> PostWords {
         let written = samples().into_iter().filter_map(|job| {
-            let output = self.write_with(&job, None, true, &mut Vec::new());
+            let output = self.write_with(&job, None, (true, None), &mut Vec::new());
             output.ok().map(|output| output.text)
         });
         if !self.is_read_by_definition() {
@@ -256,7 +257,7 @@ impl PostProcessor {
         &self,
         job: &Job,
         output: Option<&Utf8Path>,
-        unchecked: bool,
+        (unchecked, machine): (bool, Option<&Machine>),
         inserted: &mut Vec<ExtraInput>,
     ) -> Result<Output, Vec<Diagnostic>> {
         let system = &*self.system;
@@ -277,7 +278,7 @@ impl PostProcessor {
             needs_speed: !self.manner.manual_spindle,
             spin_up: self.manner.spin_up,
             milliseconds: self.manner.milliseconds,
-            machine: self.machine.clone(),
+            machine: machine.cloned(),
             ..PostOptions::default()
         };
         if let Some(noted) = &noted {

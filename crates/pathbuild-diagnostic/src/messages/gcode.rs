@@ -595,6 +595,13 @@ messages! {
         help_en: "write a full circle with equal ends, and leave out an arc that is none",
         help_de: "einen Vollkreis mit gleichen Enden schreiben, und einen Bogen, der keiner ist, weglassen",
     }
+    /// An arc whose neighbours it would continue if it ran the other way round.
+    ARC_DOUBLES_BACK: DoubtfulArc {
+        en: "the arc turns back at both of its ends: with {word} it would continue the cuts before and after it",
+        de: "der Bogen kehrt an beiden Enden um: mit {word} würde er die Schnitte davor und danach fortsetzen",
+        help_en: "check the direction of the arc",
+        help_de: "die Richtung des Bogens prüfen",
+    }
     /// M5 in a line with a move.
     STOP_BEFORE_MOTION: StopBeforeMotion {
         en: "{word} is obeyed before the move of this line, while the cutter is still in the material",

@@ -281,6 +281,13 @@ messages! {
         help_en: "find out which tool is meant: for rapid moves, the smaller one removes material",
         help_de: "klären, welches Werkzeug gemeint ist: für Eilgänge trägt das kleinere Material ab",
     }
+    /// A tool that comments list, and that the program never uses.
+    TOOL_NEVER_SELECTED: Disagreement {
+        en: "comments list T{number}, but the program never changes to it",
+        de: "Kommentare führen T{number} auf, aber das Programm wechselt nie dorthin",
+        help_en: "check whether a tool change is missing",
+        help_de: "prüfen, ob ein Werkzeugwechsel fehlt",
+    }
     /// Two comments that place a corner of the stock differently.
     STOCK_STATED_TWICE: HeaderContradiction {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
@@ -315,6 +322,13 @@ messages! {
         de: "ein Eilgang auf Z {z} über {point}, wo nichts so tief gefräst wurde: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
         help_en: "raise the cutter before; if the material does not reach there, `--surface` gives its height, for an exact check",
         help_de: "den Fräser vorher anheben; reicht das Material nicht bis dorthin, gibt `--surface` seine Höhe für eine genaue Prüfung an",
+    }
+    /// A cut before X and Y are known, as in a program that is incremental from its beginning.
+    UNKNOWN_POSITION: UnknownPosition {
+        en: "this cut begins where the program has not stated X and Y: until it does, neither travel nor rapid moves are checked",
+        de: "dieser Schnitt beginnt, wo das Programm X und Y nicht angegeben hat: bis dahin werden weder Verfahrwege noch Eilgänge geprüft",
+        help_en: "go to a position in X and Y with G90 first; is G91 meant?",
+        help_de: "zuerst mit G90 eine Position in X und Y anfahren; ist G91 gemeint?",
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {

@@ -22,6 +22,8 @@ pub struct Rules {
     pub start_motion: StartMotion,
     /// The words that switch to inches and to millimetres (G codes times ten).
     pub unit_words: [u16; 2],
+    /// Other words with the same meaning.
+    pub unit_synonyms: Option<[u16; 2]>,
     /// Whether M6 selects layers, to which moves and S belong.
     pub layers: bool,
     /// Whether a motion word applies only to its own line; repeating it by coordinates alone causes a warning.
@@ -46,6 +48,8 @@ pub struct Rules {
     pub repeats: u8,
     /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,
+    /// Whether G80 may stand beside a motion word, which then applies.
+    pub ends_cycles_beside_motion: bool,
 }
 
 /// How G4 specifies its time.
@@ -72,6 +76,7 @@ pub enum DwellUnit {
 
 /// How a dialect reads arcs. (book: program/reading)
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct ArcRules {
     /// Permitted difference of the radii at both ends.
     pub radius: RadiusTolerance,
@@ -83,6 +88,8 @@ pub struct ArcRules {
     pub turns: bool,
     /// Whether a third coordinate (a helix) is supported.
     pub helix: bool,
+    /// Whether the centre word of the third axis is ignored, as K in the XY plane.
+    pub ignores_third_centre: bool,
 }
 
 /// Permitted difference of the radii at both ends of an arc, in mm.
@@ -154,10 +161,18 @@ const BASE: Rules = Rules {
     dialect: Dialect::Rs274,
     spelling: BASE_SPELLING,
     words: &codes::RS274,
-    arcs: ArcRules { radius: GRBL_RADIUS, axis_word: true, short_radius: 0.0, turns: false, helix: true },
+    arcs: ArcRules {
+        radius: GRBL_RADIUS,
+        axis_word: true,
+        short_radius: 0.0,
+        turns: false,
+        helix: true,
+        ignores_third_centre: false,
+    },
     feed_mode: FeedMode::KeepsFeed,
     start_motion: StartMotion::Rapid,
     unit_words: [200, 210],
+    unit_synonyms: None,
     layers: false,
     motion_is_stated: false,
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"" },
@@ -170,6 +185,7 @@ const BASE: Rules = Rules {
     least_increments: false,
     repeats: b'L',
     lifts_to_start: false,
+    ends_cycles_beside_motion: false,
 };
 
 pub(super) static RS274: Rules = Rules {
@@ -213,6 +229,7 @@ pub(super) static LINUXCNC: Rules = Rules {
         short_radius: 0.001_27,
         turns: true,
         helix: true,
+        ignores_third_centre: false,
     },
     feed_mode: FeedMode::ClearsFeed,
     start_motion: StartMotion::None,
@@ -232,6 +249,8 @@ pub(super) static GRBL: Rules = Rules {
         ..BASE_SPELLING
     },
     words: &codes::GRBL,
+    // gcode.c: "bit_false(value_words,(bit(WORD_I)|bit(WORD_J)|bit(WORD_K)))". FreeCAD's grbl_post writes `K0.000` in every arc.
+    arcs: ArcRules { ignores_third_centre: true, ..BASE.arcs },
     ..BASE
 };
 
@@ -280,6 +299,9 @@ pub(super) static MACH3: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"" },
     program_numbers: true,
     lifts_to_start: true,
+    // Vectric's post for it begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
+    unit_synonyms: Some([700, 710]),
+    ends_cycles_beside_motion: true,
     ..BASE
 };
 
@@ -290,6 +312,8 @@ const ISO: Rules = Rules {
     program_numbers: true,
     least_increments: true,
     lifts_to_start: true,
+    // G80 is in a group of its own.
+    ends_cycles_beside_motion: true,
     ..BASE
 };
 

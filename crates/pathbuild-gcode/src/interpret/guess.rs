@@ -71,11 +71,6 @@ const SIGNS: &[Sign] = &[
         &Text { en: "it has correction formulas", de: "es hat Korrekturformeln" },
     ),
     (
-        Dialect::Native,
-        |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
-        &Text { en: "it has the native program's head", de: "es hat den Kopf des eigenen Programms" },
-    ),
-    (
         Dialect::Xpertmill,
         |line| without_round_comments(line).windows(2).any(|pair| pair == b"//"),
         &Text { en: "it has comments with //", de: "es hat Kommentare mit //" },
@@ -119,6 +114,19 @@ const SIGNS: &[Sign] = &[
         Dialect::LinuxCnc,
         |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
         &Text { en: "it has O words", de: "es hat O-Wörter" },
+    ),
+    (
+        Dialect::Native,
+        |line| line == b"G17 G21 G40 G49 G54 G80 G90 G94",
+        &Text { en: "it has the native program's head", de: "es hat den Kopf des eigenen Programms" },
+    ),
+    (
+        Dialect::Mach3,
+        |line| {
+            let names = [&b"mach2/3"[..], b"mach3", b"mach4"];
+            line.first() == Some(&b'(') && names.iter().any(|name| has(&line.to_ascii_lowercase(), name))
+        },
+        &Text { en: "a comment names it", de: "ein Kommentar nennt es" },
     ),
     (
         Dialect::Grbl,

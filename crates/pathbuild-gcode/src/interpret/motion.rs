@@ -423,6 +423,7 @@ impl Interpreter<'_> {
         let letters = plane.axes().map(|axis| b"IJK"[axis]);
         let words = plane_words(plane, ["I", "J", "K"]);
         let offsets = letters.map(|letter| self.words.values.take_slot(letter));
+        self.take_zero_of_third_centre(plane, offsets.iter().any(Option::is_some));
         let radius = self.words.values.take_slot(b'R');
         match (offsets, radius) {
             ([None, None], None) => {
@@ -446,6 +447,15 @@ impl Interpreter<'_> {
                 None
             }
             _ => Some(self.centre_by_offsets(plane, from, offsets)),
+        }
+    }
+
+    /// Another value than 0 was meant for another plane, so it remains unused, which is reported.
+    fn take_zero_of_third_centre(&mut self, plane: Plane, has_centre: bool) {
+        let letter = b"IJK"[plane.third()];
+        let is_zero = self.words.values.peek(letter).is_some_and(|slot| slot.value == 0.0);
+        if self.rules.arcs.ignores_third_centre && has_centre && is_zero {
+            self.words.values.take_slot(letter);
         }
     }
 

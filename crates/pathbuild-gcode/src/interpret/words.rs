@@ -182,7 +182,9 @@ impl Interpreter<'_> {
 
     fn unit_word(&self, code: u16) -> Option<Command> {
         let [inch, mm] = self.options.unit_words(self.rules);
-        (code == inch || code == mm).then_some(Command::Inches(code == inch))
+        let [other_inch, other_mm] = self.rules.unit_synonyms.unwrap_or([inch, mm]);
+        let is_inch = code == inch || code == other_inch;
+        (is_inch || code == mm || code == other_mm).then_some(Command::Inches(is_inch))
     }
 
     fn m_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
@@ -251,6 +253,12 @@ const M_GROUPS: [&[u16]; 4] = [STOPS, TOOL, SPINDLE, COOLANT];
 
 impl Interpreter<'_> {
     pub(super) fn check_conflicts(&mut self, block: &Block<'_>) {
+        let ends_cycles = |command: &Command| *command == Command::Motion(Motion::None);
+        let is_motion = |command: &Command| matches!(command, Command::Motion(_)) && !ends_cycles(command);
+        let has_motion = || self.words.commands.iter().any(|(command, ..)| is_motion(command));
+        if self.rules.ends_cycles_beside_motion && has_motion() {
+            self.words.commands.retain(|(command, ..)| !ends_cycles(command));
+        }
         for (index, &(command, code, span)) in self.words.commands.iter().enumerate().skip(1) {
             let earlier =
                 self.words.commands[..index].iter().find(|(other, ..)| other.group() == command.group());

@@ -132,7 +132,7 @@ impl<'t> BlockReader<'t> {
         })
     }
 
-    /// Ends the program at this point (M2, M30). What follows is not read, and reported unless it is `%` or blank.
+    /// Ends the program at this point (M2, M30). What follows is not read, and reported unless it is `%`, blank or a comment.
     pub fn end_program(&mut self) {
         if !matches!(self.state, State::Ended(_)) {
             self.state = State::Ended(self.line);
@@ -166,7 +166,7 @@ impl<'t> BlockReader<'t> {
                 continue;
             }
             if let State::Ended(end) = self.state {
-                if line == b"%" {
+                if line == b"%" || is_remark(line) {
                     continue;
                 }
                 if !self.has_subprograms {
@@ -377,6 +377,15 @@ fn title_number(line: &[u8]) -> usize {
 
 fn bare(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| !matches!(byte, b' ' | b'\t')).count()
+}
+
+/// Whether a line after the end of the program consists of a comment.
+fn is_remark(line: &[u8]) -> bool {
+    match line.trim_ascii_start() {
+        [b';', ..] => true,
+        [b'(', inside @ .., b')'] => !inside.contains(&b')'),
+        _ => false,
+    }
 }
 
 fn trim_end(line: &[u8]) -> &[u8] {

@@ -1,7 +1,7 @@
 //! Finds rapid moves at cutting depth in programs whose material has an unknown surface. (book: program/reading)
 //!
-//! A program that cuts at some depth before or after a rapid move in the plane probably has material there, unless it has cut these
-//! points before. It may also move beside the stock, so this is a doubt and not an error.
+//! A program that cuts at some depth before or after a rapid move in the plane probably has material all along that move, except where it
+//! has cut to that depth before. It may also move beside the stock, as between the passes of facing, so this is a doubt and not an error.
 
 use std::collections::BTreeSet;
 

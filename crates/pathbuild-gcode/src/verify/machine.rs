@@ -61,11 +61,12 @@ pub(super) struct Limits<'m> {
     machine: &'m Machine,
     reach: Reach,
     last_feed: Option<f64>,
+    last_speed: Option<f64>,
 }
 
 impl<'m> Limits<'m> {
     pub(super) fn new(machine: &'m Machine) -> Self {
-        Self { machine, reach: Reach::default(), last_feed: None }
+        Self { machine, reach: Reach::default(), last_feed: None, last_speed: None }
     }
 
     pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
@@ -76,7 +77,11 @@ impl<'m> Limits<'m> {
                 }
                 check_feed(step.line, movement, self.machine, &mut self.last_feed, problems);
             }
-            Action::Spindle(spindle) if spindle.turning != Turning::Off => {
+            // S and M3 may be in lines of their own.
+            Action::Spindle(spindle)
+                if spindle.turning != Turning::Off
+                    && self.last_speed.replace(spindle.speed) != Some(spindle.speed) =>
+            {
                 check_speed(step.line, spindle.speed, self.machine, problems);
             }
             _ => {}

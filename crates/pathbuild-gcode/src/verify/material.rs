@@ -166,8 +166,17 @@ impl<'s> Bench<'s> {
         Self { stock, resolution, map: HeightMap::new(resolution, cells), dip: None }
     }
 
-    /// Adds material within O of a cutting move.
+    /// Adds material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to check.
     fn lay(&mut self, line: u32, movement: &Move) {
+        let is_unknown = |piece: &StockSpan| piece.surface == f64::INFINITY;
+        if self.stock.at(line).is_some_and(is_unknown) {
+            if movement.pace == Pace::Rapid {
+                for part in self.parts(movement) {
+                    self.map.add(&capsule(&part, self.slack()), f64::INFINITY);
+                }
+            }
+            return;
+        }
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         for part in self.parts(movement) {
             if part.lowest() < piece.surface {

@@ -4,7 +4,9 @@ use std::fmt;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_motion::{Action, Axes, Change, Move, MoveShape, Pace, Position, Spindle, Step, Turning};
+use pathbuild_motion::{
+    Action, Arc, Axes, Change, Move, MoveShape, Pace, Plane, Position, Spindle, Step, Turning,
+};
 
 use super::Checks;
 use super::machine::Limits;
@@ -39,6 +41,9 @@ pub struct Rules<'c> {
     has_probed: bool,
     /// Whether anything has been cut.
     has_cut: bool,
+    /// Whether a cut at an unknown position has been reported.
+    position_said: bool,
+    directions: ArcDirections,
     /// Since when G52 or G92 is active, and whether that was after the first cut.
     shifted: Option<(u32, u16, bool)>,
 }
@@ -65,6 +70,8 @@ impl<'c> Rules<'c> {
             spindle_line: 0,
             has_probed: false,
             has_cut: false,
+            position_said: false,
+            directions: ArcDirections::default(),
             shifted: None,
         }
     }
@@ -101,6 +108,7 @@ impl<'c> Rules<'c> {
         probe(line, movement, &mut self.problems);
         self.after_probe(line, movement);
         self.cutting(line, movement);
+        self.directions.add(line, movement, &mut self.problems);
         self.at = movement.to;
     }
 
@@ -137,11 +145,13 @@ impl<'c> Rules<'c> {
         (z < surface - SAME_HEIGHT).then_some(surface)
     }
 
+    /// A named position that does not move X or Y, such as `G53 Z0` or `G28 Z0`, is considered to be raised, although its height is unknown.
     fn first_move(&mut self, line: u32, movement: &Move) {
         if self.is_raised {
             return;
         }
-        self.is_raised = movement.to.known.has(Axes::Z);
+        let goes_home = movement.named.is_some() && movement.from.at[..2] == movement.to.at[..2];
+        self.is_raised = movement.to.known.has(Axes::Z) || goes_home;
         let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty();
         if moves_in_plane && !self.is_raised {
             self.is_raised = true;
@@ -163,10 +173,11 @@ impl<'c> Rules<'c> {
 
     /// Only programs that switch the spindle are checked for it, because on many machines the operator does that.
     fn cutting(&mut self, line: u32, movement: &Move) {
-        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() {
+        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() || is_first_height(movement) {
             return;
         }
         self.has_cut = true;
+        self.position(line, movement);
         let message = match self.spindle.turning {
             Turning::Unstated => {
                 self.cut_before_spindle.get_or_insert(line);
@@ -180,6 +191,14 @@ impl<'c> Rules<'c> {
         };
         if !std::mem::replace(&mut self.spindle_said, true) {
             self.problems.add_at_line(message, line, |d| d);
+        }
+    }
+
+    /// Reports the first cut without a known position in the plane, because other checks do without such moves.
+    fn position(&mut self, line: u32, movement: &Move) {
+        let is_known = movement.from.known.and(movement.to.known).has(Axes::XY) || movement.named.is_some();
+        if !is_known && !std::mem::replace(&mut self.position_said, true) {
+            self.problems.add_at_line(&say::UNKNOWN_POSITION, line, |d| d);
         }
     }
 
@@ -225,6 +244,56 @@ impl<'c> Rules<'c> {
                 .add_at_line(&say::END_NOT_RAISED, self.line, |d| d.with("z", z).with("surface", surface));
         }
     }
+}
+
+/// Finds arcs between straight cuts that turn back at both ends. The arc the other way round would continue both cuts, so G2 and G3 are
+/// probably exchanged.
+#[derive(Debug, Default)]
+struct ArcDirections {
+    /// The direction of the straight cut at the current position.
+    straight: Option<[f64; 2]>,
+    /// An arc that turns back from the cut before it, with its line and its direction at its end.
+    arc: Option<(u32, Arc, [f64; 2])>,
+}
+
+impl ArcDirections {
+    fn add(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+        let (from, to) = (&movement.from, &movement.to);
+        let before = std::mem::take(self);
+        let is_level = from.known.and(to.known) == Axes::ALL && from.z() == to.z();
+        if !is_level || movement.is_nothing() || !matches!(movement.pace, Pace::Feed(_)) {
+            return;
+        }
+        match movement.shape {
+            MoveShape::Line => {
+                let way = [to.x() - from.x(), to.y() - from.y()];
+                let length = libm::hypot(way[0], way[1]);
+                let direction = way.map(|share| share / length);
+                self.straight = Some(direction);
+                if let Some((line, arc, _)) = before.arc.filter(|(.., end)| is_opposite(*end, direction)) {
+                    let word = if arc.clockwise { "G3" } else { "G2" };
+                    problems.add_at_line(&say::ARC_DOUBLES_BACK, line, |d| d.quoting("word", word));
+                }
+            }
+            MoveShape::Arc(arc) => {
+                let is_back = |straight| is_opposite(straight, arc.tangent(&from.at));
+                if arc.plane == Plane::Xy && before.straight.is_some_and(is_back) {
+                    self.arc = Some((line, arc, arc.tangent(&to.at)));
+                }
+            }
+        }
+    }
+}
+
+/// Whether two directions are opposite, within about 10 degrees.
+fn is_opposite(one: [f64; 2], other: [f64; 2]) -> bool {
+    one[0] * other[0] + one[1] * other[1] < -0.985
+}
+
+/// Whether a move sets the height at the beginning of a program, as Easel does with `G1 Z0.15` before it starts the spindle.
+fn is_first_height(movement: &Move) -> bool {
+    let stays = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.shape, MoveShape::Line);
+    stays && !movement.from.known.has(Axes::Z) && movement.to.known.has(Axes::Z)
 }
 
 /// Checks that a probe moves towards the material, which is below.
