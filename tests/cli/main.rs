@@ -51,6 +51,7 @@ mod pictures;
 mod posts;
 mod prefetch;
 mod probes;
+mod programs;
 mod progress;
 mod projects;
 mod q_project;

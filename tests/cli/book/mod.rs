@@ -87,7 +87,7 @@ pub(crate) fn files_below(directory: &Path) -> BTreeSet<String> {
 }
 
 /// Compares a file with the expected content, or writes it. Returns the difference.
-fn kept(file: &Path, now: &[u8]) -> Option<String> {
+pub(crate) fn kept(file: &Path, now: &[u8]) -> Option<String> {
     if fs::read(file).is_ok_and(|content| content == now) {
         return None;
     }
