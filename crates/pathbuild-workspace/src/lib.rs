@@ -14,7 +14,9 @@ pub mod list;
 pub mod machine;
 pub mod memo;
 pub mod posting;
+pub mod program;
 pub mod session;
+pub mod verify;
 // In the browser all files come from the page, so there is nothing to watch.
 #[cfg(not(target_family = "wasm"))]
 pub mod watch;

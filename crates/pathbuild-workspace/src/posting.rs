@@ -21,7 +21,7 @@ use regex::Regex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::config::types::Extent;
-use crate::config::{Origin, is_file_name, types};
+use crate::config::{Origin, Settings, is_file_name, types};
 use crate::memo::ExtraInput;
 use crate::workspace::Workspace;
 
@@ -109,22 +109,39 @@ impl PostProcessor {
         base: &Utf8Path,
         arguments: PostArguments,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let general = &context.settings.general;
-        let (post, definition, file) = if is_file_name(name) {
-            let file = relative(&join(base, name), context);
-            let limit = context.settings.limits.file_size.value;
-            let bytes = context
-                .system
-                .read(&file, limit)
-                .map_err(|error| vec![error.diagnostic(limit, "file-size").in_file(&file)])?;
-            (Post::read(&bytes, &file)?, bytes, Some(file))
-        } else {
-            let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
-            (pathbuild_post::load(name)?, text.as_bytes().to_vec(), None)
-        };
-        let macros = context.settings.tables.macros.value.clone();
+        let (settings, system) = (&context.settings, &context.system);
+        if !is_file_name(name) {
+            return Self::built_in(settings, system, name, arguments);
+        }
+        let file = relative(&join(base, name), context);
+        let limit = settings.limits.file_size.value;
+        let bytes = system
+            .read(&file, limit)
+            .map_err(|error| vec![error.diagnostic(limit, "file-size").in_file(&file)])?;
+        let post = Post::read(&bytes, &file)?;
+        Ok(Self::new(settings, system, (post, bytes, Some(file)), arguments))
+    }
+
+    fn built_in(
+        settings: &Settings,
+        system: &Arc<dyn System>,
+        name: &str,
+        arguments: PostArguments,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let text = BUILT_IN.iter().find(|post| post.name == name).map_or("", |post| post.text);
+        let source = (pathbuild_post::load(name)?, text.as_bytes().to_vec(), None);
+        Ok(Self::new(settings, system, source, arguments))
+    }
+
+    fn new(
+        settings: &Settings,
+        shared_system: &Arc<dyn System>,
+        (post, definition, file): (Post, Vec<u8>, Option<Utf8PathBuf>),
+        arguments: PostArguments,
+    ) -> Self {
+        let (general, system) = (&settings.general, &**shared_system);
+        let macros = settings.tables.macros.value.clone();
         let directory = file.as_deref().map(|file| file.parent().unwrap_or(Utf8Path::new("")).to_owned());
-        let system = &*context.system;
         let insertions: Vec<Utf8PathBuf> = post.insertions(&macros).into_iter().collect();
         let inserted = |directory| {
             let files = DirectoryFiles { directory, system };
@@ -133,30 +150,30 @@ impl PostProcessor {
             insertions.iter().take(MOST_INSERTIONS).flat_map(|file| *hash(file).as_bytes()).collect()
         };
         let inserted = directory.as_deref().map(inserted).unwrap_or_default();
-        Ok(Self {
+        Self {
             post,
             directory,
             definition: [definition, inserted].concat(),
             file,
             insertions,
-            tools: tool_table(context),
+            tools: tool_table(settings),
             macros,
             cycles: general.cycles.value,
             feed: general.feed.value,
-            most_bytes: context.settings.limits.output_size(),
+            most_bytes: settings.limits.output_size(),
             charset: general.charset.value,
             arguments,
-            machine: machine(context),
-            system: Arc::clone(&context.system),
-            runs_no_command: context.settings.confined.is_some(),
+            machine: machine(settings),
+            system: Arc::clone(shared_system),
+            runs_no_command: settings.confined.is_some(),
             manner: Manner {
                 unchecked: general.post.value.unchecked,
                 program_number: general.post.value.program_number,
                 manual_spindle: general.spindle.value == types::SpindleControl::Manual,
-                spin_up: context.settings.machine.spin_up.value,
-                milliseconds: context.settings.machine.dwell.value == types::DwellTime::Milliseconds,
+                spin_up: settings.machine.spin_up.value,
+                milliseconds: settings.machine.dwell.value == types::DwellTime::Milliseconds,
             },
-        })
+        }
     }
 
     /// File of the definition; `None` if the post is built in.
@@ -310,15 +327,20 @@ impl PostProcessor {
 
 /// The words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else of the built-in post for
 /// the dialect.
-pub fn known_words(context: &Workspace, wrote: Option<&PostProcessor>, dialect: Dialect) -> PostWords {
+pub fn known_words(
+    settings: &Settings,
+    system: &Arc<dyn System>,
+    wrote: Option<&PostProcessor>,
+    dialect: Dialect,
+) -> PostWords {
     if let Some(post_processor) = wrote {
         return post_processor.words(dialect);
     }
-    let built_in = PostProcessor::for_run(context, Some(dialect.name()), PostArguments::default());
-    built_in
-        .ok()
-        .flatten()
-        .map_or_else(|| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
+    if dialect == Dialect::Native {
+        return PostWords::native(dialect);
+    }
+    PostProcessor::built_in(settings, system, dialect.name(), PostArguments::default())
+        .map_or_else(|_| PostWords::native(dialect), |post_processor| post_processor.words(dialect))
 }
 
 /// A file name relative to the working directory, if it is inside.
@@ -385,8 +407,8 @@ impl PostFiles for DirectoryFiles<'_> {
 }
 
 /// The machine of the configuration; `None` if nothing is configured.
-pub fn machine(context: &Workspace) -> Option<Machine> {
-    let settings = &context.settings.machine;
+pub fn machine(settings: &Settings) -> Option<Machine> {
+    let settings = &settings.machine;
     let placed = [settings.x.value, settings.y.value, settings.z.value];
     let travel = if placed.iter().any(Option::is_some) {
         Some(Travel::Placed(placed.map(ends)))
@@ -408,8 +430,8 @@ fn ends(extent: Option<Extent>) -> (f64, f64) {
 }
 
 /// The tools of `[tool.NAME]`. Their patterns compile, because the configuration has no errors.
-pub fn tool_table(context: &Workspace) -> ToolTable {
-    ToolTable { entries: context.settings.tables.tools.value.iter().map(entry).collect() }
+pub fn tool_table(settings: &Settings) -> ToolTable {
+    ToolTable { entries: settings.tables.tools.value.iter().map(entry).collect() }
 }
 
 fn entry(tool: &types::Tool) -> ToolEntry {

@@ -9,12 +9,13 @@ use pathbuild_gcode::dialect::Charset;
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_path::LineType;
 use pathbuild_toolpath::ZModel;
+use serde::{Deserialize, Serialize};
 
 /// Declares a choice: an enum with the texts that stand for its variants.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $text:literal,)* }) => {
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         pub enum $name { $($(#[$variant_doc])* $variant,)* }
 
         impl Choice for $name {

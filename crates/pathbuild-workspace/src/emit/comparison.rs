@@ -16,6 +16,7 @@ use pathbuild_toolpath::Program;
 use super::options::{Provenances, writing};
 use super::outcome::{ProgramOutcome, State};
 use super::plan::Job;
+use crate::config::Settings;
 use crate::session::{OutputKind, SelectedPath, Session};
 use crate::workspace::Workspace;
 
@@ -124,7 +125,7 @@ fn compared(
         return DrawingComparison::Other { drawing: drawing() };
     }
     let kind = if now.probes.is_empty() { OutputKind::Milling } else { OutputKind::Clean };
-    match native_text(session.workspace(), &now, kind) {
+    match native_text(&session.workspace().settings, &now, kind) {
         Ok(expected) => match first_other_line(text, expected.as_bytes(), Parts::Code) {
             None => DrawingComparison::Same,
             Some(other) => DrawingComparison::Edited { drawing: drawing(), other },
@@ -138,12 +139,12 @@ fn compared(
 /// # Errors
 /// PB005 if it is too large.
 pub fn native_text(
-    workspace: &Workspace,
+    settings: &Settings,
     program: &Program,
     kind: OutputKind,
 ) -> Result<String, Box<Diagnostic>> {
-    let provenance = Provenances::new(&workspace.settings, None).of(&[program]);
-    let text = kind.text(program, &provenance.to_string(), &writing(workspace))?;
+    let provenance = Provenances::new(settings, None).of(&[program]);
+    let text = kind.text(program, &provenance.to_string(), &writing(settings))?;
     Ok(text.unwrap_or_default())
 }
 

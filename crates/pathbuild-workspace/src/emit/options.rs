@@ -79,10 +79,10 @@ fn meaning<'a>(context: &'a Workspace, name: &str) -> &'a str {
 }
 
 /// Settings for writing files.
-pub fn writing(context: &Workspace) -> WriteSettings {
-    let limits = &context.settings.limits;
+pub fn writing(settings: &Settings) -> WriteSettings {
+    let limits = &settings.limits;
     WriteSettings {
-        options: write_options(context),
+        options: write_options(settings),
         most_moves: limits.embedding_moves.value,
         most_bytes: limits.output_size(),
         most_memory: limits.program_memory.value,
@@ -90,11 +90,11 @@ pub fn writing(context: &Workspace) -> WriteSettings {
 }
 
 /// Settings for writing native programs.
-fn write_options(context: &Workspace) -> WriteOptions {
-    let general = &context.settings.general;
+fn write_options(settings: &Settings) -> WriteOptions {
+    let general = &settings.general;
     let rapid = general.rapid.value.unwrap_or_default();
-    let correction = Correction { model: general.z_model.value, longest: context.settings.z_split() };
-    WriteOptions { lang: context.settings.comment_lang(), charset: general.charset.value, rapid, correction }
+    let correction = Correction { model: general.z_model.value, longest: settings.z_split() };
+    WriteOptions { lang: settings.comment_lang(), charset: general.charset.value, rapid, correction }
 }
 
 /// How programs are written: natively or through a post-processor.
@@ -109,9 +109,10 @@ pub(super) struct OutputSettings<'a> {
 impl<'a> OutputSettings<'a> {
     /// Takes the settings from the configuration.
     pub(super) fn new(workspace: &Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
-        let provenances = Provenances::new(&workspace.settings, post_processor);
-        let sheets = SheetSettings::new(&workspace.settings, tool_table(workspace), post_processor);
-        Self { writing: writing(workspace), post_processor, provenances, sheets, machine: machine(workspace) }
+        let settings = &workspace.settings;
+        let provenances = Provenances::new(settings, post_processor);
+        let sheets = SheetSettings::new(settings, tool_table(settings), post_processor);
+        Self { writing: writing(settings), post_processor, provenances, sheets, machine: machine(settings) }
     }
 }
 

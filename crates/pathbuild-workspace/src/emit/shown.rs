@@ -101,7 +101,7 @@ impl Session<'_> {
             .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
             .pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
-        let writing = &writing(self.workspace());
+        let writing = &writing(&self.workspace().settings);
         // Without a rapid feed, or for a path that is only checked, `emit` writes nothing: the text is a preview.
         let is_written = *checked.target.role(self.db()) == Role::Emitted
             && self.workspace().settings.general.rapid.value.is_some();

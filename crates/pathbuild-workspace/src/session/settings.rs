@@ -43,7 +43,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
 
 fn part(context: &Workspace) -> Option<PartSettings> {
     let general = &context.settings.general;
-    let table = tool_table(context);
+    let table = tool_table(&context.settings);
     let tools = &context.settings.tables.tools.value;
     let is_slot: Vec<bool> = tools.iter().map(|tool| tool.shape == types::CutterShape::Slot).collect();
     let slots = move |path: &str, diameter| table.position(path, diameter).is_some_and(|tool| is_slot[tool]);

@@ -5,8 +5,10 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand, ValueEnum};
 use clap_complete::env::Shells;
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::UnitCodes;
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::types::Requirement;
+use pathbuild_workspace::program::ReadingOptions;
 
 use super::shared::{Address, InputArgs};
 use crate::completion;
@@ -176,6 +178,21 @@ pub struct ReadingArgs {
     /// `XpertMILL`: ignore F and use the feeds of the layers
     #[arg(long)]
     pub ignore_feed: bool,
+}
+
+impl ReadingArgs {
+    /// The options as the workspace takes them.
+    pub fn options(&self) -> ReadingOptions {
+        ReadingOptions {
+            dialect: self.dialect,
+            unit_codes: match self.unit_codes {
+                Some(UnitCodesArg::Table) => UnitCodes::Table,
+                Some(UnitCodesArg::Din) | None => UnitCodes::Din,
+            },
+            absolute_arc_centres: self.absolute_arc_centres,
+            ignore_feed: self.ignore_feed,
+        }
+    }
 }
 
 /// What G70 and G71 mean.

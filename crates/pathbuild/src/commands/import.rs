@@ -6,9 +6,9 @@ use pathbuild_diagnostic::{Diagnostic, Lang, Number, in_prose, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
 use pathbuild_gcode::statistics::{Extent, MoveTotals, Summary, Tally, Used, is_guess};
+use pathbuild_workspace::program::Program;
 use serde_json::{Value, json};
 
-use super::program::Program;
 use crate::args::ImportArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -18,7 +18,7 @@ use crate::render::Format;
 pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
     let mut diagnostics = Vec::new();
     for file in &args.files {
-        match Program::open(context, file, &args.reading) {
+        match Program::open(context, file, args.reading.options()) {
             Ok(program) => {
                 let facts = Facts::new(context, &program);
                 match context.format {
@@ -152,7 +152,11 @@ impl Formatter<'_> {
         let program = facts.program;
         let lines = program.lines();
         let noun = if lines == 1 { self.choose("line", "Zeile") } else { self.choose("lines", "Zeilen") };
-        format!("{}: {lines} {noun}, {}\n", shown::line(program.file.as_str()), program.read_as(self.0))
+        format!(
+            "{}: {lines} {noun}, {}\n",
+            shown::line(program.file.as_str()),
+            program.read_as(self.0.lang())
+        )
     }
 
     fn lines(&self, facts: &Facts<'_>) -> Vec<(&str, String)> {

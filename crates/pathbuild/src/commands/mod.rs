@@ -19,7 +19,6 @@ pub mod machine;
 pub mod man;
 mod picture_output;
 pub mod post;
-mod program;
 pub mod q_project;
 pub mod sheet;
 pub mod texts;

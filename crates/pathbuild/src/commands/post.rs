@@ -18,9 +18,9 @@ use crate::render::Format;
 use pathbuild_workspace::config::number;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};
+use pathbuild_workspace::program::Program;
 
 use super::output_row;
-use super::program::Program;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
@@ -94,7 +94,8 @@ fn written(
     post_processor: &PostProcessor,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(), Vec<Diagnostic>> {
-    let mut program = Program::open(context, file, &args.reading).map_err(|problem| vec![*problem])?;
+    let mut program =
+        Program::open(context, file, args.reading.options()).map_err(|problem| vec![*problem])?;
     let is_wrong = program.read.problems.iter().any(Diagnostic::is_error);
     diagnostics.append(&mut program.read.problems);
     if is_wrong {

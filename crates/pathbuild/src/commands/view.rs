@@ -6,10 +6,10 @@ use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_there;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::{NamedPaths, Session};
 
 use super::picture_output::{deliver, show};
-use super::program::Program;
 use crate::args::ViewArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -57,8 +57,8 @@ fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failu
 }
 
 fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
-    let program =
-        Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
+    let program = Program::open(context, file, args.reading.options())
+        .map_err(|problem| Failure::Found(vec![*problem]))?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
     scene.paths.push(program.scene_path(context));
     let report = SceneReport { scene, diagnostics: program.read.problems };

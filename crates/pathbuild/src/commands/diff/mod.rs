@@ -11,10 +11,10 @@ use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Pictures, Tree, programs, trees};
 use pathbuild_workspace::emit::ShownText;
+use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace};
 
-use super::program::Program;
 use crate::args::DiffArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -194,8 +194,8 @@ impl Drawings {
 }
 
 fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<ComparedProgram, Failure> {
-    let program =
-        Program::open(context, file, &args.reading).map_err(|problem| Failure::Found(vec![*problem]))?;
+    let program = Program::open(context, file, args.reading.options())
+        .map_err(|problem| Failure::Found(vec![*problem]))?;
     Ok(ComparedProgram { path: program.scene_path(context), problems: program.read.problems })
 }
 

@@ -14,18 +14,18 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{self, Agreement, Clamps, PastClamps, PostWords, ToolUse};
 use pathbuild_motion::{Axes, Move, Position};
 use pathbuild_path::KeepOut;
-use pathbuild_post::{Job, program_number};
-use serde_json::json;
+use pathbuild_post::{Job, ToolTable, program_number};
 
-use crate::commands::program::Program;
-use crate::context::Context;
-use crate::numbers::count;
-use pathbuild_workspace::config::types::DwellTime;
-use pathbuild_workspace::emit::{Provenances, missing_values, native_text, writing};
-use pathbuild_workspace::posting::{PostProcessor, tool_table};
-use pathbuild_workspace::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
+use super::{Failure, MoveComparison};
+use crate::config::Settings;
+use crate::config::types::DwellTime;
+use crate::emit::{Provenances, missing_values, native_text, writing};
+use crate::posting::PostProcessor;
+use crate::program::Program;
+use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
 
 /// The program of a path, as its drawing defines it.
+#[derive(Debug)]
 pub(super) struct ReferenceProgram {
     drawn: Arc<pathbuild_toolpath::Program>,
     /// The drawing.
@@ -53,32 +53,24 @@ impl Rewritten {
     }
 }
 
-/// Why there is no such program.
-pub(super) enum Failure {
-    /// An option is missing.
-    Usage(String),
-    /// The drawing has errors, or the name is unknown.
-    Found(Vec<Diagnostic>),
-}
-
 impl ReferenceProgram {
-    pub(super) fn new(context: &Context, session: &Session<'_>, name: &str) -> Result<Self, Failure> {
+    pub(super) fn new(session: &Session<'_>, name: &str) -> Result<Self, Failure> {
         let target = target(session, name)?;
         let checked = session.check(&[target]);
-        let [checked] = checked.as_slice() else { return Err(Failure::Found(Vec::new())) };
+        let [checked] = checked.as_slice() else { return Err(Failure::Drawing(Vec::new())) };
         if checked.diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(Failure::Found(checked.diagnostics.clone()));
+            return Err(Failure::Drawing(checked.diagnostics.clone()));
         }
         if !checked.missing_options.is_empty() {
             let names = checked.missing_options.iter().map(|option| option.name());
-            return Err(Failure::Usage(missing_values(context, names)));
+            return Err(Failure::Usage(missing_values(session.workspace(), names)));
         }
         let outcome = session.query_target(target, |db| {
             let placed = placed_keep_outs(db, target).into_iter().map(|clamp| clamp.placed);
             (program(db, target).clone(), placed.collect::<Vec<KeepOut>>())
         });
-        let (drawn, placed) = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
-        let drawn = drawn.ok_or_else(|| Failure::Found(Vec::new()))?;
+        let (drawn, placed) = outcome.map_err(|problem| Failure::Drawing(vec![*problem]))?;
+        let drawn = drawn.ok_or_else(|| Failure::Drawing(Vec::new()))?;
         let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
         let file = target.file(session.db()).path(session.db()).clone();
         Ok(Self { drawn, file, clamps })
@@ -97,7 +89,8 @@ impl ReferenceProgram {
     /// Compares a program in a dialect with the drawing. The steps must have their nominal heights, before correction.
     pub(super) fn comparison<'w>(
         &self,
-        context: &Context,
+        settings: &Settings,
+        table: &ToolTable,
         dialect: Dialect,
         words: &'w PostWords,
         rewritten: Option<&Rewritten>,
@@ -112,76 +105,48 @@ impl ReferenceProgram {
             moves: drawn_moves.chain(written.into_iter().flatten()),
             start,
             clearance,
-            tool: self.tool(context),
-            number: self.number(context),
-            spin_up: context.settings.machine.spin_up.value,
+            tool: self.tool(table),
+            number: self.number(settings),
+            spin_up: settings.machine.spin_up.value,
         };
         verify::Against::new(drawn, dialect, words)
     }
 
-    /// Reports what was compared, and returns the differences. None counts if the program has the lines that its definition writes. What an
-    /// unchecked definition writes is the measure of its programs, but says nothing about the drawing.
+    /// What was compared, and the differences. None counts if the program has the lines that its definition writes. What an unchecked
+    /// definition writes is the measure of its programs, but says nothing about the drawing.
     pub(super) fn conclude(
         &self,
-        context: &Context,
         program: &Program,
+        lang: Lang,
         agreement: Agreement,
         rewritten: Option<&Rewritten>,
-    ) -> Vec<Diagnostic> {
+    ) -> (Option<MoveComparison>, Vec<Diagnostic>) {
+        let comparison = |equal, moves| {
+            let (path, drawing) = ((*self.drawn.path).to_owned(), self.file.clone());
+            let (dialect, read_as) = (program.manner().to_owned(), program.read_as(lang));
+            Some(MoveComparison { path, drawing, dialect, read_as, moves, equal })
+        };
         let drawn = self.drawn.moves().count();
         let Some(rewritten) = rewritten else {
-            self.say(context, program, agreement.equal, drawn);
-            return agreement.differences;
+            return (comparison(agreement.equal, drawn), agreement.differences);
         };
         let (mut differences, equal, moves) = match &rewritten.other_line {
             None => (Vec::new(), drawn, drawn),
             Some(_) => (agreement.differences, agreement.equal, rewritten.moves.len()),
         };
-        if rewritten.is_read_back {
-            self.say(context, program, equal, moves);
-        } else {
+        let compared = rewritten.is_read_back.then(|| comparison(equal, moves)).flatten();
+        if compared.is_none() {
             let unread = Diagnostic::new(&say::MOVES_NOT_COMPARED).quoting("path", &*self.drawn.path);
-            differences.push(unread.quoting("post", program.read_as(context)));
+            differences.push(unread.quoting("post", program.read_as(lang)));
         }
-        let Some((line, expected)) = &rewritten.other_line else { return differences };
         // If words are left out, only the text tells whether they are right.
-        if program.words_left_out().next().is_some() {
+        if let Some((line, expected)) = &rewritten.other_line
+            && program.words_left_out().next().is_some()
+        {
             let problem = Diagnostic::new(&say::LINE_NOT_WRITTEN).quoting("expected", expected.as_str());
             differences.push(problem.at_line(*line, None));
         }
-        differences
-    }
-
-    /// Reports what was compared, and how many moves are equal.
-    fn say(&self, context: &Context, program: &Program, equal: usize, moves: usize) {
-        let path = &self.drawn.path;
-        context.json_row(|| {
-            let row = json!({
-                "file": context.file(&program.file),
-                "path": &**path,
-                "drawing": context.file(&self.file),
-                "dialect": program.manner(),
-                "moves": moves,
-                "equal": equal,
-            });
-            ("agreement", row)
-        });
-        let lang = context.lang();
-        let (drawing, dialect) = (&self.file, program.read_as(context));
-        let rest = context.choose("; what follows is not compared", "; was folgt, ist nicht verglichen");
-        let rest = if equal < moves { rest } else { "" };
-        let [equal, all] = [equal, moves].map(|number| count(number, lang));
-        let line = match lang {
-            Lang::En => {
-                format!("{equal} of {all} moves as in path {path} of {drawing}{rest}; read as {dialect}")
-            }
-            Lang::De => {
-                format!(
-                    "{equal} von {all} Bewegungen wie im Pfad {path} aus {drawing}{rest}; gelesen als {dialect}"
-                )
-            }
-        };
-        context.printer.status(format_args!("{}: {line}", program.file));
+        (compared, differences)
     }
 
     /// The program of the path as a definition writes it now.
@@ -190,7 +155,7 @@ impl ReferenceProgram {
     /// If the definition cannot write it.
     pub(super) fn rewritten(
         &self,
-        context: &Context,
+        settings: &Settings,
         writer: &PostProcessor,
         program: &Program,
     ) -> Result<Rewritten, Vec<Diagnostic>> {
@@ -200,7 +165,7 @@ impl ReferenceProgram {
         let translated = writer.translate(&text).map(|translated| translated.text.into_bytes());
         let code = translated.as_deref().unwrap_or(&text);
         let options = Options {
-            milliseconds: context.settings.machine.dwell.value == DwellTime::Milliseconds,
+            milliseconds: settings.machine.dwell.value == DwellTime::Milliseconds,
             ..Options::default()
         };
         let all = interpret::interpret(code, program.dialect, &options).moves();
@@ -223,7 +188,7 @@ impl ReferenceProgram {
     /// PB005 if the text that `emit` would write is too large.
     pub(super) fn text_differences(
         &self,
-        context: &Context,
+        settings: &Settings,
         program: &Program,
         is_probing: bool,
         is_sound: bool,
@@ -234,17 +199,17 @@ impl ReferenceProgram {
             (false, true) => OutputKind::Clean,
             (false, false) => OutputKind::Milling,
         };
-        let text = native_text(context, &self.drawn, kind)?.into_bytes();
+        let text = native_text(settings, &self.drawn, kind)?.into_bytes();
         if is_probing && let Some(other) = native::first_other_line(&program.text, &text, Parts::Code) {
             return Ok(vec![other_line(&say::PROBING_NOT_DRAWN, other)]);
         }
-        let correction = writing(context).options.correction;
+        let correction = writing(settings).options.correction;
         let mut differences = Vec::new();
         if !is_probing {
             differences = native::formula_differences(&program.text, &self.drawn, correction);
         }
         let header = Provenance::of_head(&program.text).map(|(provenance, _)| provenance);
-        let now = Provenances::new(&context.settings, None).of(&[&*self.drawn]);
+        let now = Provenances::new(settings, None).of(&[&*self.drawn]);
         // A program of ours whose first line was removed or damaged still has its title.
         let has_same_options =
             header.map_or_else(|| native::has_title(&program.text), |header| header.options == now.options);
@@ -266,14 +231,13 @@ impl ReferenceProgram {
     }
 
     /// The program number that posts write.
-    fn number(&self, context: &Context) -> Option<u32> {
-        let configured = context.settings.general.post.value.program_number;
+    fn number(&self, settings: &Settings) -> Option<u32> {
+        let configured = settings.general.post.value.program_number;
         configured.or_else(|| program_number(&self.drawn.path))
     }
 
     /// The configured tool.
-    fn tool(&self, context: &Context) -> ToolUse {
-        let table = tool_table(context);
+    fn tool(&self, table: &ToolTable) -> ToolUse {
         let Some(entry) = table.find(&self.drawn.path, self.drawn.tool) else { return ToolUse::default() };
         ToolUse { number: entry.index, turning: entry.spindle, speed: entry.speed, coolant: entry.coolant }
     }
@@ -286,14 +250,14 @@ fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
 /// Resolves an argument to a single path.
 fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
     session.one_path(name, Role::Emitted).map_err(|not_one| match not_one {
-        NotOnePath::Wrong(found) => Failure::Found(found),
+        NotOnePath::Wrong(found) => Failure::Drawing(found),
         NotOnePath::Several(NamedPaths { file, names }) => {
             let db = session.db();
             let mut found = check_file(db, file).to_vec();
             if !found.iter().any(Diagnostic::is_error) {
                 found.push(several_paths(file.path(db), &names));
             }
-            Failure::Found(found)
+            Failure::Drawing(found)
         }
         NotOnePath::Directory => Failure::Usage(session.workspace().phrase(
             "--against takes one path: `{}` is a directory",

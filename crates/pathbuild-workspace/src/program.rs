@@ -4,8 +4,9 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::{files, gcode};
-use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
     Disputes, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, UnitCodes, guess,
@@ -17,38 +18,71 @@ use pathbuild_post::{DoubtfulWord, TranslatedText};
 use pathbuild_toolpath::memory;
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 
-use crate::args::{ReadingArgs, UnitCodesArg};
-use crate::context::Context;
-use pathbuild_workspace::config::types::DwellTime;
+use crate::config::Settings;
+use crate::config::types::DwellTime;
+use crate::workspace::Workspace;
+
+/// How programs are read.
+#[derive(Clone, Copy, Debug)]
+pub struct ReadingOptions {
+    /// The dialect; `None` guesses it.
+    pub dialect: Option<Dialect>,
+    /// Meaning of G70 and G71.
+    pub unit_codes: UnitCodes,
+    /// Whether I and J are the centre of an arc itself.
+    pub absolute_arc_centres: bool,
+    /// Whether F is ignored.
+    pub ignore_feed: bool,
+}
+
+impl Default for ReadingOptions {
+    fn default() -> Self {
+        Self { dialect: None, unit_codes: UnitCodes::Din, absolute_arc_centres: false, ignore_feed: false }
+    }
+}
+
+impl ReadingOptions {
+    fn with_settings(self, settings: &Settings) -> Options {
+        Options {
+            unit_codes: self.unit_codes,
+            absolute_arc_centres: self.absolute_arc_centres,
+            ignore_feed: self.ignore_feed,
+            milliseconds: settings.machine.dwell.value == DwellTime::Milliseconds,
+            ..Options::default()
+        }
+    }
+}
 
 /// A program that was read.
-pub(super) struct Program {
+#[derive(Debug)]
+pub struct Program {
     /// File name as given.
-    pub(super) file: Utf8PathBuf,
+    pub file: Utf8PathBuf,
     /// Contents of the file.
-    pub(super) text: Vec<u8>,
+    pub text: Vec<u8>,
     /// Dialect in which it was read.
-    pub(super) dialect: Dialect,
+    pub dialect: Dialect,
     /// The evidence for the dialect, if it was guessed.
-    pub(super) evidence: Option<Evidence>,
+    pub evidence: Option<Evidence>,
     /// The dialect that was named or guessed. A program that is read by a definition is read in another.
-    pub(super) shown: Dialect,
+    pub shown: Dialect,
     /// Steps and diagnostics.
-    pub(super) read: Interpretation,
+    pub read: Interpretation,
     /// How it was read, if by the definition that wrote it instead of a dialect.
-    pub(super) by_definition: Option<ByDefinition>,
+    pub by_definition: Option<ByDefinition>,
     options: Options,
 }
 
 /// Translates a text by the definition that wrote it, if one is known; it gets the guess if no dialect is named.
-pub(super) type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
+pub type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
 
 /// A program read by the definition that wrote it.
-pub(super) struct ByDefinition {
+#[derive(Debug)]
+pub struct ByDefinition {
     /// The definition's name.
-    pub(super) name: String,
+    pub name: String,
     /// The program in the words of RS274, line for line.
-    pub(super) translated: TranslatedText,
+    pub translated: TranslatedText,
 }
 
 impl Program {
@@ -56,21 +90,23 @@ impl Program {
     ///
     /// # Errors
     /// If the file cannot be read at all; diagnostics of its lines are in [`read`](Self::read).
-    pub(super) fn open(
-        context: &Context,
+    pub fn open(
+        workspace: &Workspace,
         file: &Utf8Path,
-        args: &ReadingArgs,
+        reading: ReadingOptions,
     ) -> Result<Self, Box<Diagnostic>> {
-        let (mut steps, limit) = (Vec::new(), context.settings.limits.program_memory.value);
+        let (mut steps, limit) = (Vec::new(), workspace.settings.limits.program_memory.value);
         let mut stopped = None;
-        let mut program = Self::open_until(context, file, args, &|_, _| None, &mut |step| {
-            if memory(steps.len() as u64 + 1) > limit {
-                stopped = Some(step.line);
-                return ControlFlow::Break(());
-            }
-            steps.push(step);
-            ControlFlow::Continue(())
-        })?;
+        let text = read(workspace, file)?;
+        let mut program =
+            Self::read_until(&workspace.settings, file, text, reading, &|_, _| None, &mut |step| {
+                if memory(steps.len() as u64 + 1) > limit {
+                    stopped = Some(step.line);
+                    return ControlFlow::Break(());
+                }
+                steps.push(step);
+                ControlFlow::Continue(())
+            });
         if let Some(line) = stopped {
             let mut problem = too_much_memory(steps.len(), limit).at_line(line, None);
             program.place(std::slice::from_mut(&mut problem));
@@ -80,42 +116,35 @@ impl Program {
         Ok(program)
     }
 
-    /// Reads a file and passes on its steps without keeping them; large programs are interpreted again instead. `definition` translates the
-    /// text if a post's definition says what its words mean; it gets the guess if no dialect is named.
-    ///
-    /// # Errors
-    /// If the file cannot be read at all.
-    pub(super) fn open_each(
-        context: &Context,
+    /// Reads the text of a file and passes on its steps without keeping them; large programs are interpreted again instead. `definition`
+    /// translates the text if a post's definition says what its words mean; it gets the guess if no dialect is named.
+    pub fn read_each(
+        settings: &Settings,
         file: &Utf8Path,
-        args: &ReadingArgs,
+        text: Vec<u8>,
+        reading: ReadingOptions,
         definition: &Translate<'_>,
         each: &mut dyn FnMut(Step),
-    ) -> Result<Self, Box<Diagnostic>> {
-        Self::open_until(context, file, args, definition, &mut |step| {
+    ) -> Self {
+        Self::read_until(settings, file, text, reading, definition, &mut |step| {
             each(step);
             ControlFlow::Continue(())
         })
     }
 
-    fn open_until(
-        context: &Context,
+    fn read_until(
+        settings: &Settings,
         file: &Utf8Path,
-        args: &ReadingArgs,
+        text: Vec<u8>,
+        reading: ReadingOptions,
         definition: &Translate<'_>,
         each: &mut dyn FnMut(Step) -> ControlFlow<()>,
-    ) -> Result<Self, Box<Diagnostic>> {
-        let limit = context.settings.limits.file_size.value;
-        let text = context
-            .system
-            .read(file, limit)
-            .map_err(|error| Box::new(error.diagnostic(limit, "file-size").in_file(file)))?;
-        let guessed = args.dialect.is_none().then(|| guess(&text));
+    ) -> Self {
+        let guessed = reading.dialect.is_none().then(|| guess(&text));
         let by_definition = definition(&text, guessed.as_ref());
-        let dialect = args.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
-        let shown = dialect;
-        let dialect = if by_definition.is_some() { Dialect::LinuxCnc } else { dialect };
-        let options = options(context, args);
+        let shown = reading.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
+        let dialect = if by_definition.is_some() { Dialect::LinuxCnc } else { shown };
+        let options = reading.with_settings(settings);
         let mut disputes = Disputes::default();
         let code = by_definition.as_ref().map_or(&*text, |by| by.translated.text.as_bytes());
         let mut problems = interpret_until(code, dialect, &options, &mut |step| {
@@ -140,53 +169,53 @@ impl Program {
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
         let read = Interpretation { steps: Vec::new(), problems };
-        Ok(Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options })
+        Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
     }
 
     /// The program at its nominal heights, without the correction formulas.
-    pub(super) fn drawn(&self) -> Text<'_> {
+    pub fn drawn(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
         Text { text: self.code(), dialect: self.dialect, options }
     }
 
     /// The number of the word for inches, times ten.
-    pub(super) fn inch_word(&self) -> u16 {
+    pub fn inch_word(&self) -> u16 {
         self.options.unit_words(self.dialect.rules())[0]
     }
 
     /// The text that is read in its dialect.
-    pub(super) fn code(&self) -> &[u8] {
+    pub fn code(&self) -> &[u8] {
         self.by_definition.as_ref().map_or(&self.text, |by| by.translated.text.as_bytes())
     }
 
     /// Words that the reader of its definition leaves out.
-    pub(super) fn words_left_out(&self) -> impl Iterator<Item = &DoubtfulWord> {
+    pub fn words_left_out(&self) -> impl Iterator<Item = &DoubtfulWord> {
         self.by_definition.iter().flat_map(|by| &by.translated.doubtful)
     }
 
     /// The name of the dialect or the definition by which it was read.
-    pub(super) fn manner(&self) -> &str {
+    pub fn manner(&self) -> &str {
         self.by_definition.as_ref().map_or_else(|| self.dialect.name(), |by| &by.name)
     }
 
     /// Adds the file, and the line of text, to diagnostics.
-    pub(super) fn place(&self, diagnostics: &mut [Diagnostic]) {
+    pub fn place(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics, &self.file, &self.text);
     }
 
     /// The same for diagnostics that have no file yet; the others refer to lines of another file.
-    pub(super) fn place_own(&self, diagnostics: &mut [Diagnostic]) {
+    pub fn place_own(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
 
     /// The dialect, and why it was guessed.
-    pub(super) fn read_as(&self, context: &Context) -> String {
+    pub fn read_as(&self, lang: Lang) -> String {
         let mut text = self.manner().to_owned();
         if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
-            let reason = evidence.reason.in_lang(context.lang());
-            _ = write!(text, " ({}: {reason}", context.choose("guessed", "vermutet"));
+            let reason = evidence.reason.in_lang(lang);
+            _ = write!(text, " ({}: {reason}", lang.choose("guessed", "vermutet"));
             if let Some(line) = evidence.line {
-                _ = write!(text, ", {} {line}", context.choose("line", "Zeile"));
+                _ = write!(text, ", {} {line}", lang.choose("line", "Zeile"));
             }
             text.push(')');
         }
@@ -194,20 +223,20 @@ impl Program {
     }
 
     /// The first line whose moves are unknown, such as a call of a subprogram: lengths and times are then unknown as well.
-    pub(super) fn first_unfollowed_line(&self) -> Option<u32> {
+    pub fn first_unfollowed_line(&self) -> Option<u32> {
         let is_unfollowed =
             |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;
         self.read.problems.iter().find(is_unfollowed).map(|problem| problem.place.line.unwrap_or(0))
     }
 
     /// The program as a path of a scene. It has no totals if some of its moves are unknown.
-    pub(super) fn scene_path(&self, context: &Context) -> ScenePath {
+    pub fn scene_path(&self, workspace: &Workspace) -> ScenePath {
         let source = GcodeSource {
             file: self.file.as_str(),
             steps: &self.read.steps,
             text: &self.text,
             tool: None,
-            rapid: context.settings.general.rapid.value,
+            rapid: workspace.settings.general.rapid.value,
         };
         let path = gcode_path(&source);
         let totals = path.totals.filter(|_| self.first_unfollowed_line().is_none());
@@ -215,9 +244,19 @@ impl Program {
     }
 
     /// Number of lines.
-    pub(super) fn lines(&self) -> usize {
+    pub fn lines(&self) -> usize {
         self.text.split_inclusive(|byte| *byte == b'\n').count()
     }
+}
+
+/// The bytes of a program.
+///
+/// # Errors
+/// If the file cannot be read, or is too large.
+pub fn read(workspace: &Workspace, file: &Utf8Path) -> Result<Vec<u8>, Box<Diagnostic>> {
+    let limit = workspace.settings.limits.file_size.value;
+    let unreadable = |error: ReadError| Box::new(error.diagnostic(limit, "file-size").in_file(file));
+    workspace.system.read(file, limit).map_err(unreadable)
 }
 
 /// PB779: words on which the dialects disagree that a program may be in.
@@ -235,19 +274,6 @@ fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
         .with("size", memory(count + 1))
         .with("limit", limit)
         .quoting("key", "program-memory")
-}
-
-fn options(context: &Context, args: &ReadingArgs) -> Options {
-    Options {
-        unit_codes: match args.unit_codes {
-            Some(UnitCodesArg::Table) => UnitCodes::Table,
-            Some(UnitCodesArg::Din) | None => UnitCodes::Din,
-        },
-        absolute_arc_centres: args.absolute_arc_centres,
-        ignore_feed: args.ignore_feed,
-        milliseconds: context.settings.machine.dwell.value == DwellTime::Milliseconds,
-        ..Options::default()
-    }
 }
 
 fn place<'d>(diagnostics: impl IntoIterator<Item = &'d mut Diagnostic>, file: &Utf8Path, text: &[u8]) {

@@ -5,36 +5,19 @@ use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapids_at_depth};
-use pathbuild_post::ToolTable;
 
-use super::StockOptions;
 use super::against::ReferenceProgram;
-use crate::commands::program::Program;
-use crate::context::Context;
-use pathbuild_workspace::posting::tool_table;
+use super::checks::Origin;
+use super::{Verifier, VerifyOptions};
+use crate::program::Program;
 
-/// Everything that may say which cutter a program uses and how high its material is.
+/// Everything that may say which cutter a program uses and how high its material is, and what was concluded.
 pub(super) struct Sources<'s> {
-    pub(super) program: &'s Program,
-    pub(super) header: &'s Header,
-    pub(super) options: &'s StockOptions,
-    pub(super) against: Option<&'s ReferenceProgram>,
-    table: ToolTable,
-    cells: u64,
-    pieces: u64,
-}
-
-/// Where a value comes from; the program's own statements come last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Origin {
-    /// The command line.
-    Option,
-    /// The drawing that the program is compared with.
-    Drawing,
-    /// `[tool]`.
-    Table,
-    /// Comments of the program, or the heights at which its plunges begin to cut.
-    Program,
+    verifier: &'s Verifier<'s>,
+    program: &'s Program,
+    header: &'s Header,
+    cutters: Option<Vec<(u32, Cutter)>>,
+    stock: Option<Stock>,
 }
 
 /// The diameters in mm that the sources give for a cutting tool.
@@ -66,30 +49,33 @@ impl ToolDiameters {
 }
 
 impl<'s> Sources<'s> {
-    pub(super) fn new(
-        context: &Context,
-        program: &'s Program,
-        header: &'s Header,
-        options: &'s StockOptions,
-        against: Option<&'s ReferenceProgram>,
-    ) -> Self {
-        let limits = &context.settings.limits;
-        let (cells, pieces) = (limits.verify_cells.value, limits.verify_pieces.value);
-        Self { program, header, options, against, table: tool_table(context), cells, pieces }
+    pub(super) fn new(verifier: &'s Verifier<'s>, program: &'s Program, header: &'s Header) -> Self {
+        let mut sources = Self { verifier, program, header, cutters: None, stock: None };
+        sources.cutters = sources.known_cutters();
+        sources.stock = sources.known_stock();
+        sources
     }
 
     /// The material that the program cuts, as far as cutters and surface are known.
-    ///
+    pub(super) fn stock(&self) -> Option<&Stock> {
+        self.stock.as_ref()
+    }
+
+    /// The cutters, each with the line from which it applies; `None` if that of any cut is unknown, or if there are no cuts.
+    pub(super) fn cutters(&self) -> Option<&[(u32, Cutter)]> {
+        self.cutters.as_deref()
+    }
+
     /// The surface is taken from the command line, else from the drawing if it has only one, else from the heights at which a native
     /// program's plunges begin to cut, else from the header.
-    pub(super) fn stock(&self) -> Option<Stock> {
+    fn known_stock(&self) -> Option<Stock> {
         let cutters = self.cutters()?;
         let uniform = |surface: f64| {
             let pieces =
                 cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
             Stock::of_pieces(pieces.collect())
         };
-        if let Some(surface) = self.options.surface.or(self.against.and_then(ReferenceProgram::surface)) {
+        if let Some(surface) = self.options().surface.or(self.drawn_surface()) {
             return Some(self.limited(uniform(surface)));
         }
         let native = (self.program.dialect == Dialect::Native)
@@ -99,7 +85,7 @@ impl<'s> Sources<'s> {
 
     /// Where the cutters come from: the last of these places, if the program has several tools.
     pub(super) fn cutter_origin(&self) -> Option<Origin> {
-        let given = self.options.cutter.map(|_| Origin::Option).or(self.drawn().map(|_| Origin::Drawing));
+        let given = self.options().cutter.map(|_| Origin::Option).or(self.drawn().map(|_| Origin::Drawing));
         self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
     }
 
@@ -112,8 +98,8 @@ impl<'s> Sources<'s> {
 
     /// Where the surface comes from, with its height if it is the same everywhere.
     pub(super) fn surface(&self) -> Option<(Origin, Option<f64>)> {
-        let drawn = self.against.and_then(ReferenceProgram::surface);
-        let given = self.options.surface.map(|surface| (Origin::Option, Some(surface)));
+        let drawn = self.drawn_surface();
+        let given = self.options().surface.map(|surface| (Origin::Option, Some(surface)));
         let known = given.or(drawn.map(|surface| (Origin::Drawing, Some(surface))));
         known.or_else(|| self.stock().map(|stock| (Origin::Program, stock.common_surface())))
     }
@@ -121,12 +107,12 @@ impl<'s> Sources<'s> {
     /// Reports rapid moves at cutting depth, unless the surface is known by more than the comments of another CAM, or the line has an
     /// error already.
     pub(super) fn doubtful_rapids(&self, found: &[Diagnostic]) -> Vec<Diagnostic> {
-        let is_known = self.options.surface.is_some()
-            || self.against.is_some()
+        let is_known = self.options().surface.is_some()
+            || self.verifier.against.is_some()
             || self.program.dialect == Dialect::Native
             || self.header.is_of_pathbuild;
         let Some(cutters) = self.cutters().filter(|_| !is_known) else { return Vec::new() };
-        let stock = self.limited(Stock::with_unknown_surface(&cutters));
+        let stock = self.limited(Stock::with_unknown_surface(cutters));
         let mut doubts = rapids_at_depth(&self.program.drawn(), &stock);
         let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
         doubts.retain(|doubt| match doubt.code() {
@@ -141,12 +127,12 @@ impl<'s> Sources<'s> {
     }
 
     fn limited(&self, stock: Stock) -> Stock {
-        stock.with_cells(self.cells).with_pieces(self.pieces)
+        let limits = &self.verifier.settings.limits;
+        stock.with_cells(limits.verify_cells.value).with_pieces(limits.verify_pieces.value)
     }
 
-    /// The cutters, each with the line from which it applies; `None` if that of any cut is unknown, or if there are no cuts.
-    pub(super) fn cutters(&self) -> Option<Vec<(u32, Cutter)>> {
-        let given = self.options.cutter.or(self.drawn());
+    fn known_cutters(&self) -> Option<Vec<(u32, Cutter)>> {
+        let given = self.options().cutter.or(self.drawn());
         let widths = |tool: &CuttingTool| Some((tool.line, self.diameters(tool).cutter()?));
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
         // The tool of a subprogram's lines depends on who calls it.
@@ -184,17 +170,22 @@ impl<'s> Sources<'s> {
         found.extend(compared(
             &say::OTHER_CUTTER_DRAWN,
             &CUTTER,
-            different(self.options.cutter, self.drawn()),
+            different(self.options().cutter, self.drawn()),
         ));
-        let surface = self.against.and_then(ReferenceProgram::surface);
+        let surface = self.drawn_surface();
         found.extend(compared(&say::OTHER_SURFACE_DRAWN, &HEADER, different(self.header.surface, surface)));
-        found.extend(compared(&say::OTHER_SURFACE_DRAWN, &SURFACE, different(self.options.surface, surface)));
+        found.extend(compared(
+            &say::OTHER_SURFACE_DRAWN,
+            &SURFACE,
+            different(self.options().surface, surface),
+        ));
         found
     }
 
     /// Warns about tools that are not in the table, unless the table has no numbers at all.
     pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
-        let table_numbers: Vec<u32> = self.table.entries.iter().filter_map(|entry| entry.index).collect();
+        let table_numbers: Vec<u32> =
+            self.verifier.table.entries.iter().filter_map(|entry| entry.index).collect();
         // Layers are not tools, and native programs always say T1.
         let is_no_tool = matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native);
         let mut unknown: Vec<(u32, u32)> = Vec::new();
@@ -210,14 +201,26 @@ impl<'s> Sources<'s> {
         unknown.into_iter().map(warning).collect()
     }
 
+    fn options(&self) -> &'s VerifyOptions {
+        &self.verifier.options
+    }
+
     fn drawn(&self) -> Option<f64> {
-        self.against.and_then(ReferenceProgram::cutter)
+        self.verifier.against.as_ref().and_then(ReferenceProgram::cutter)
+    }
+
+    fn drawn_surface(&self) -> Option<f64> {
+        self.verifier.against.as_ref().and_then(ReferenceProgram::surface)
     }
 
     fn diameters(&self, tool: &CuttingTool) -> ToolDiameters {
-        let entry =
-            self.table.entries.iter().find(|entry| entry.index.is_some() && entry.index == tool.number);
-        let (given, drawn, header) = (self.options.cutter, self.drawn(), tool.cutter);
+        let entry = self
+            .verifier
+            .table
+            .entries
+            .iter()
+            .find(|entry| entry.index.is_some() && entry.index == tool.number);
+        let (given, drawn, header) = (self.options().cutter, self.drawn(), tool.cutter);
         // Layers are not tools, but may be numbered like them.
         let is_only_source = given.or(drawn).is_none() && header.is_none();
         let may_be_tool = |_: &f64| self.program.dialect != Dialect::Xpertmill || is_only_source;

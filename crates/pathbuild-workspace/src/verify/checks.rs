@@ -1,0 +1,247 @@
+//! What `verify` checked of a program, with which values, and what it did not. (book: program/reading)
+
+use std::fmt::Write;
+
+use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, Text};
+use pathbuild_gcode::verify::Machine;
+use serde::{Deserialize, Serialize};
+
+use super::stock::Sources;
+use crate::config::types::Requirement;
+
+/// A check of a program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckRecord {
+    /// The check.
+    pub requirement: Requirement,
+    /// Whether it was made.
+    pub outcome: Outcome,
+}
+
+/// Whether a check was made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Outcome {
+    /// It was made; that of rapid moves with these values.
+    Made(Option<RapidValues>),
+    /// It was made with values that only the program itself states.
+    Assumed(RapidValues),
+    /// It was not made.
+    NotMade(Reason),
+}
+
+/// The values that rapid moves were checked with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RapidValues {
+    /// Diameters of the cutters in mm, in the order of use.
+    pub cutters: Vec<f64>,
+    /// Where they come from.
+    pub cutter_origin: Origin,
+    /// Height of the upper face of the material, if it is the same everywhere.
+    pub surface: Option<f64>,
+    /// Where it comes from.
+    pub surface_origin: Origin,
+}
+
+/// Where a value comes from; the program's own statements come last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Origin {
+    /// The command line.
+    Option,
+    /// The drawing that the program is compared with.
+    Drawing,
+    /// `[tool]`.
+    Table,
+    /// Comments of the program, or the heights at which its plunges begin to cut.
+    Program,
+}
+
+/// Why a check was not made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Reason {
+    /// The configuration does not limit the machine.
+    NoLimit,
+    /// There is no drawing.
+    NoDrawing,
+    /// The cutter is unknown.
+    NoCutter,
+    /// The height of the material is unknown.
+    NoSurface,
+    /// A limit of `[limits]` is exceeded.
+    TooLarge,
+}
+
+/// The checks of a program.
+pub(super) fn records(
+    sources: &Sources<'_>,
+    machine: Option<&Machine>,
+    is_against: bool,
+    is_limit_reached: bool,
+) -> Vec<CheckRecord> {
+    let made = |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
+    let limits = |is_limited: fn(&Machine) -> bool| made(machine.is_some_and(is_limited), Reason::NoLimit);
+    let all = [
+        (Requirement::Rapids, rapids(sources, is_limit_reached)),
+        (Requirement::Envelope, limits(|machine| machine.travel.is_some())),
+        (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
+        (Requirement::Spindle, limits(|machine| machine.spindle.is_some())),
+        (Requirement::Drawing, made(is_against, Reason::NoDrawing)),
+        (Requirement::Clamps, made(is_against, Reason::NoDrawing)),
+    ];
+    all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
+}
+
+fn rapids(sources: &Sources<'_>, is_limit_reached: bool) -> Outcome {
+    if is_limit_reached {
+        return Outcome::NotMade(Reason::TooLarge);
+    }
+    let Some((cutter_origin, cutters)) = sources.cutter_origin().zip(sources.cutters()) else {
+        return Outcome::NotMade(Reason::NoCutter);
+    };
+    let Some((surface_origin, surface)) = sources.surface() else {
+        return Outcome::NotMade(Reason::NoSurface);
+    };
+    let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
+    let values = RapidValues { cutters, cutter_origin, surface, surface_origin };
+    match cutter_origin.max(surface_origin) {
+        Origin::Program => Outcome::Assumed(values),
+        _ => Outcome::Made(Some(values)),
+    }
+}
+
+/// The checks of a program in a line.
+pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
+    let mut made = vec![lang.choose("words", "Wörter").to_owned()];
+    let mut unmade = Vec::new();
+    for record in records {
+        let name = shown(record.requirement).in_lang(lang);
+        match &record.outcome {
+            Outcome::Made(None) => made.push(name.to_owned()),
+            Outcome::Made(Some(values)) | Outcome::Assumed(values) => {
+                let against = lang.choose("against a cutter of", "mit einem Fräser von");
+                made.push(format!("{name} {against} {}", values.in_lang(lang)));
+            }
+            Outcome::NotMade(reason) => {
+                let option = record.option(*reason).in_lang(lang);
+                unmade.push(match record.requirement {
+                    Requirement::Rapids => format!("{name} ({}: {option})", reason.text().in_lang(lang)),
+                    _ => format!("{name} ({option})"),
+                });
+            }
+        }
+    }
+    let mut line = format!("{}: {}", lang.choose("checked", "geprüft"), made.join(", "));
+    if !unmade.is_empty() {
+        _ = write!(line, "; {}: {}", lang.choose("not checked", "nicht geprüft"), unmade.join(", "));
+    }
+    line
+}
+
+impl CheckRecord {
+    /// What would enable the check.
+    pub fn option(&self, reason: Reason) -> &'static Text {
+        match (reason, self.requirement) {
+            (Reason::NoDrawing, _) => &AGAINST,
+            (Reason::NoCutter, _) => &CUTTER,
+            (Reason::NoSurface, _) => &SURFACE,
+            (Reason::TooLarge, _) => &LIMITS,
+            (Reason::NoLimit, Requirement::Feeds) => &FEED,
+            (Reason::NoLimit, Requirement::Spindle) => &SPEEDS,
+            (Reason::NoLimit, _) => &TRAVEL,
+        }
+    }
+
+    /// The error if the check is required and was not made.
+    pub(super) fn unmade(&self, required: &[Requirement]) -> Option<Diagnostic> {
+        let may_be_assumed = required.contains(&Requirement::AssumedRapids);
+        let is_rapids = self.requirement == Requirement::Rapids;
+        let is_required = required.contains(&self.requirement) || (is_rapids && may_be_assumed);
+        if !is_required {
+            return None;
+        }
+        let (reason, option) = match &self.outcome {
+            Outcome::Made(_) => return None,
+            Outcome::Assumed(_) if may_be_assumed => return None,
+            Outcome::Assumed(_) => (&ONLY_COMMENTS, &GIVEN),
+            Outcome::NotMade(reason) => (reason.text(), self.option(*reason)),
+        };
+        let problem = Diagnostic::new(&say::CHECK_NOT_MADE).quoting("check", self.requirement.name());
+        Some(problem.with("reason", reason).with("option", option))
+    }
+}
+
+impl RapidValues {
+    /// The values with their origins, such as `3 mm (--cutter) and material up to Z 0 (--surface)`.
+    pub fn in_lang(&self, lang: Lang) -> String {
+        let mut diameters: Vec<String> = Vec::new();
+        for cutter in &self.cutters {
+            let diameter = Number(*cutter).prose(lang);
+            if !diameters.contains(&diameter) {
+                diameters.push(diameter);
+            }
+        }
+        let name = |origin: Origin, option| match origin {
+            Origin::Option => option,
+            Origin::Drawing => lang.choose("drawing", "Zeichnung"),
+            Origin::Table => "[tool]",
+            Origin::Program => lang.choose("header", "Kopf"),
+        };
+        let cutter = format!("{} mm ({})", diameters.join(", "), name(self.cutter_origin, "--cutter"));
+        let material = lang.choose("and material up to", "und Material bis");
+        let height = |surface| format!(" Z {}", Number(surface).prose(lang));
+        let height = self.surface.map(height).unwrap_or_default();
+        format!("{cutter} {material}{height} ({})", name(self.surface_origin, "--surface"))
+    }
+}
+
+impl Reason {
+    /// The reason in a phrase.
+    pub fn text(self) -> &'static Text {
+        match self {
+            Self::NoLimit => &NO_LIMIT,
+            Self::NoDrawing => &NO_DRAWING,
+            Self::NoCutter => &NO_CUTTER,
+            Self::NoSurface => &NO_SURFACE,
+            Self::TooLarge => &TOO_LARGE,
+        }
+    }
+}
+
+/// The name of a check for readers.
+fn shown(requirement: Requirement) -> Text {
+    match requirement {
+        Requirement::Rapids | Requirement::AssumedRapids => Text { en: "rapid moves", de: "Eilgänge" },
+        Requirement::Envelope => Text { en: "travel", de: "Verfahrwege" },
+        Requirement::Feeds => Text { en: "largest feed", de: "größter Vorschub" },
+        Requirement::Spindle => Text { en: "spindle speeds", de: "Drehzahlen" },
+        Requirement::Drawing => Text { en: "moves of the drawing", de: "Bewegungen der Zeichnung" },
+        Requirement::Clamps => Text { en: "clamps", de: "Spannmittel" },
+    }
+}
+
+static NO_LIMIT: Text =
+    Text { en: "the machine's limits are not known", de: "die Grenzen der Maschine sind nicht bekannt" };
+static NO_DRAWING: Text =
+    Text { en: "there is no drawing to compare with", de: "es fehlt die Zeichnung zum Vergleich" };
+static NO_CUTTER: Text = Text { en: "the cutter is not known", de: "der Fräser ist nicht bekannt" };
+static NO_SURFACE: Text = Text {
+    en: "the height of the material is not known, only those at cutting depth were examined",
+    de: "die Höhe des Materials ist nicht bekannt, nur die in Frästiefe wurden untersucht",
+};
+static TOO_LARGE: Text = Text { en: "the program is too large", de: "das Programm ist zu groß" };
+static ONLY_COMMENTS: Text = Text {
+    en: "only the program itself states cutter or material",
+    de: "nur das Programm selbst nennt Fräser oder Material",
+};
+static TRAVEL: Text = Text { en: "[machine] travel", de: "[machine] travel" };
+static FEED: Text = Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" };
+static SPEEDS: Text = Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" };
+static AGAINST: Text = Text { en: "--against PATH", de: "--against PFAD" };
+static CUTTER: Text = Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" };
+static SURFACE: Text = Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
+static LIMITS: Text =
+    Text { en: "[limits] verify-cells and verify-pieces", de: "[limits] verify-cells und verify-pieces" };
+static GIVEN: Text = Text {
+    en: "--cutter and --surface, --against PATH, or rapids=assumed",
+    de: "--cutter und --surface, --against PFAD oder rapids=assumed",
+};

@@ -1,0 +1,439 @@
+//! `verify`: checks that G-code programs are safe to run and match their drawing. (book: program/reading)
+
+mod against;
+mod checks;
+mod stock;
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use against::{ReferenceProgram, Rewritten};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
+use pathbuild_diagnostic::messages::gcode::FEED_IGNORED;
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::{Header, HeaderReader};
+use pathbuild_gcode::interpret::{EvidenceKind, Guess};
+use pathbuild_gcode::native;
+use pathbuild_gcode::provenance::Provenance;
+use pathbuild_gcode::verify::{
+    Against, Checks, Machine, MachineRules, PastClamps, PostWords, StatedStatistics, WordRules, coarse_arcs,
+    verify_with,
+};
+use pathbuild_motion::{Move, Pace, Step};
+use pathbuild_post::ToolTable;
+use serde::{Deserialize, Serialize};
+
+use crate::config::Settings;
+use crate::config::types::Requirement;
+use crate::posting::{PostArguments, PostProcessor, known_words, machine, tool_table};
+use crate::program::{ByDefinition, Program, ReadingOptions};
+use crate::session::Session;
+use crate::workspace::Workspace;
+
+pub use checks::{CheckRecord, Origin, Outcome, RapidValues, Reason, summary};
+use stock::Sources;
+
+/// How programs are verified.
+#[derive(Clone, Debug, Default)]
+pub struct VerifyOptions {
+    /// How programs are read.
+    pub reading: ReadingOptions,
+    /// The path whose drawing the programs are compared with.
+    pub against: Option<String>,
+    /// Diameter of the cutter in mm.
+    pub cutter: Option<f64>,
+    /// Height of the material's upper face in mm.
+    pub surface: Option<f64>,
+    /// The checks that must be made; without any, those of the configuration.
+    pub required: Vec<Requirement>,
+    /// The post-processor that wrote the programs.
+    pub post: Option<String>,
+}
+
+/// Why programs cannot be verified.
+#[derive(Debug)]
+pub enum Failure {
+    /// The post-processor does not exist, or is broken.
+    Post(Vec<Diagnostic>),
+    /// The request makes no sense.
+    Usage(String),
+    /// The drawing has errors, or the name is unknown.
+    Drawing(Vec<Diagnostic>),
+}
+
+/// What was found about a program.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct VerifiedProgram {
+    /// What is wrong with it.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What was checked; empty if the program could not be checked at all.
+    pub checks: Vec<CheckRecord>,
+    /// What was compared with the drawing.
+    pub comparison: Option<MoveComparison>,
+}
+
+/// A comparison of a program's moves with a drawing.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MoveComparison {
+    /// The path.
+    pub path: String,
+    /// Its drawing.
+    pub drawing: Utf8PathBuf,
+    /// The dialect or the definition by which the program was read.
+    pub dialect: String,
+    /// The same with the evidence for it, in the language of messages.
+    pub read_as: String,
+    /// Number of moves in the drawing.
+    pub moves: usize,
+    /// Number of moves that are equal.
+    pub equal: usize,
+}
+
+/// Verifies programs; holds what all programs of a run share.
+#[derive(Debug)]
+pub struct Verifier<'w> {
+    settings: &'w Settings,
+    system: Arc<dyn System>,
+    lang: Lang,
+    options: VerifyOptions,
+    writers: Writers,
+    against: Option<ReferenceProgram>,
+    table: ToolTable,
+    machine: Option<Machine>,
+    /// The known words by dialect, and by whether a post-processor wrote the program.
+    words: Mutex<Vec<(Dialect, bool, Arc<PostWords>)>>,
+}
+
+impl<'w> Verifier<'w> {
+    /// Takes the settings of the session's workspace, and the path that programs are compared with.
+    ///
+    /// # Errors
+    /// Why programs cannot be verified.
+    pub fn new(session: &mut Session<'w>, options: VerifyOptions) -> Result<Self, Failure> {
+        let workspace = session.workspace();
+        let writers = Writers::new(workspace, &options).map_err(Failure::Post)?;
+        let drawn = |name| session.with_stable_files(|session| ReferenceProgram::new(session, name));
+        let against = options.against.as_deref().map(drawn).transpose()?;
+        let reading = ReadingOptions { dialect: writers.dialect(), ..options.reading };
+        Ok(Self {
+            settings: &workspace.settings,
+            system: Arc::clone(&workspace.system),
+            lang: workspace.lang(),
+            options: VerifyOptions { reading, ..options },
+            writers,
+            against,
+            table: tool_table(&workspace.settings),
+            machine: machine(&workspace.settings),
+            words: Mutex::default(),
+        })
+    }
+
+    /// Verifies a program. If its heights are corrected, the material is assumed where it was drawn: rapid moves that follow an uneven
+    /// plate do not mill it. The machine's limits apply to the actual moves.
+    ///
+    /// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
+    pub fn verify(&self, file: &Utf8Path, text: Vec<u8>) -> VerifiedProgram {
+        let mut as_written = WrittenSteps::new(self.machine.as_ref());
+        let by_definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
+        let each = &mut |step| as_written.step(&step);
+        let program =
+            Program::read_each(self.settings, file, text, self.options.reading, &by_definition, each);
+        let has_probed = as_written.has_probed;
+        let (header, stated) = as_written.finish(&program);
+        let verification = Verification::new(self, &program, &header, has_probed);
+        let problems = verification.run(stated);
+        problems.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
+    }
+
+    /// The words that programs of this dialect may have.
+    fn known_words(&self, writer: Option<&PostProcessor>, dialect: Dialect) -> Arc<PostWords> {
+        let is_posted = writer.is_some();
+        let mut all = self.words.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((.., words)) = all.iter().find(|(d, posted, _)| (*d, *posted) == (dialect, is_posted)) {
+            return Arc::clone(words);
+        }
+        let words = Arc::new(known_words(self.settings, &self.system, writer, dialect));
+        all.push((dialect, is_posted, Arc::clone(&words)));
+        words
+    }
+
+    fn required(&self) -> &[Requirement] {
+        let configured = &self.settings.verify.require.value;
+        if self.options.required.is_empty() { configured } else { &self.options.required }
+    }
+}
+
+/// Follows the steps of a program as they are written, with corrected heights.
+struct WrittenSteps<'m> {
+    header: HeaderReader,
+    stated: StatedStatistics,
+    limits: Option<MachineRules<'m>>,
+    has_probed: bool,
+}
+
+/// What was found about the steps as they are written.
+struct WrittenFindings {
+    statistics: Vec<Diagnostic>,
+    limits: Vec<Diagnostic>,
+}
+
+impl<'m> WrittenSteps<'m> {
+    fn new(machine: Option<&'m Machine>) -> Self {
+        Self {
+            header: HeaderReader::default(),
+            stated: StatedStatistics::default(),
+            limits: machine.map(MachineRules::new),
+            has_probed: false,
+        }
+    }
+
+    fn step(&mut self, step: &Step) {
+        self.header.step(step);
+        self.stated.step(step);
+        self.has_probed |=
+            step.as_move().is_some_and(|(_, motion)| matches!(motion.pace, Pace::Probe { .. }));
+        if let Some(limits) = &mut self.limits {
+            limits.step(step);
+        }
+    }
+
+    fn finish(mut self, program: &Program) -> (Header, WrittenFindings) {
+        if program.by_definition.is_some() {
+            self.header.head_of(&program.text);
+        }
+        // PathDxf2GCode states planned lengths, and it is unknown what other programs count.
+        let has_own_statistics = program.dialect == Dialect::Native
+            && Provenance::of_head(&program.text).is_some()
+            && !native::is_compatible(&program.text);
+        let statistics = if has_own_statistics { self.stated.finish() } else { Vec::new() };
+        let limits = self.limits.map(MachineRules::finish).unwrap_or_default();
+        (self.header.finish(program.inch_word()), WrittenFindings { statistics, limits })
+    }
+}
+
+/// Follows the steps of a program at their nominal heights.
+struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
+    comparison: Option<Against<'w, I>>,
+    words: Option<WordRules<'w>>,
+    clamps: Option<PastClamps<'w>>,
+}
+
+impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
+    fn step(&mut self, step: &Step) {
+        if let Some(comparison) = &mut self.comparison {
+            comparison.step(step);
+        }
+        if let Some(words) = &mut self.words {
+            words.step(step);
+        }
+        if let Some(clamps) = &mut self.clamps {
+            clamps.step(step);
+        }
+    }
+
+    /// A word that the reader of the program's definition leaves out.
+    fn left_out(&mut self, line: u32, word: &str) {
+        if let Some(words) = &mut self.words {
+            words.left_out(line, word);
+        }
+        if let Some(comparison) = &mut self.comparison {
+            comparison.left_out(line, word);
+        }
+    }
+}
+
+/// The verification of a program.
+struct Verification<'v> {
+    verifier: &'v Verifier<'v>,
+    program: &'v Program,
+    header: &'v Header,
+    sources: Sources<'v>,
+    /// The post-processor that wrote the program, if known.
+    writer: Option<&'v PostProcessor>,
+    words: Arc<PostWords>,
+    /// Whether it may be the probing run of a drawing, which is a separate program.
+    is_probing: bool,
+    /// The drawing's program, unless this is its probing run.
+    milled: Option<&'v ReferenceProgram>,
+}
+
+impl<'v> Verification<'v> {
+    fn new(verifier: &'v Verifier<'v>, program: &'v Program, header: &'v Header, has_probed: bool) -> Self {
+        let evidence = program.evidence.map(|evidence| evidence.kind);
+        let writer = verifier.writers.of(program.shown, evidence);
+        let is_probing = has_probed && program.dialect == Dialect::Native;
+        let against = verifier.against.as_ref();
+        Self {
+            verifier,
+            program,
+            header,
+            sources: Sources::new(verifier, program, header),
+            writer,
+            words: verifier.known_words(writer, program.dialect),
+            is_probing,
+            milled: against.filter(|against| !is_probing || !against.has_probes()),
+        }
+    }
+
+    /// What is found about the program.
+    ///
+    /// # Errors
+    /// The problem that prevents the verification.
+    fn run(&self, written: WrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
+        let rewritten = self.rewritten()?;
+        let (mut found, comparison) = self.findings(written, rewritten.as_ref());
+        if let Some(against) =
+            self.verifier.against.as_ref().filter(|_| self.program.dialect == Dialect::Native)
+        {
+            let is_sound = !found.iter().chain(&self.program.read.problems).any(Diagnostic::is_error);
+            let settings = self.verifier.settings;
+            let differences = against.text_differences(settings, self.program, self.is_probing, is_sound);
+            found.extend(differences.map_err(|problem| vec![*problem])?);
+        }
+        let checks = self.checks(&mut found);
+        self.program.place(&mut found);
+        let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
+        diagnostics.append(&mut found);
+        Ok(VerifiedProgram { diagnostics, checks, comparison })
+    }
+
+    /// The drawing's program as the post-processor's definition writes it.
+    fn rewritten(&self) -> Result<Option<Rewritten>, Vec<Diagnostic>> {
+        let definition = self.writer.filter(|writer| writer.file().is_some());
+        let rewritten = self
+            .milled
+            .zip(definition)
+            .map(|(milled, writer)| milled.rewritten(self.verifier.settings, writer, self.program));
+        rewritten.transpose()
+    }
+
+    /// What the rules find.
+    fn findings(
+        &self,
+        written: WrittenFindings,
+        rewritten: Option<&Rewritten>,
+    ) -> (Vec<Diagnostic>, Option<MoveComparison>) {
+        let Self { verifier, program, .. } = self;
+        let against = verifier.against.as_ref();
+        let compared = |milled: &'v ReferenceProgram| {
+            let (settings, table) = (verifier.settings, &verifier.table);
+            milled.comparison(settings, table, program.dialect, &self.words, rewritten)
+        };
+        let mut nominal = NominalSteps {
+            comparison: self.milled.map(compared),
+            words: against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
+            clamps: against.and_then(|against| against.past_clamps(program.dialect)),
+        };
+        let checks = Checks { stock: self.sources.stock(), machine: None };
+        let mut found = verify_with(&program.drawn(), &checks, &mut |step| nominal.step(step));
+        found.extend(self.sources.doubtful_rapids(&found));
+        for word in program.words_left_out() {
+            nominal.left_out(word.line, &word.word);
+        }
+        found.extend(nominal.words.into_iter().flat_map(WordRules::finish));
+        found.extend(nominal.clamps.into_iter().flat_map(PastClamps::finish));
+        found.extend(coarse_arcs(program.code(), program.dialect));
+        found.extend(written.limits);
+        found.extend(self.sources.unknown_tools());
+        if program.dialect == Dialect::Native {
+            found.extend(native::unstated_heights(&program.text));
+        }
+        found.extend(written.statistics);
+        found.extend(self.sources.disagreements());
+        found.extend(self.header.problems.iter().cloned());
+        let Some((milled, comparison)) = self.milled.zip(nominal.comparison) else { return (found, None) };
+        let (comparison, differences) =
+            milled.conclude(program, verifier.lang, comparison.finish(), rewritten);
+        found.extend(differences);
+        (found, comparison)
+    }
+
+    /// What was checked. Adds to what was found an error for each check that is required and was not made.
+    fn checks(&self, found: &mut Vec<Diagnostic>) -> Vec<CheckRecord> {
+        let mut is_limit_reached = false;
+        for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
+            is_limit_reached = true;
+            if self.sources.is_assumed() {
+                // Without the comments, the check would not be made either.
+                problem.severity = Severity::Warning;
+            }
+        }
+        let verifier = self.verifier;
+        let is_against = verifier.against.is_some();
+        let records = checks::records(&self.sources, verifier.machine.as_ref(), is_against, is_limit_reached);
+        found.extend(records.iter().filter_map(|record| record.unmade(verifier.required())));
+        records
+    }
+
+    /// What is doubtful about the program's words. Where there is a drawing, doubts about something that it does not contain are errors.
+    fn doubts(&self, rewritten: Option<&Rewritten>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
+        let mut doubts = self.program.read.problems.clone();
+        if rewritten.is_some_and(Rewritten::is_same) {
+            // What is doubtful about the definition's words is said when it writes them.
+            doubts.retain(|doubt| doubt.is_error() && self.program.by_definition.is_none());
+        } else if self.verifier.against.is_some() {
+            let unsaid = doubts.iter_mut().filter(|doubt| is_unsaid(doubt));
+            let unchecked = found.iter_mut().filter(|problem| problem.code() == Code::UncheckedFormula);
+            unsaid.chain(unchecked).for_each(|problem| problem.severity = Severity::Error);
+        }
+        doubts
+    }
+}
+
+/// Whether a warning is about something that the drawing's program does not contain. The fineness of arcs is up to the drawing, and
+/// ignoring feeds was requested.
+fn is_unsaid(doubt: &Diagnostic) -> bool {
+    doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
+}
+
+/// The posts that may have written the programs of a run.
+#[derive(Debug)]
+struct Writers {
+    /// `--post`.
+    named: Option<PostProcessor>,
+    /// The one of the configuration.
+    configured: Option<PostProcessor>,
+    dialect: Option<Dialect>,
+}
+
+impl Writers {
+    /// Those of the command line and the configuration.
+    ///
+    /// # Errors
+    /// The named post does not exist, or is broken.
+    fn new(workspace: &Workspace, options: &VerifyOptions) -> Result<Self, Vec<Diagnostic>> {
+        let dialect = options.reading.dialect;
+        let post = |name| {
+            let dialect = dialect.map(|dialect| dialect.name().into());
+            PostProcessor::for_run(workspace, name, PostArguments { dialect, ..PostArguments::default() })
+        };
+        let named = options.post.as_deref().map(|name| post(Some(name))).transpose()?.flatten();
+        // Of a broken one `emit` tells.
+        let configured = if named.is_some() { None } else { post(None).ok().flatten() };
+        Ok(Self { named, configured, dialect })
+    }
+
+    /// The dialect that the command line says, by itself or by the post.
+    fn dialect(&self) -> Option<Dialect> {
+        self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
+    }
+
+    /// The post that wrote a program of this dialect, as far as it is known. A program that shows no dialect by its header is one of a
+    /// configured definition that names none.
+    fn of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
+        let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
+        let may_have_written = |post: &&PostProcessor| match post.reader() {
+            Some(reader) => reader == dialect,
+            None => is_without_header && dialect != Dialect::Native,
+        };
+        self.named.as_ref().or(self.configured.as_ref().filter(may_have_written))
+    }
+
+    /// A text as the definition reads it that wrote it, where that names no dialect.
+    fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<ByDefinition> {
+        let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
+        let writer = self.of(dialect, guess.map(|guess| guess.evidence.kind))?;
+        Some(ByDefinition { name: writer.name(), translated: writer.translate(text)? })
+    }
+}

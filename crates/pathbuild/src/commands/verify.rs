@@ -1,0 +1,160 @@
+//! `pathbuild verify`: checks that G-code programs are safe to run and match their drawing. (book: program/reading)
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_workspace::config::{number, positive};
+use pathbuild_workspace::program;
+use pathbuild_workspace::session::Session;
+use pathbuild_workspace::verify::{
+    CheckRecord, Failure, MoveComparison, Outcome, VerifiedProgram, Verifier, VerifyOptions, summary,
+};
+use serde_json::{Value, json};
+
+use crate::args::VerifyArgs;
+use crate::context::Context;
+use crate::exit::ExitStatus;
+use crate::numbers::count;
+
+/// Runs the command.
+pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
+    let options = match options(args) {
+        Ok(options) => options,
+        Err(fault) => return context.refuse(vec![*fault]),
+    };
+    let mut session = Session::new(context);
+    let verifier = match Verifier::new(&mut session, options) {
+        Err(Failure::Post(problems)) => return context.fail(problems),
+        other => other,
+    };
+    context.output.figure("programs", args.files.len());
+    context.output.figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
+    let verifier = match verifier {
+        Ok(verifier) => verifier,
+        Err(Failure::Usage(reason)) => return context.usage(&reason),
+        Err(Failure::Drawing(found) | Failure::Post(found)) => return conclude(context, &session, found),
+    };
+    let mut report = CheckReport::default();
+    let mut diagnostics = Vec::new();
+    for file in &args.files {
+        match program::read(context, file) {
+            Ok(text) => {
+                let verified = verifier.verify(file, text);
+                report.add(context, file, &verified);
+                diagnostics.extend(verified.diagnostics);
+            }
+            Err(problem) => diagnostics.push(*problem),
+        }
+    }
+    let status = conclude(context, &session, diagnostics);
+    report.finish(context);
+    status
+}
+
+fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
+    Ok(VerifyOptions {
+        reading: args.reading.options(),
+        against: args.against.clone(),
+        cutter: args.cutter.as_deref().map(|text| positive("cutter", text)).transpose()?,
+        surface: args.surface.as_deref().map(|text| number("surface", text)).transpose()?,
+        required: args.require.clone(),
+        post: args.post.clone(),
+    })
+}
+
+fn conclude(context: &Context, session: &Session<'_>, diagnostics: Vec<Diagnostic>) -> ExitStatus {
+    let findings = context.findings(session.with_hints(diagnostics));
+    context.show(&findings);
+    let (errors, warnings) = (findings.errors(), findings.warnings());
+    let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
+    context.printer.status(format_args!(
+        "{}: {errors}, {}: {warnings}",
+        phrase("errors", "Fehler"),
+        phrase("warnings", "Warnungen")
+    ));
+    if errors > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// The checks of the programs of a run.
+#[derive(Default)]
+struct CheckReport {
+    /// The summaries, each with its programs.
+    lines: Vec<(String, Vec<String>)>,
+    records: Vec<Value>,
+}
+
+impl CheckReport {
+    /// Reports what was compared with the drawing, and adds the checks of a program.
+    fn add(&mut self, context: &Context, file: &Utf8Path, verified: &VerifiedProgram) {
+        if let Some(comparison) = &verified.comparison {
+            report_comparison(context, file, comparison);
+        }
+        if verified.checks.is_empty() {
+            return;
+        }
+        let (file, line) = (file.to_string(), summary(&verified.checks, context.lang()));
+        let checks: Vec<Value> = verified.checks.iter().map(|record| row(record, context.lang())).collect();
+        self.records.push(json!({ "program": file, "checks": checks }));
+        match self.lines.iter_mut().find(|(known, _)| *known == line) {
+            Some((_, files)) => files.push(file),
+            None => self.lines.push((line, vec![file])),
+        }
+    }
+
+    /// Prints the summaries, and adds the records to the document of the run.
+    fn finish(self, context: &Context) {
+        for (line, files) in &self.lines {
+            let programs = match &**files {
+                [file] => file.clone(),
+                files => context.phrase("{} programs", "{} Programme", &files.len().to_string()),
+            };
+            context.printer.status(format_args!("{programs}: {line}"));
+        }
+        context.output.figure("checks", self.records);
+    }
+}
+
+fn row(record: &CheckRecord, lang: Lang) -> Value {
+    let check = record.requirement.name();
+    match &record.outcome {
+        Outcome::Made(values) => {
+            let with = values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default();
+            json!({ "check": check, "outcome": "made", "with": with })
+        }
+        Outcome::Assumed(values) => {
+            json!({ "check": check, "outcome": "assumed", "with": values.in_lang(lang) })
+        }
+        Outcome::NotMade(reason) => json!({
+            "check": check,
+            "outcome": "not-made",
+            "reason": reason.text().in_lang(lang),
+            "option": record.option(*reason).in_lang(lang),
+        }),
+    }
+}
+
+/// Reports which moves were compared with the drawing, and how many are equal.
+fn report_comparison(context: &Context, file: &Utf8Path, comparison: &MoveComparison) {
+    let MoveComparison { path, drawing, dialect, read_as, moves, equal } = comparison;
+    context.json_row(|| {
+        let row = json!({
+            "file": context.file(file),
+            "path": path,
+            "drawing": context.file(drawing),
+            "dialect": dialect,
+            "moves": moves,
+            "equal": equal,
+        });
+        ("agreement", row)
+    });
+    let lang = context.lang();
+    let rest = context.choose("; what follows is not compared", "; was folgt, ist nicht verglichen");
+    let rest = if equal < moves { rest } else { "" };
+    let [equal, all] = [*equal, *moves].map(|number| count(number, lang));
+    let line = match lang {
+        Lang::En => format!("{equal} of {all} moves as in path {path} of {drawing}{rest}; read as {read_as}"),
+        Lang::De => format!(
+            "{equal} von {all} Bewegungen wie im Pfad {path} aus {drawing}{rest}; gelesen als {read_as}"
+        ),
+    };
+    context.printer.status(format_args!("{file}: {line}"));
+}
