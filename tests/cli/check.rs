@@ -145,20 +145,6 @@ fn a_baseline_survives_a_move_and_a_save_but_not_another_fault() {
 }
 
 #[test]
-fn entries_of_a_baseline_that_are_gone_are_told_to_who_asks() {
-    let place = library();
-    assert_eq!(place.run("check --baseline known.txt --update-baseline").status, Some(0));
-    let place = place.file("parts/1236.1P.dxf", dxf(&GOOD.replace("1234", "1236")));
-    assert!(!place.run("check --baseline known.txt").stderr.contains("baseline"));
-    assert!(
-        place
-            .run("check --baseline known.txt -v")
-            .stderr
-            .contains("entries of the baseline that are no longer found: 1")
-    );
-}
-
-#[test]
 fn a_baseline_that_is_missing_or_broken_is_wrong_usage() {
     let place = library()
         .file("broken.txt", "# remark\n\n0123456789abcdef0123456789abcdef fine\n012 not\nnone at all\n");

@@ -11,8 +11,10 @@ use pathbuild::german::{self, catalogue};
 use pathbuild_diagnostic::Lang;
 
 /// Texts of the catalogue outside of the definition: reasons for rejecting a value.
-const REFUSALS: [&str; 6] = [
+const REFUSALS: [&str; 8] = [
     "expected a number from 1 to 1024",
+    "expected a date such as 2026-12-31",
+    "there is no such diagnostic: `pathbuild explain` lists all of them",
     "expected FORMAT=FILE",
     "the format is full, concise, json, sarif, github, gitlab, junit or html",
     "the name of the file is missing",

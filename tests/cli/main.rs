@@ -69,6 +69,7 @@ mod untrusted;
 mod untrusted_roots;
 mod usage;
 mod view;
+mod waivers;
 mod watch;
 mod why;
 mod windows;

@@ -6,6 +6,7 @@ use std::time::Duration;
 use camino::Utf8Path;
 use pathbuild::render::Fingerprint;
 use pathbuild::report::summary;
+use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{
     Diagnostic, ElementId, EntityKind, Handle, Lang, Point, Severity, TextFault, TraceStep,
@@ -14,7 +15,8 @@ use pathbuild_path::PathName;
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::findings::{Findings, judge};
+use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::{SilentReporter, Workspace};
 
 fn diagnostic() -> Diagnostic {
     Diagnostic::new(&files::NOT_DXF)
@@ -122,17 +124,23 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
         [[severity-in]]\nfiles = [\"old/new/*.dxf\"]\nPB007 = \"warning\"\n";
     #[expect(clippy::disallowed_methods, reason = "a test's own file")]
     std::fs::write(directory.join("pathbuild.toml"), text).unwrap();
-    let (settings, faults) = config::load(
-        &pathbuild_db::system::OsSystem::shared(),
-        &Overrides::default(),
-        &Inputs::default(),
-        directory,
-    );
+    let (settings, faults) =
+        config::load(&OsSystem::shared(), &Overrides::default(), &Inputs::default(), directory);
     assert_eq!(faults, []);
-    let judged = |message, file: &str| {
-        let diagnostic = Diagnostic::new(message).in_file(&directory.join(file));
-        judge(vec![diagnostic], &settings, directory).first().map(|diagnostic| diagnostic.severity)
+    let workspace = Workspace {
+        settings,
+        system: OsSystem::shared(),
+        own_lang: None,
+        system_lang: None,
+        working_directory: directory.to_owned(),
+        jobs: None,
+        cache: None,
+        reporter: std::rc::Rc::new(SilentReporter),
     };
+    let severity = |diagnostic: Diagnostic| {
+        workspace.findings(vec![diagnostic]).diagnostics.first().map(|diagnostic| diagnostic.severity)
+    };
+    let judged = |message, file: &str| severity(Diagnostic::new(message).in_file(&directory.join(file)));
     let end = pathbuild_diagnostic::messages::all().find(|message| message.code.number() == 7).unwrap();
     let encoding = pathbuild_diagnostic::messages::all().find(|message| message.code.number() == 8).unwrap();
     assert_eq!(judged(end, "a.dxf"), Some(Severity::Error));
@@ -142,11 +150,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
     assert_eq!(judged(end, "old/new/x/a.dxf"), None);
     assert_eq!(judged(encoding, "old/new/a.dxf"), None);
     assert_eq!(judged(&files::EMPTY_FILE, "a.dxf"), Some(Severity::Error));
-    assert_eq!(
-        judge(vec![Diagnostic::new(end)], &settings, directory)[0].severity,
-        Severity::Error,
-        "without a file"
-    );
+    assert_eq!(severity(Diagnostic::new(end)), Some(Severity::Error), "without a file");
 }
 
 #[test]

@@ -171,6 +171,7 @@ codes! {
     607 OddProbe "odd-probe" Warning "a probe that does not fit its neighbours";
     608 OldProgram "old-program" Error "a program to be adjusted that differs from its drawing";
     609 UnusedProbe "unused-probe" Error "a probe that no formula uses";
+    610 UnusedWaiver "unused-waiver" Warning "a waiver that matches no finding any more";
     612 UnreadableDescription "unreadable-description" Error "a description of a machine or of tools that cannot be read, or not be taken over";
     613 UnusableValue "unusable-value" Warning "a value of a description that the configuration cannot take";
     701 NotGCode "not-g-code" Error "a file without any G-code";

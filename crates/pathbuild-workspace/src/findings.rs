@@ -1,11 +1,14 @@
 //! The diagnostics of a run, ready for display: with configured severities, without duplicates, in an order independent of threads.
 //! (book: reference/diagnostics)
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use crate::check::CheckedFile;
-use crate::config::{Settings, clean};
+use crate::config::clean;
+use crate::config::types::{FileSeverities, Pattern, Severities};
+use crate::waivers::{Coverage, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 
 /// The diagnostics of a run, and what was checked.
@@ -15,6 +18,8 @@ pub struct Findings {
     pub diagnostics: Vec<Diagnostic>,
     /// The checked drawings, sorted by name; empty for commands that do not check drawings.
     pub checked: Vec<CheckedFile>,
+    /// Findings that are accepted, sorted, without duplicates.
+    pub waived: Vec<WaivedFinding>,
 }
 
 impl Findings {
@@ -28,12 +33,17 @@ impl Findings {
         diagnostics
             .sort_by(|a, b| a.sort_key().cmp(&b.sort_key()).then_with(|| a.message.key.cmp(b.message.key)));
         diagnostics.dedup_by(|later, earlier| is_same(earlier, later));
-        Self { diagnostics, checked: Vec::new() }
+        Self { diagnostics, ..Self::default() }
     }
 
     /// Number of errors.
     pub fn errors(&self) -> usize {
         self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
+    }
+
+    /// All findings, also those that are accepted.
+    pub fn all(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics.iter().chain(self.waived.iter().map(|waived| &waived.diagnostic))
     }
 
     /// Number of warnings.
@@ -43,10 +53,106 @@ impl Findings {
 }
 
 impl Workspace {
-    /// Applies the configured severities, sorts, and drops duplicates.
+    /// Applies the configured severities and their waivers, sorts, and drops duplicates.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
-        Findings::new(judge(diagnostics, &self.settings, &self.working_directory))
+        let severities = self.settings.severities();
+        let mut waived: Vec<(Diagnostic, Waiver)> = Vec::new();
+        let judge = |diagnostic: Diagnostic| match self.judge(diagnostic, &severities) {
+            Judged::Reported(diagnostic) => Some(diagnostic),
+            Judged::Ignored => None,
+            Judged::Waived(diagnostic, waiver) => {
+                waived.push((diagnostic, waiver));
+                None
+            }
+        };
+        let findings = Findings::new(diagnostics.into_iter().filter_map(judge).collect());
+        waived.sort_by(|(a, _), (b, _)| a.sort_key().cmp(&b.sort_key()));
+        waived.dedup_by(|(later, _), (earlier, _)| is_same(earlier, later));
+        let waived = waived.into_iter().map(|(diagnostic, waiver)| WaivedFinding { diagnostic, waiver });
+        Findings { waived: waived.collect(), ..findings }
     }
+
+    /// Whether the configuration contains waivers.
+    pub fn has_waivers(&self) -> bool {
+        self.settings.tables.severity_in.value.iter().any(|entry| entry.waiver.is_stated())
+    }
+
+    /// Warnings about waivers of the configuration that match nothing, among those of files that the run covered. (PB610)
+    pub fn unused_waivers(&self, findings: &Findings, coverage: &Coverage) -> Vec<Diagnostic> {
+        let Some(configuration) = &self.settings.file else { return Vec::new() };
+        let found: Vec<(Code, String)> = findings
+            .all()
+            .filter_map(|found| Some((found.code(), self.configured(found.file.as_deref()?))))
+            .collect();
+        let covered: Vec<String> = coverage.files.iter().map(|file| self.configured(file)).collect();
+        let entries = self.settings.tables.severity_in.value.iter().filter(|entry| entry.waiver.is_stated());
+        let is_covered = |pattern: &Pattern| match pattern.literal() {
+            Some(file) if covered.iter().any(|covered| covered == file) => true,
+            Some(file) => coverage.has_directories && !self.has_configured(file),
+            None => coverage.is_library && covered.iter().any(|file| pattern.matches(file)),
+        };
+        let is_used = |entry: &FileSeverities| {
+            found.iter().any(|(code, file)| {
+                entry.levels.iter().any(|(known, _)| known == code) && entry.concerns(file)
+            })
+        };
+        let unused = entries.filter(|entry| !is_used(entry) && entry.files.iter().all(is_covered));
+        unused.map(|entry| entry.waiver.unused(configuration)).collect()
+    }
+
+    fn judge(&self, diagnostic: Diagnostic, severities: &Severities) -> Judged {
+        let code = diagnostic.code();
+        let run = self.settings.date;
+        let file = diagnostic.file.as_deref().map(|file| self.configured(file));
+        let entries = file.iter().flat_map(|file| severities.levels_in(code, Utf8Path::new(file)));
+        let mut ended = Vec::new();
+        let mut level = severities.level(code).map(|level| (level, None));
+        for (entry, in_file) in entries {
+            if entry.waiver.holds(run) {
+                level = Some((in_file, Some(&entry.waiver)));
+                break;
+            }
+            ended.push(&entry.waiver);
+        }
+        let place = self.settings.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default();
+        let noted = |diagnostic| {
+            ended.iter().fold(diagnostic, |diagnostic, waiver| waiver.note_end(diagnostic, place, run))
+        };
+        let Some((level, waiver)) = level else { return Judged::Reported(noted(diagnostic)) };
+        match (level.severity(), waiver.filter(|waiver| waiver.is_stated())) {
+            (Some(severity), waiver) => {
+                let diagnostic = noted(Diagnostic { severity, ..diagnostic });
+                Judged::Reported(match waiver {
+                    Some(waiver) => waiver.note_severity(diagnostic, place, run),
+                    None => diagnostic,
+                })
+            }
+            (None, Some(waiver)) => Judged::Waived(diagnostic, waiver.clone()),
+            (None, None) => Judged::Ignored,
+        }
+    }
+
+    /// Name of a file as patterns in the configuration see it: relative to the configuration's directory, with slashes.
+    fn configured(&self, file: &Utf8Path) -> String {
+        let file = clean(&self.working_directory.join(file));
+        let below = self.settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
+        below.unwrap_or(&file).as_str().replace('\\', "/")
+    }
+
+    fn has_configured(&self, file: &str) -> bool {
+        let directory = self.settings.directory().unwrap_or(&self.working_directory);
+        self.system.kind(&directory.join(file)) != FileKind::Missing
+    }
+}
+
+/// What the configuration makes of a diagnostic.
+enum Judged {
+    /// It is reported, with the severity that it has now.
+    Reported(Diagnostic),
+    /// It is dropped.
+    Ignored,
+    /// It is accepted for a stated reason.
+    Waived(Diagnostic, Waiver),
 }
 
 /// Whether two findings are the same except for their traces. Paths nested too deep may be reached from several projects, each with
@@ -56,27 +162,4 @@ fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
     arguments_agree
         && (a.message, &a.file, &a.path, &a.place, &a.text)
             == (b.message, &b.file, &b.path, &b.place, &b.text)
-}
-
-/// Applies the configured severities, and drops diagnostics that are ignored. File names are relative to the working directory, those in
-/// the configuration to its own directory.
-pub fn judge(
-    diagnostics: Vec<Diagnostic>,
-    settings: &Settings,
-    working_directory: &Utf8Path,
-) -> Vec<Diagnostic> {
-    let severities = settings.severities();
-    let relative = |file: &Utf8Path| -> Utf8PathBuf {
-        let file = clean(&working_directory.join(file));
-        let below = settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
-        below.map(Utf8Path::to_owned).unwrap_or(file)
-    };
-    let judge = |mut diagnostic: Diagnostic| {
-        let file = diagnostic.file.as_deref().map(relative);
-        if let Some(level) = severities.level(diagnostic.code(), file.as_deref()) {
-            diagnostic.severity = level.severity()?;
-        }
-        Some(diagnostic)
-    };
-    diagnostics.into_iter().filter_map(judge).collect()
 }

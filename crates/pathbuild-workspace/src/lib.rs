@@ -17,6 +17,7 @@ pub mod posting;
 pub mod program;
 pub mod session;
 pub mod verify;
+pub mod waivers;
 // In the browser all files come from the page, so there is nothing to watch.
 #[cfg(not(target_family = "wasm"))]
 pub mod watch;

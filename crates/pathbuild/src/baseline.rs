@@ -1,41 +1,57 @@
-//! Baselines: text files with one known finding per line, which users can read, merge and shorten. Only the fingerprint at the beginning of
-//! a line counts; the rest describes the finding. Empty lines and lines that begin with `#` are comments.
+//! Baselines: text files with one accepted finding per line, which users can read, merge and shorten. A line begins with the fingerprint of
+//! the finding; `until=` with a date and `reason=` with a text in double quotes may follow. The rest describes the finding. Empty lines and
+//! lines that begin with `#` are comments. (book: howto/ci)
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::ReadError;
+use pathbuild_db::system::{FileKind, ReadError};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, TextFault, Value, shown};
+use pathbuild_diagnostic::{Code, Diagnostic, Message, TextFault, Value, shown};
+use pathbuild_workspace::config::clean;
 use pathbuild_workspace::files;
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
 
 use crate::render::{Fingerprint, View};
 
-/// Known findings, which are not reported.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// Name of the baseline that is used unless another one is named, beside `pathbuild.toml`.
+pub(crate) const FILE_NAME: &str = "pathbuild-baseline.txt";
+
+/// Accepted findings, which are not reported.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Baseline {
-    fingerprints: BTreeSet<String>,
+    file: Utf8PathBuf,
+    /// The file as it is.
+    text: String,
+    entries: BTreeMap<String, Entry>,
 }
 
-/// Findings compared with a baseline.
-pub(crate) struct BaselineComparison {
-    /// Findings that are not in the baseline.
-    pub(crate) new: Findings,
-    /// Number of findings that are in the baseline.
-    pub(crate) known: usize,
-    /// Number of entries in the baseline that match no finding.
-    pub(crate) gone: usize,
+/// What a line says after its fingerprint.
+#[derive(Clone, Debug)]
+struct Entry {
+    waiver: Waiver,
+    description: String,
+    line: String,
 }
 
 impl Baseline {
-    /// Reads a baseline file of at most `limit` bytes.
+    /// A baseline without entries.
+    pub(crate) fn new(file: &Utf8Path) -> Self {
+        Self { file: file.to_owned(), text: HEAD.to_owned(), entries: BTreeMap::new() }
+    }
+
+    /// Reads a baseline file of at most `limit` bytes. Also returns what is wrong with its lines.
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub(crate) fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<Self, Vec<Diagnostic>> {
+    pub(crate) fn read(
+        system: &dyn System,
+        file: &Utf8Path,
+        limit: u64,
+    ) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         let text = files::read(system, file, limit).map_err(|reason| {
             vec![match system.read(file, limit) {
                 // Reports the configuration key of the limit, as for other files.
@@ -43,59 +59,138 @@ impl Baseline {
                 _ => Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason),
             }]
         })?;
-        Self::parse(file, &text)
+        let mut baseline = Self { text, ..Self::new(file) };
+        let faults = baseline.parse();
+        Ok((baseline, faults))
     }
 
-    /// The text of a baseline that contains all these findings.
-    pub(crate) fn text(findings: &Findings, view: &View) -> String {
+    /// The text of a baseline that contains all these findings. Entries that still match keep their reasons and dates.
+    pub(crate) fn rewritten(&self, findings: &[Diagnostic], view: &View) -> String {
         let mut text = HEAD.to_owned();
-        for (diagnostic, fingerprint) in
-            findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics))
-        {
-            _ = writeln!(text, "{fingerprint} {}", description(diagnostic, view));
+        for (diagnostic, fingerprint) in findings.iter().zip(Fingerprint::of(findings)) {
+            let fingerprint = fingerprint.to_string();
+            let none = Waiver::default();
+            let waiver = self.entries.get(&fingerprint).map_or(&none, |entry| &entry.waiver);
+            text.push_str(&line(&fingerprint, waiver, diagnostic, view));
         }
         shown::lines(&text).into_owned()
     }
 
-    pub(crate) fn compare(&self, findings: Findings) -> BaselineComparison {
-        let fingerprints = Fingerprint::of(&findings.diagnostics);
-        let found = findings.diagnostics.len();
-        let is_new =
-            |(_, fingerprint): &(_, Fingerprint)| !self.fingerprints.contains(&fingerprint.to_string());
-        let new: Vec<_> = findings
-            .diagnostics
-            .into_iter()
-            .zip(fingerprints)
-            .filter(is_new)
-            .map(|(diagnostic, _)| diagnostic)
+    /// The text of this baseline with a waiver of all findings that have a code, and their number.
+    pub(crate) fn accepting(
+        &self,
+        findings: &[Diagnostic],
+        code: Code,
+        waiver: &Waiver,
+        view: &View,
+    ) -> (String, usize) {
+        let accepted: BTreeMap<String, String> = findings
+            .iter()
+            .zip(Fingerprint::of(findings))
+            .filter(|(diagnostic, _)| diagnostic.code() == code)
+            .map(|(diagnostic, fingerprint)| {
+                let fingerprint = fingerprint.to_string();
+                let line = line(&fingerprint, waiver, diagnostic, view);
+                (fingerprint, line)
+            })
             .collect();
-        let known = found - new.len();
-        BaselineComparison {
-            known,
-            gone: self.fingerprints.len() - known,
-            new: Findings { diagnostics: new, checked: findings.checked },
-        }
+        let is_kept = |line: &&str| fingerprint(line).is_none_or(|known| !accepted.contains_key(known));
+        let mut text: String = self.text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
+        text.extend(accepted.values().map(String::as_str));
+        (shown::lines(&text).into_owned(), accepted.len())
     }
 
-    fn parse(file: &Utf8Path, text: &str) -> Result<Self, Vec<Diagnostic>> {
-        let mut baseline = Self::default();
-        let mut faults = Vec::new();
-        for (number, line) in
-            (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'))
+    /// Moves the findings of this baseline to those that are accepted. A finding whose entry has ended says so.
+    pub(crate) fn apply(&self, mut findings: Findings, run: Option<RunDate>) -> Findings {
+        let fingerprints = Fingerprint::of(&findings.diagnostics);
+        let place = self.file.file_name().unwrap_or_default();
+        for (diagnostic, fingerprint) in
+            std::mem::take(&mut findings.diagnostics).into_iter().zip(fingerprints)
         {
-            match fingerprint(line) {
-                Some(fingerprint) => _ = baseline.fingerprints.insert(fingerprint.to_owned()),
-                None => faults.push(fault(file, number, line)),
+            match self.entries.get(&fingerprint.to_string()).map(|entry| &entry.waiver) {
+                None => findings.diagnostics.push(diagnostic),
+                Some(waiver) if waiver.holds(run) => {
+                    findings.waived.push(WaivedFinding { diagnostic, waiver: waiver.clone() });
+                }
+                Some(waiver) => findings.diagnostics.push(waiver.note_end(diagnostic, place, run)),
             }
         }
-        if faults.is_empty() { Ok(baseline) } else { Err(faults) }
+        findings
+    }
+
+    /// Warnings about the entries that match none of these findings, among those of files that the run covered. (PB610)
+    pub(crate) fn unused(
+        &self,
+        findings: &[Diagnostic],
+        coverage: &Coverage,
+        system: &dyn System,
+        working_directory: &Utf8Path,
+    ) -> Vec<Diagnostic> {
+        let found: BTreeSet<String> = Fingerprint::of(findings).iter().map(ToString::to_string).collect();
+        let checked: BTreeSet<Utf8PathBuf> =
+            coverage.files.iter().map(|file| clean(&working_directory.join(file))).collect();
+        let bases = [working_directory, self.file.parent().unwrap_or(working_directory)];
+        let is_covered = |entry: &Entry| {
+            let Some(files) = entry.possible_files(bases) else { return false };
+            files.iter().any(|file| checked.contains(file))
+                || coverage.has_directories && files.iter().all(|file| system.kind(file) == FileKind::Missing)
+        };
+        let unused =
+            self.entries.iter().filter(|(known, entry)| !found.contains(*known) && is_covered(entry));
+        let unused = unused.map(|(_, entry)| {
+            let text = TextFault::new(&entry.line, 0..entry.line.len());
+            Diagnostic { notes: Vec::new(), ..entry.waiver.unused(&self.file) }.with_text(text)
+        });
+        unused.collect()
+    }
+
+    /// Reads the entries; returns what is wrong with the text.
+    fn parse(&mut self) -> Vec<Diagnostic> {
+        let mut faults = Vec::new();
+        for (number, line) in (1..).zip(self.text.lines()) {
+            if line.trim().is_empty() || line.starts_with('#') {
+                continue;
+            }
+            match entry(line) {
+                Ok((fingerprint, mut entry)) => {
+                    entry.waiver.line = number;
+                    self.entries.insert(fingerprint.to_owned(), entry);
+                }
+                Err(fault) => faults.push(fault.in_file(&self.file, number, line)),
+            }
+        }
+        faults
+    }
+}
+
+impl Entry {
+    /// The names that the description may begin with, which may contain spaces; `None` if it does not name a code first.
+    fn possible_files(&self, bases: [&Utf8Path; 2]) -> Option<Vec<Utf8PathBuf>> {
+        let (code, rest) = self.description.split_once(' ')?;
+        code.parse::<Code>().ok()?;
+        let ends = rest.match_indices(' ').map(|(end, _)| end).chain([rest.len()]);
+        let files = ends.flat_map(|end| bases.map(|base| clean(&base.join(&rest[..end]))));
+        Some(files.collect())
     }
 }
 
 const HEAD: &str = "\
 # Known findings of pathbuild. `pathbuild check --baseline FILE --update-baseline` rewrites this file.
-# Only the fingerprint at the beginning of a line counts; the rest describes the finding.
+# Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
+
+/// A line of a baseline.
+fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, view: &View) -> String {
+    let mut line = fingerprint.to_owned();
+    if let Some(until) = waiver.until {
+        _ = write!(line, " until={until}");
+    }
+    if let Some(reason) = &waiver.reason {
+        _ = write!(line, " reason={}", serde_json::Value::from(&**reason));
+    }
+    _ = writeln!(line, " {}", description(diagnostic, view));
+    line
+}
 
 /// Describes the finding without details that change whenever the CAD program saves the drawing.
 fn description(diagnostic: &Diagnostic, view: &View) -> String {
@@ -107,17 +202,55 @@ fn description(diagnostic: &Diagnostic, view: &View) -> String {
     shown::line(&words.join(" ")).into_owned()
 }
 
+/// What is wrong with a line, with the part that is.
+struct LineFault {
+    message: &'static Message,
+    part: std::ops::Range<usize>,
+}
+
+impl LineFault {
+    fn in_file(self, file: &Utf8Path, number: u32, line: &str) -> Diagnostic {
+        let column = line[..self.part.start].chars().count() + 1;
+        let found = line[self.part.clone()].trim_start_matches("until=");
+        Diagnostic::new(self.message)
+            .quoting("found", found)
+            .in_file(file)
+            .at_line(number, u32::try_from(column).ok())
+            .with_text(TextFault::new(line, self.part))
+    }
+}
+
+/// The fingerprint and the entry of a line.
+fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
+    let Some(fingerprint) = fingerprint(line) else {
+        let start = line.len() - line.trim_start().len();
+        let end = start + line.split_whitespace().next().unwrap_or_default().len();
+        return Err(LineFault { message: &messages::BASELINE_LINE, part: start..end });
+    };
+    let mut waiver = Waiver::default();
+    let mut rest = line[fingerprint.len()..].trim_start();
+    loop {
+        let start = line.len() - rest.len();
+        let word = rest.split_whitespace().next().unwrap_or_default();
+        if let Some(date) = word.strip_prefix("until=") {
+            let fault = |()| LineFault { message: &messages::BASELINE_DATE, part: start..start + word.len() };
+            waiver.until = Some(date.parse().map_err(fault)?);
+            rest = rest[word.len()..].trim_start();
+        } else if let Some(text) = rest.strip_prefix("reason=") {
+            let fault = LineFault { message: &messages::BASELINE_REASON, part: start..start + word.len() };
+            let mut texts = serde_json::Deserializer::from_str(text).into_iter::<Box<str>>();
+            let Some(Ok(reason)) = texts.next() else { return Err(fault) };
+            waiver.reason = Some(reason);
+            rest = text[texts.byte_offset()..].trim_start();
+        } else {
+            let description = rest.trim_end().to_owned();
+            return Ok((fingerprint, Entry { waiver, description, line: line.to_owned() }));
+        }
+    }
+}
+
 fn fingerprint(line: &str) -> Option<&str> {
     let word = line.split_whitespace().next()?;
     let is_hexadecimal = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
     (word.len() == 32 && line.starts_with(word) && word.chars().all(is_hexadecimal)).then_some(word)
-}
-
-fn fault(file: &Utf8Path, number: u32, line: &str) -> Diagnostic {
-    let word =
-        line.len() - line.trim_start().len() + line.split_whitespace().next().unwrap_or_default().len();
-    Diagnostic::new(&messages::BASELINE_LINE)
-        .in_file(file)
-        .at_line(number, Some(1))
-        .with_text(TextFault::new(line, 0..word))
 }

@@ -53,7 +53,8 @@ impl Context {
     pub fn of(cli: &Cli) -> (Self, Vec<Diagnostic>) {
         let Cli { command, common } = cli;
         let (user, mut faults) = environment::user();
-        let overrides = Overrides { trusted: user.trusted.clone(), ..common.overrides() };
+        let date = environment::date(command.date());
+        let overrides = Overrides { trusted: user.trusted.clone(), date, ..common.overrides() };
         let (workspace, more) = environment::workspace(&overrides, &user, &command.inputs());
         faults.extend(more);
         let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());

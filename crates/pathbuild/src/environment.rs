@@ -7,13 +7,18 @@
 use std::env::{self, VarError};
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::{OsSystem, spelt};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{self, Overrides, Settings, User, clean};
+use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
+
+/// Seconds since 1970 that stand for the present, so that results can be reproduced (reproducible-builds.org).
+const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
 /// Names the cache directory, like `--cache-dir`.
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
@@ -88,8 +93,33 @@ pub(crate) fn named_lang(name: &str) -> Option<Lang> {
     }
 }
 
-/// Refuses an unreadable variable: otherwise results would be cached in another place than the user expects.
+/// The date of a run: the given one, else that of `SOURCE_DATE_EPOCH`, else today in UTC.
+pub(crate) fn date(given: Option<Date>) -> Option<RunDate> {
+    if let Some(date) = given {
+        return Some(RunDate { date, source: DateSource::Given });
+    }
+    if env::var_os(EPOCH).is_some() {
+        return Some(RunDate { date: epoch()?, source: DateSource::Epoch });
+    }
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok()?;
+    Some(RunDate { date: Date::of_unix_time(now.as_secs())?, source: DateSource::Clock })
+}
+
+/// The date of `SOURCE_DATE_EPOCH`, if that is one.
+fn epoch() -> Option<Date> {
+    Date::of_unix_time(env::var(EPOCH).ok()?.parse().ok()?)
+}
+
+/// Refuses variables that cannot be read: otherwise results would be cached in another place than the user expects, or waivers be
+/// compared with another date.
 pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
+    if env::var_os(EPOCH).is_some() && epoch().is_none() {
+        return Some(workspace.phrase(
+            "{} is not a number of seconds since 1970",
+            "{} ist keine Anzahl von Sekunden seit 1970",
+            EPOCH,
+        ));
+    }
     let is_unreadable = matches!(env::var(CACHE_DIR), Err(VarError::NotUnicode(_)));
     is_unreadable.then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR))
 }

@@ -22,6 +22,7 @@ mod serving;
 mod serving;
 mod table;
 mod usage;
+mod waivers;
 mod watching;
 
 use std::ffi::OsString;

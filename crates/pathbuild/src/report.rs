@@ -1,67 +1,70 @@
-//! Findings at the end of a run: baseline, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
+//! Findings at the end of a run: waivers, display, summary, pictures. (book: reference/commands, book: reference/diagnostics)
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::ManuallyDrop;
 use std::time::Duration;
 
 use camino::Utf8Path;
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, in_prose};
-use pathbuild_workspace::check::CheckOutcome;
-use pathbuild_workspace::files;
+use pathbuild_workspace::Input;
+use pathbuild_workspace::check::{CheckOutcome, CheckedFile};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::waivers::Coverage;
 
 use crate::args::CheckArgs;
-use crate::baseline::{Baseline, BaselineComparison};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::{count, counted};
-use crate::render::{View, write_pictures};
+use crate::render::write_pictures;
 use crate::table::table;
+use crate::waivers;
 
-/// Ends a check of the given duration: applies severities and baseline, shows findings, writes reports and the summary, and returns the
+/// Ends a check of the given duration: applies severities and waivers, shows findings, writes reports and the summary, and returns the
 /// exit status.
 pub fn conclude(context: &Context, args: &CheckArgs, checked: CheckOutcome, time: Duration) -> ExitStatus {
     let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
-    match &args.baseline {
-        Some(file) if args.update_baseline => {
-            update(context, &context.working_directory.join(file), &findings)
-        }
-        Some(file) => match Baseline::read(
-            &*context.system,
-            &context.working_directory.join(file),
-            context.settings.limits.file_size.value,
-        ) {
-            Ok(baseline) => deliver(context, args, &baseline.compare(findings), time),
-            Err(faults) => context.refuse(faults),
-        },
-        None => {
-            // Leak instead of dropping: freeing a million values takes longer than process exit.
-            let compared = ManuallyDrop::new(BaselineComparison { new: findings, known: 0, gone: 0 });
-            deliver(context, args, &compared, time)
-        }
+    let coverage = |findings: &Findings| coverage(context, args, &findings.checked);
+    match waivers::settle(context, &args.waivers, findings, coverage) {
+        // Leak instead of dropping: freeing a million values takes longer than process exit.
+        Ok(findings) => deliver(context, args, &ManuallyDrop::new(findings), time),
+        Err(status) => status,
     }
 }
 
-fn deliver(context: &Context, args: &CheckArgs, compared: &BaselineComparison, time: Duration) -> ExitStatus {
-    let findings = &compared.new;
+/// What the run covered. Single paths cover no drawing, and some of the drawings are not all of them.
+fn coverage(context: &Context, args: &CheckArgs, checked: &[CheckedFile]) -> Coverage {
+    let is_directory = |name: &Utf8Path| context.system.kind(name) == FileKind::Directory;
+    let mut inputs = args.inputs.iter();
+    let has_paths = inputs.any(|input| matches!(input, Input::Name(name) if !is_directory(name.into())));
+    if has_paths || args.changed_since.is_some() {
+        return Coverage::default();
+    }
+    let mut places = args.inputs.iter().map(|input| match input {
+        Input::Place(place) => place,
+        Input::Name(name) => Utf8Path::new(name),
+    });
+    Coverage {
+        files: checked.iter().map(|file| file.file.clone()).collect(),
+        has_directories: places.all(is_directory),
+        is_library: args.inputs.inputs.is_empty(),
+    }
+}
+
+fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Duration) -> ExitStatus {
     let pictures = args.pictures.as_ref();
     let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
     show(context, args.max_errors, findings);
-    if compared.gone > 0 {
-        let (en, de) = (
-            "entries of the baseline that are no longer found",
-            "bekannte Meldungen, die nicht mehr auftreten",
-        );
-        let phrase = context.choose(en, de);
-        context.printer.detail(format_args!("{phrase}: {}", compared.gone));
-    }
     if findings.diagnostics.len() > MANY && !context.format.is_for_machines() {
         context.printer.status_lines(by_code(context, findings));
     }
     context.output.figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
     context.output.figure("drawings", findings.checked.len());
-    context.output.figure("known", compared.known);
-    context.printer.status(summary(findings, compared.known, time, context.lang()));
+    context.output.figure("known", findings.waived.len());
+    if let Some(line) = waivers::date_line(context, findings) {
+        context.printer.status(line);
+    }
+    context.printer.status(summary(findings, findings.waived.len(), time, context.lang()));
     if !failed.is_empty() {
         return context.fail(failed);
     }
@@ -84,7 +87,7 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     };
     let shown: Vec<Diagnostic> = findings.diagnostics.iter().take_while(is_shown).cloned().collect();
     let hidden = findings.diagnostics.len() - shown.len();
-    context.show_some(findings, &Findings { diagnostics: shown, checked: Vec::new() });
+    context.show_some(findings, &Findings { diagnostics: shown, ..Findings::default() });
     if hidden > 0 {
         let findings = match context.lang() {
             Lang::En => ["finding", "findings"],
@@ -113,30 +116,8 @@ fn by_code(context: &Context, findings: &Findings) -> String {
     table(&[(context.choose("count", "Anzahl"), true), ("", false), ("", false), ("", false)], rows)
 }
 
-fn update(context: &Context, file: &Utf8Path, findings: &Findings) -> ExitStatus {
-    // Always in English, so that the file does not depend on the user's language.
-    let text = Baseline::text(findings, &plain_view(context, Lang::En));
-    match files::replace(context, file, &text) {
-        Ok(()) => {
-            let findings = findings.diagnostics.len();
-            let known = match context.lang() {
-                Lang::En => counted(findings, Lang::En, ["known finding", "known findings"]),
-                Lang::De => counted(findings, Lang::De, ["bekannte Meldung", "bekannte Meldungen"]),
-            };
-            context.printer.status(format_args!("{}: {known}", file.file_name().unwrap_or_default()));
-            ExitStatus::Success
-        }
-        Err(fault) => context.fail(vec![*fault]),
-    }
-}
-
-/// The view for text files: no colours, no wrapping.
-fn plain_view(context: &Context, lang: Lang) -> View {
-    View { lang, color: false, width: None, base: context.working_directory.clone(), root: None }
-}
-
 /// The last line of a check: `2,014 paths in 812 drawings: 3 errors in 2 drawings, 14 warnings (0.4 s)`. `known` is the number of findings
-/// suppressed by a baseline.
+/// accepted by waivers.
 pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
     let words = match lang {
         Lang::En => &EN,

@@ -106,7 +106,7 @@ impl Session<'_> {
         let command = line.strip_prefix("$ ").unwrap_or_else(|| panic!("{page}: a block begins with {line}"));
         let command = command.replace("cargo run --release --locked -- ", "pathbuild ");
         let directory = self.directory.clone();
-        let words: Vec<&str> = command.split_whitespace().collect();
+        let words = words(&command);
         match &words[..] {
             ["pathbuild", arguments @ ..] => {
                 let arguments: Vec<&str> = arguments.iter().map(|word| word.trim_matches('\'')).collect();
@@ -168,4 +168,15 @@ fn three_points_stand_for_any_lines() {
     assert!(!stands_for("a\n...\nc", "a\nb\nc\nd"));
     assert!(!stands_for("...\nx\n...", "a\nb\nc"));
     assert!(!stands_for("a", "a\nb"));
+}
+
+/// The words of a command; those with spaces are in double quotes.
+fn words(command: &str) -> Vec<&str> {
+    let parts = command.split('"').enumerate();
+    let words = parts.flat_map(|(index, part)| {
+        let is_quoted = index % 2 == 1;
+        let plain = if is_quoted { "" } else { part };
+        plain.split_whitespace().chain(is_quoted.then_some(part))
+    });
+    words.collect()
 }

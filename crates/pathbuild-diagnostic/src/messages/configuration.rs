@@ -209,9 +209,50 @@ messages! {
         help_en: "remove it, or rewrite the file with --update-baseline",
         help_de: "die Zeile entfernen oder die Datei mit --update-baseline neu schreiben",
     }
+    /// A baseline entry with an invalid date.
+    BASELINE_DATE: InvalidConfiguration {
+        en: "`{found}` is not a date",
+        de: "`{found}` ist kein Datum",
+        help_en: "write year, month and day: until=2026-12-31",
+        help_de: "Jahr, Monat und Tag schreiben: until=2026-12-31",
+    }
+    /// A baseline entry with an unreadable reason.
+    BASELINE_REASON: InvalidConfiguration {
+        en: "the reason is not a text in double quotes",
+        de: "der Grund ist kein Text in Anführungszeichen",
+        help_en: "write reason=\"...\", with a backslash before each quote inside",
+        help_de: "reason=\"...\" schreiben, mit einem Backslash vor jedem Anführungszeichen im Text",
+    }
+    /// A waiver that matches no finding.
+    UNUSED_WAIVER: UnusedWaiver {
+        en: "this waiver matches no finding any more",
+        de: "diese Ausnahme trifft auf keine Meldung mehr zu",
+        help_en: "remove it, so that it does not hide the same finding later",
+        help_de: "sie entfernen, damit sie nicht später dieselbe Meldung verdeckt",
+    }
+    /// A note: a waiver has ended.
+    WAIVER_ENDED: InvalidConfiguration {
+        en: "accepted until {until} by {place}; the date of this run is {date} ({source})",
+        de: "hingenommen bis {until} durch {place}; das Datum dieses Laufs ist {date} ({source})",
+    }
+    /// A note: whether a waiver has ended is unknown.
+    WAIVER_WITHOUT_DATE: InvalidConfiguration {
+        en: "accepted until {until} by {place}, which does not hold here because this run has no date",
+        de: "hingenommen bis {until} durch {place}; das gilt hier nicht, weil dieser Lauf kein Datum hat",
+    }
+    /// A note: a severity holds until a date.
+    SEVERITY_UNTIL: InvalidConfiguration {
+        en: "{place} sets this severity until {until}; the date of this run is {date} ({source})",
+        de: "{place} legt diesen Schweregrad bis {until} fest; das Datum dieses Laufs ist {date} ({source})",
+    }
+    /// A note: the reason of a waiver.
+    WAIVER_REASON: InvalidConfiguration {
+        en: "the reason was: {reason}",
+        de: "der Grund war: {reason}",
+    }
 }
 
-// What a value must be.
+// What a value must be, and where the date of a run comes from.
 words! {
     /// A number.
     NUMBER: "a number", "eine Zahl";
@@ -235,6 +276,8 @@ words! {
     DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";
     /// A text.
     TEXT: "a text", "ein Text";
+    /// A date.
+    DATE: "a date such as \"2026-12-31\"", "ein Datum wie \"2026-12-31\"";
     /// An absolute path.
     ABSOLUTE: "an absolute path", "ein absoluter Pfad";
     /// A list of absolute paths.
@@ -253,4 +296,10 @@ words! {
     AXES: "a list of three numbers greater than 0", "eine Liste von drei Zahlen größer als 0";
     /// A list of two numbers, the smaller first.
     EXTENT: "a list of two numbers, the smaller first", "eine Liste von zwei aufsteigenden Zahlen";
+    /// The date of a run is from an option.
+    DATE_GIVEN: "--date", "--date";
+    /// The date of a run is from a variable.
+    DATE_OF_EPOCH: "SOURCE_DATE_EPOCH", "SOURCE_DATE_EPOCH";
+    /// The date of a run is from the clock.
+    DATE_OF_CLOCK: "today, UTC", "heute, UTC";
 }

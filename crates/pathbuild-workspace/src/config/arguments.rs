@@ -11,6 +11,7 @@ use super::kinds::number_from_text;
 use super::kinds::{regex_fault, split_restriction};
 use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
+use crate::waivers::RunDate;
 
 /// A command-line option that overrides the key of its name. (book: reference/commands)
 #[derive(Debug)]
@@ -69,6 +70,8 @@ pub struct Overrides {
     pub untrusted: bool,
     /// Directories below which trees are trusted; `None` means that all trees are.
     pub trusted: Option<Vec<Utf8PathBuf>>,
+    /// The date that waivers are compared with.
+    pub date: Option<RunDate>,
 }
 
 /// Parses the value of an option that must be a number greater than 0, with decimal point or comma.

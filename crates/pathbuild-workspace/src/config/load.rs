@@ -47,7 +47,8 @@ pub fn load(
     let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
     let is_unexpected =
         given.config.is_none() && file.as_deref().is_some_and(|file| discovery.is_unexpected(file));
-    (Settings { file, not_used, is_unexpected, confined, ..options.over(configured).resolve() }, diagnostics)
+    let settings = options.over(configured).resolve();
+    (Settings { file, not_used, is_unexpected, confined, date: given.date, ..settings }, diagnostics)
 }
 
 /// The repositories that an untrusted run must not leave: that of the configuration, and that of each argument. `None` if all of them are

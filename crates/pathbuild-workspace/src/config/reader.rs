@@ -129,6 +129,11 @@ impl<'a> TomlReader<'a> {
         self.report(fault);
     }
 
+    /// Line of a span, from 1.
+    pub(super) fn line(&self, span: Range<usize>) -> u32 {
+        self.source.line_number(span.start)
+    }
+
     /// A diagnostic at a span, with the current key filled in.
     pub(super) fn fault(&self, message: &'static Message, span: Range<usize>) -> Diagnostic {
         self.source.fault(message, span).quoting("key", self.key.as_str())

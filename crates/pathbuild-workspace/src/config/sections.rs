@@ -324,8 +324,9 @@ pub mod tables {
         /// code = "error" | "warning" | "ignore"; errors that protect programs from being wrong
         /// (PB0 to PB5) cannot be lowered
         severity: Vec<(Code, Level)> = "severity", SEVERITY, Vec::new(), "[severity]\nPB210 = \"ignore\"", Neither;
-        /// the same for some drawings: globs, relative to this file
-        severity_in: Vec<FileSeverities> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"", Neither;
+        /// the same for some drawings or programs: globs, relative to this file; with `reason`, and `until` a date, the
+        /// last day on which it holds
+        severity_in: Vec<FileSeverities> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"\nreason = \"milled by hand\"\nuntil = \"2031-12-31\"", Neither;
         /// a tool, for post-processors: found by O (and by paths, a pattern of path names); with shape = "slot" its paths
         /// are compared with parts only for cuts into them
         tools: Vec<Tool> = "tool", TOOLS, Vec::new(),

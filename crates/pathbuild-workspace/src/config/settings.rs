@@ -12,6 +12,7 @@ use super::origin::{Origin, ResultKind};
 use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
 use super::types::Severities;
+use crate::waivers::RunDate;
 
 /// The settings of a run, each with its source.
 #[derive(Clone, Debug)]
@@ -26,6 +27,9 @@ pub struct Settings {
     pub is_unexpected: bool,
     /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
     pub confined: Option<ConfinedSystem>,
+    /// The date that waivers are compared with; `None` if the caller states none, so that those with a date do not hold. No cached result
+    /// depends on it.
+    pub date: Option<RunDate>,
     pub general: general::Settings,
     pub emit: emit::Settings,
     pub limits: limits::Settings,
@@ -135,6 +139,7 @@ impl Options {
         Settings {
             file: None,
             not_used: None,
+            date: None,
             is_unexpected: false,
             confined: None,
             general: self.general.resolve(),

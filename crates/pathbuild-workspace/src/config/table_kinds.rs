@@ -14,6 +14,7 @@ use super::kinds::{COUNT, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::reader::{Table, TomlReader, ValueType};
 use crate::config::types::{CutterShape, FileSeverities, Level, LineTypeAlias, PostChoice, Tool};
+use crate::waivers::{Date, Waiver};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::PostMacro;
 
@@ -54,7 +55,14 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueT
                 .levels
                 .iter()
                 .filter_map(|(code, level)| Some((code.to_string(), quoted(name_of(*level)?))));
-            let all = files.into_iter().map(|(name, files)| (name.to_owned(), files)).chain(levels);
+            let Waiver { reason, until, .. } = &part.waiver;
+            let waiver = [
+                ("reason", reason.as_deref().map(quoted)),
+                ("until", until.map(|date| quoted(&date.to_string()))),
+            ];
+            let waiver = waiver.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?)));
+            let files = files.into_iter().map(|(name, files)| (name.to_owned(), files));
+            let all = files.chain(levels).chain(waiver);
             inline(all.collect::<Vec<_>>().iter().map(|(name, value)| (name.as_str(), Some(value.clone()))))
         });
         let shown: Vec<_> = shown.collect();
@@ -64,8 +72,12 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueT
         json!({ "type": "array", "items": {
             "type": "object",
             "required": ["files"],
-            "properties": { "files": (PATTERNS.schema)() },
-            "propertyNames": { "anyOf": [{ "const": "files" }, code_schema()] },
+            "properties": {
+                "files": (PATTERNS.schema)(),
+                "reason": (TEXT.schema)(),
+                "until": { "type": "string", "format": "date" },
+            },
+            "propertyNames": { "anyOf": [{ "enum": ["files", "reason", "until"] }, code_schema()] },
             "additionalProperties": choice_schema::<Level>(),
         } })
     },
@@ -227,17 +239,32 @@ pub fn nearest_code(name: &str) -> Option<String> {
 
 fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeverities {
     let mut part = FileSeverities::default();
+    part.waiver.line = table.keys().map(|name| reader.line(name.span())).min().unwrap_or_default();
     for (name, value) in table {
-        if name.get_ref() == "files" {
-            part.files = (PATTERNS.read)(value, reader).unwrap_or_default();
-        } else {
-            part.levels.extend(severity((name, value), reader));
+        match &**name.get_ref() {
+            "files" => part.files = (PATTERNS.read)(value, reader).unwrap_or_default(),
+            "reason" => part.waiver.reason = (TEXT.read)(value, reader),
+            "until" => part.waiver.until = date(value, reader),
+            _ => part.levels.extend(severity((name, value), reader)),
         }
     }
     if !table.contains_key("files") {
         reader.missing("files", table.keys().next().map(Spanned::span).unwrap_or_default());
     }
     part
+}
+
+/// A date, as a text or as TOML's own kind of date.
+fn date(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<Date> {
+    let text = match value.get_ref() {
+        DeValue::Datetime(date) => Some(date.to_string()),
+        other => other.as_str().map(str::to_owned),
+    };
+    let date = text.and_then(|text| text.parse().ok());
+    if date.is_none() {
+        return reader.within("until", |reader| reader.expected(Value::Prose(&messages::DATE), value));
+    }
+    date
 }
 
 fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Tool> {

@@ -11,6 +11,8 @@ use pathbuild_path::LineType;
 use pathbuild_toolpath::ZModel;
 use serde::{Deserialize, Serialize};
 
+use crate::waivers::Waiver;
+
 /// Declares a choice: an enum with the texts that stand for its variants.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $text:literal,)* }) => {
@@ -203,6 +205,11 @@ impl Pattern {
         self.set.is_match(name)
     }
 
+    /// The only name that it matches, if it contains no wildcard.
+    pub fn literal(&self) -> Option<&str> {
+        (!self.text.contains(['*', '?', '[', '{', '\\'])).then_some(&*self.text)
+    }
+
     /// The glob as it was written.
     pub fn text(&self) -> &str {
         &self.text
@@ -225,21 +232,37 @@ pub struct FileSeverities {
     pub files: Vec<Pattern>,
     /// Levels of codes.
     pub levels: Vec<(Code, Level)>,
+    /// Why, and for how long.
+    pub waiver: Waiver,
 }
 
 impl Severities {
-    /// The configured level of a code in a file (relative to the configuration's directory); `None` if the default applies.
-    pub fn level(&self, code: Code, file: Option<&Utf8Path>) -> Option<Level> {
-        let level_in = |levels: &[(Code, Level)]| {
-            levels.iter().find(|(known, _)| *known == code).map(|(_, level)| *level)
-        };
-        let file = file.map(|file| file.as_str().replace('\\', "/"));
-        let is_in = |part: &&FileSeverities| {
-            file.as_ref().is_some_and(|file| part.files.iter().any(|pattern| pattern.matches(file)))
-        };
-        let in_file = self.in_files.iter().rev().filter(is_in).find_map(|part| level_in(&part.levels));
-        in_file.or_else(|| level_in(&self.everywhere))
+    /// The level of a code in all files; `None` if the default applies.
+    pub fn level(&self, code: Code) -> Option<Level> {
+        level_in(&self.everywhere, code)
     }
+
+    /// The entries that set the level of a code in a file (relative to the configuration's directory), the one that counts first.
+    pub fn levels_in<'a>(
+        &'a self,
+        code: Code,
+        file: &Utf8Path,
+    ) -> impl Iterator<Item = (&'a FileSeverities, Level)> {
+        let file = file.as_str().replace('\\', "/");
+        let entries = self.in_files.iter().rev().filter(move |entry| entry.concerns(&file));
+        entries.filter_map(move |entry| Some((entry, level_in(&entry.levels, code)?)))
+    }
+}
+
+impl FileSeverities {
+    /// Whether it is about a file, which is named relative to the configuration's directory, with slashes.
+    pub fn concerns(&self, file: &str) -> bool {
+        self.files.iter().any(|pattern| pattern.matches(file))
+    }
+}
+
+fn level_in(levels: &[(Code, Level)], code: Code) -> Option<Level> {
+    levels.iter().find(|(known, _)| *known == code).map(|(_, level)| *level)
 }
 
 /// A tool, as post-processors know it. (book: program/posts)

@@ -10,12 +10,11 @@ use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::types::Requirement;
 use pathbuild_workspace::program::ReadingOptions;
 
-use super::shared::{Address, InputArgs};
+use super::shared::{Address, InputArgs, WaiverArgs};
 use crate::completion;
 
 /// `pathbuild check`
 #[derive(Clone, Debug, Default, Args)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct CheckArgs {
     /// What to check.
     #[command(flatten)]
@@ -26,12 +25,9 @@ pub struct CheckArgs {
     /// Exit with 1 on warnings too
     #[arg(long)]
     pub error_on_warning: bool,
-    /// Report only findings that are not in this file
-    #[arg(long, value_name = "FILE")]
-    pub baseline: Option<Utf8PathBuf>,
-    /// Write all findings into the baseline file instead of reporting them
-    #[arg(long, requires = "baseline")]
-    pub update_baseline: bool,
+    /// What is accepted.
+    #[command(flatten)]
+    pub waivers: WaiverArgs,
     /// Check only what depends on files changed since this Git revision
     #[arg(long, value_name = "REV")]
     pub changed_since: Option<String>,
@@ -549,14 +545,6 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
         "Prüft jede Kombination der Werte von Variablen, nicht nur je ein Beispiel",
     ),
     ("Exit with 1 on warnings too", "Endet auch bei Warnungen mit Exit-Status 1"),
-    (
-        "Report only findings that are not in this file",
-        "Zeigt nur Meldungen, die nicht in dieser Datei stehen",
-    ),
-    (
-        "Write all findings into the baseline file instead of reporting them",
-        "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen",
-    ),
     (
         "Check only what depends on files changed since this Git revision",
         "Prüft nur, was von Dateien abhängt, die seit dieser Git-Revision geändert wurden",

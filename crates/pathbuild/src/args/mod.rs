@@ -13,6 +13,7 @@ use clap::{
     ValueEnum,
 };
 use pathbuild_workspace::Inputs;
+use pathbuild_workspace::waivers::Date;
 
 pub use self::commands::CheckArgs;
 pub use self::commands::{AdjustArgs, EmitArgs};
@@ -30,7 +31,7 @@ pub use self::shared::InputArgs;
 use self::shared::LangArg;
 pub use self::shared::ReportFile;
 pub use self::shared::SettingArgs;
-pub use self::shared::{Address, Host};
+pub use self::shared::{Address, Host, WaiverArgs};
 
 /// Compiles drawings of milling paths to G-code.
 #[derive(Debug, Parser)]
@@ -110,6 +111,16 @@ impl Command {
     /// Whether the arguments may be programs.
     pub(crate) fn reads_programs(&self) -> bool {
         matches!(self, Self::Verify(_) | Self::Import(_) | Self::Post(_) | Self::View(_) | Self::Adjust(_))
+    }
+
+    /// The date that waivers are compared with, if the command line states one. Posts also accept dates in other forms.
+    pub fn date(&self) -> Option<Date> {
+        match self {
+            Self::Check(args) => args.waivers.date,
+            Self::Emit(args) => args.date.as_deref()?.parse().ok(),
+            Self::Post(args) => args.date.as_deref()?.parse().ok(),
+            _ => None,
+        }
     }
 
     /// The drawings and paths that the command works on; empty for other commands.

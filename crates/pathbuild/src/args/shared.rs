@@ -5,10 +5,11 @@ use std::ops::Deref;
 
 use camino::Utf8PathBuf;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command as Definition, Error, FromArgMatches, ValueEnum};
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{GivenOptions, OptionValues, Overrides, SettingOption};
+use pathbuild_workspace::waivers::Date;
 
 use crate::completion;
 use crate::printer::{ColorChoice, Verbosity};
@@ -74,6 +75,7 @@ impl CommonArgs {
             config: self.config.clone(),
             untrusted: self.untrusted,
             trusted: None,
+            date: None,
         }
     }
 
@@ -153,6 +155,37 @@ fn texts(option: &SettingOption, matches: &ArgMatches) -> Option<Vec<String>> {
         return matches.get_flag(option.name).then(Vec::new);
     }
     matches.get_many::<String>(option.name).map(|texts| texts.cloned().collect())
+}
+
+/// What is accepted, and what is to be accepted from now on.
+#[derive(Clone, Debug, Default, Args)]
+pub struct WaiverArgs {
+    /// Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)
+    #[arg(long, value_name = "FILE")]
+    pub baseline: Option<Utf8PathBuf>,
+    /// Write all findings into the baseline file instead of reporting them
+    #[arg(long, requires = "baseline")]
+    pub update_baseline: bool,
+    /// Accept the findings with this code: write them into the baseline file with --reason
+    #[arg(long, value_name = "CODE", value_parser = code, requires = "reason", conflicts_with = "update_baseline")]
+    pub accept: Option<Code>,
+    /// With --accept: why
+    #[arg(long, value_name = "TEXT", requires = "accept")]
+    pub reason: Option<String>,
+    /// With --accept: the last day on which this holds
+    #[arg(long, value_name = "DATE", value_parser = date, requires = "accept")]
+    pub until: Option<Date>,
+    /// Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)
+    #[arg(long, value_name = "DATE", value_parser = date)]
+    pub date: Option<Date>,
+}
+
+fn code(text: &str) -> Result<Code, &'static str> {
+    text.parse().map_err(|()| "there is no such diagnostic: `pathbuild explain` lists all of them")
+}
+
+fn date(text: &str) -> Result<Date, &'static str> {
+    text.parse().map_err(|()| "expected a date such as 2026-12-31")
 }
 
 /// Drawings, paths and directories as arguments.
@@ -351,6 +384,29 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
         "Do not trust the tree: read no file outside of it, and run no command that it names",
         "Dem Verzeichnisbaum nicht trauen: keine Datei außerhalb lesen, keinen dort genannten Befehl ausführen",
     ),
+    (
+        "Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)",
+        "Datum für den Vergleich mit Ausnahmen (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)",
+    ),
+    (
+        "Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)",
+        "Zeigt nur Meldungen, die nicht in dieser Datei stehen (sonst: pathbuild-baseline.txt neben pathbuild.toml)",
+    ),
+    (
+        "Write all findings into the baseline file instead of reporting them",
+        "Schreibt alle Meldungen in die Datei von --baseline, statt sie zu zeigen",
+    ),
+    (
+        "Accept the findings with this code: write them into the baseline file with --reason",
+        "Nimmt die Meldungen mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline",
+    ),
+    ("With --accept: why", "Mit --accept: warum"),
+    ("With --accept: the last day on which this holds", "Mit --accept: der letzte Tag, an dem das gilt"),
+    ("expected a date such as 2026-12-31", "erwartet wird ein Datum wie 2026-12-31"),
+    (
+        "there is no such diagnostic: `pathbuild explain` lists all of them",
+        "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle auf",
+    ),
     ("Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine"),
     (
         "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
@@ -370,6 +426,7 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
     ("German", "Deutsch"),
     ("DRAWING|PATH|DIRECTORY", "ZEICHNUNG|PFAD|VERZEICHNIS"),
     ("FORMAT=FILE", "FORMAT=DATEI"),
+    ("TEXT", "TEXT"),
     ("en|de", "en|de"),
     ("auto|always|never", "auto|always|never"),
     ("full|concise|json|sarif|github|gitlab|junit", "full|concise|json|sarif|github|gitlab|junit"),

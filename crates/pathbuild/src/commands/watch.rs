@@ -152,7 +152,7 @@ impl Listener for WatchPrinter<'_> {
         let still: HashSet<&Diagnostic> = now.iter().collect();
         let gone = before.iter().filter(|found| !still.contains(found)).count();
         let new: Vec<Diagnostic> = now.iter().filter(|found| !known.contains(found)).cloned().collect();
-        context.show(&Findings { diagnostics: new.clone(), checked: Vec::new() });
+        context.show(&Findings { diagnostics: new.clone(), ..Findings::default() });
         let (count, revision) = (update.checked, update.revision);
         let milliseconds = update.time.as_secs_f64() * 1000.0;
         let phrase = |en, de| context.choose(en, de);

@@ -7,6 +7,7 @@ use pathbuild_view::escaped;
 
 use super::{RenderedText, View, view};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::waivers::WaivedFinding;
 
 /// Renders the page. `pictures` has one entry per finding.
 pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View) -> RenderedText {
@@ -30,7 +31,34 @@ pub(crate) fn page(findings: &Findings, pictures: &[Option<String>], view: &View
     if file.is_some() {
         text.push_str("</section>\n");
     }
+    accepted(&mut text, findings, view);
     RenderedText(text + "</html>\n")
+}
+
+/// The findings that are accepted for a stated reason.
+fn accepted(text: &mut String, findings: &Findings, view: &View) {
+    let stated = findings.waived.iter().filter_map(|waived| Some((waived, waived.waiver.reason.as_deref()?)));
+    let mut items = String::new();
+    for (WaivedFinding { diagnostic, waiver }, reason) in stated {
+        let place = view::location(diagnostic, view).unwrap_or_default();
+        let until =
+            waiver.until.map(|date| view.choose("until {}", "bis {}").replace("{}", &date.to_string()));
+        let parts = [escaped(&place), escaped(&view::element(diagnostic, view)), until.unwrap_or_default()];
+        let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        _ = writeln!(
+            items,
+            "<article>\n<div>\n<h3>{} <small>{}</small></h3>\n<p>{}</p>\n<p class=\"help\">{}</p>\n<p class=\"place\">{}</p>\n</div>\n</article>",
+            diagnostic.code(),
+            diagnostic.code().name(),
+            lines(&diagnostic.text(view.lang)),
+            lines(reason),
+            parts.join(" · "),
+        );
+    }
+    if !items.is_empty() {
+        let title = view.choose("Accepted", "Hingenommen");
+        _ = writeln!(text, "<section>\n<h2>{title}</h2>\n{items}</section>");
+    }
 }
 
 fn summary(findings: &Findings, view: &View) -> String {

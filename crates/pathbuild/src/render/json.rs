@@ -32,6 +32,15 @@ struct Object<'a> {
     trace: Vec<Step<'a>>,
 }
 
+/// A finding that is accepted for a stated reason.
+#[derive(Serialize)]
+struct AcceptedFinding<'a> {
+    #[serde(flatten)]
+    finding: Object<'a>,
+    reason: &'a str,
+    until: Option<String>,
+}
+
 #[derive(Serialize)]
 struct Step<'a> {
     file: String,
@@ -41,7 +50,15 @@ struct Step<'a> {
 }
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
-    findings.diagnostics.iter().map(|diagnostic| line(diagnostic, view)).collect()
+    let waived = findings.waived.iter().filter_map(|waived| {
+        Some(AcceptedFinding {
+            finding: Object { r#type: "waived", ..object(&waived.diagnostic, view) },
+            reason: waived.waiver.reason.as_deref()?,
+            until: waived.waiver.until.map(|date| date.to_string()),
+        })
+    });
+    let reported = findings.diagnostics.iter().map(|diagnostic| line(&object(diagnostic, view)));
+    reported.chain(waived.map(|waived| line(&waived))).collect()
 }
 
 /// The first line of a document: version of the format, and name of the command.
@@ -73,9 +90,14 @@ struct Header<'a> {
     command: &'a str,
 }
 
-fn line(diagnostic: &Diagnostic, view: &View) -> String {
+fn line(object: &impl Serialize) -> String {
+    // Serialization fails only for maps with keys that are not strings.
+    format!("{}\n", serde_json::to_string(object).unwrap_or_default())
+}
+
+fn object<'a>(diagnostic: &'a Diagnostic, view: &View) -> Object<'a> {
     let place = &diagnostic.place;
-    let object = Object {
+    Object {
         r#type: "finding",
         code: diagnostic.code().to_string(),
         name: diagnostic.code().name(),
@@ -94,9 +116,7 @@ fn line(diagnostic: &Diagnostic, view: &View) -> String {
         text: diagnostic.text.as_ref().map(|fault| &*fault.text),
         span: diagnostic.text.as_ref().map(span),
         trace: trace(diagnostic, view),
-    };
-    // Serialization fails only for maps with keys that are not strings.
-    format!("{}\n", serde_json::to_string(&object).unwrap_or_default())
+    }
 }
 
 fn trace<'a>(diagnostic: &'a Diagnostic, view: &View) -> Vec<Step<'a>> {

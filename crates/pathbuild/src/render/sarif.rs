@@ -9,18 +9,19 @@ use serde_json::{Value as Json, json};
 use super::Fingerprint;
 use super::{View, view};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::waivers::Waiver;
 
 /// Upper bound on results: GitHub refuses runs with more.
 const MOST_RESULTS: usize = 25_000;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
-    let rules: Vec<Code> =
-        findings.diagnostics.iter().map(Diagnostic::code).collect::<BTreeSet<_>>().into_iter().collect();
-    let fingerprints = Fingerprint::of(&findings.diagnostics);
-    let mut results: Vec<_> = findings.diagnostics.iter().zip(fingerprints).collect();
+    let mut results = reported(findings);
+    results.extend(accepted(findings));
+    let rules: BTreeSet<Code> = results.iter().map(|result| result.diagnostic.code()).collect();
+    let rules: Vec<Code> = rules.into_iter().collect();
     let left_out = results.len().saturating_sub(MOST_RESULTS);
     if left_out > 0 {
-        results.sort_by_key(|(diagnostic, _)| diagnostic.severity);
+        results.sort_by_key(|result| (result.waiver.is_some(), result.diagnostic.severity));
         results.truncate(MOST_RESULTS);
     }
     let log = json!({
@@ -36,10 +37,33 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
             "automationDetails": { "id": "pathbuild/" },
             "columnKind": "unicodeCodePoints",
             "invocations": [invocation(left_out, view)],
-            "results": results.into_iter().map(|(diagnostic, fingerprint)| result(diagnostic, fingerprint, &rules, view)).collect::<Vec<_>>(),
+            "results": results.iter().map(|shown| result(shown, &rules, view)).collect::<Vec<_>>(),
         }],
     });
     format!("{log:#}\n")
+}
+
+/// A finding to be shown; accepted ones have a waiver.
+struct ShownFinding<'a> {
+    diagnostic: &'a Diagnostic,
+    fingerprint: Fingerprint,
+    waiver: Option<&'a Waiver>,
+}
+
+fn reported(findings: &Findings) -> Vec<ShownFinding<'_>> {
+    let shown = |(diagnostic, fingerprint)| ShownFinding { diagnostic, fingerprint, waiver: None };
+    findings.diagnostics.iter().zip(Fingerprint::of(&findings.diagnostics)).map(shown).collect()
+}
+
+/// The findings that are accepted for a stated reason.
+fn accepted(findings: &Findings) -> impl Iterator<Item = ShownFinding<'_>> {
+    let all: Vec<Diagnostic> = findings.waived.iter().map(|waived| waived.diagnostic.clone()).collect();
+    let accepted = findings.waived.iter().zip(Fingerprint::of(&all));
+    accepted.filter(|(waived, _)| waived.waiver.reason.is_some()).map(|(waived, fingerprint)| ShownFinding {
+        diagnostic: &waived.diagnostic,
+        fingerprint,
+        waiver: Some(&waived.waiver),
+    })
 }
 
 fn rule(code: Code, view: &View) -> Json {
@@ -73,9 +97,10 @@ fn invocation(left_out: usize, view: &View) -> Json {
     invocation
 }
 
-fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], view: &View) -> Json {
+fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
+    let ShownFinding { diagnostic, fingerprint, waiver } = shown;
     let at = &diagnostic.place;
-    json!({
+    let mut result = json!({
         "ruleId": diagnostic.code().to_string(),
         "ruleIndex": rules.binary_search(&diagnostic.code()).unwrap_or_default(),
         "level": level(diagnostic.severity),
@@ -93,7 +118,16 @@ fn result(diagnostic: &Diagnostic, fingerprint: Fingerprint, rules: &[Code], vie
             "x": at.point.map(|point| point.x.0),
             "y": at.point.map(|point| point.y.0),
         },
-    })
+    });
+    if let Some(waiver) = waiver {
+        result["suppressions"] = json!([{
+            "kind": "external",
+            "status": "accepted",
+            "justification": waiver.reason,
+            "properties": { "until": waiver.until.map(|date| date.to_string()) },
+        }]);
+    }
+    result
 }
 
 /// Message, help, and place. SARIF viewers would not show the place otherwise.

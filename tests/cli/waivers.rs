@@ -1,0 +1,258 @@
+//! Accepted findings: reasons, dates, entries that match nothing any more, and how they are written. (book: howto/ci)
+
+use std::process::Command;
+
+use crate::support::{Place, Run, program};
+use insta::assert_snapshot;
+use pathbuild_testkit::sheet;
+use serde_json::Value;
+
+const WARNED: &str = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 20,0 40,0\nturn 20,0\nend 40,0\n";
+const GOOD: &str = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n";
+const WRONG: &str = "layer 1236.1P\nstart 0,0 \"T5 O2 I1\"\nmill 0,0 40,0 \"B6\"\nend 40,0\n";
+const CODE: &str = "PB114";
+
+fn dxf(text: &str) -> Vec<u8> {
+    sheet(text).expect("a drawing").to_dxf()
+}
+
+fn place() -> Place {
+    Place::new()
+        .file("pathbuild.toml", "library = [\"parts\"]")
+        .file("parts/1235.1P.dxf", dxf(WARNED))
+        .file("parts/1236.1P.dxf", dxf(WRONG))
+}
+
+fn accept(place: &Place, more: &[&str]) -> Run {
+    let reason = "the first \"one\" is milled by hand";
+    let arguments = ["check", "--accept", CODE, "--reason", reason, "parts/1235.1P.dxf"];
+    place.run_with(&[&arguments, more].concat())
+}
+
+fn entry(reason: &str) -> String {
+    format!(
+        "library = [\"parts\"]\n\n[[severity-in]]\nfiles = [\"parts/1235.1P.dxf\"]\nPB114 = \"ignore\"\n{reason}"
+    )
+}
+
+fn strict(place: &Place, more: &str) -> Run {
+    place.run(&format!("check parts/1235.1P.dxf --error-on-warning {more}"))
+}
+
+fn with_epoch(place: &Place, epoch: &str, more: &[&str]) -> Option<i32> {
+    let mut command: Command = program();
+    command.args(["check", "parts/1235.1P.dxf", "--error-on-warning", "-q"]).args(more);
+    // The zone of the user must not matter.
+    command.current_dir(place.path()).env("SOURCE_DATE_EPOCH", epoch).env("TZ", "Pacific/Kiritimati");
+    command.output().unwrap().status.code()
+}
+
+#[test]
+fn an_accepted_finding_is_written_beside_the_configuration_and_held_back() {
+    let place = place();
+    assert_eq!(strict(&place, "").status, Some(1));
+    assert_snapshot!(accept(&place, &[]));
+    assert_snapshot!(place.read("pathbuild-baseline.txt"));
+    assert_snapshot!(strict(&place, ""));
+    assert_eq!(place.run_in("parts", &["check", "1235.1P.dxf", "--error-on-warning"]).status, Some(0));
+    assert_eq!(place.run("check").status, Some(1), "the error in the other drawing is reported");
+}
+
+#[test]
+fn accepting_again_replaces_the_reason_and_keeps_the_rest() {
+    let place = place();
+    assert_eq!(accept(&place, &["--baseline", "known.txt"]).status, Some(0));
+    let commented = place.read("known.txt") + "# a remark\n";
+    let place = place.file("known.txt", commented);
+    let arguments = ["check", "--accept", CODE, "--reason", "later", "--until", "2031-01-31", "--baseline"];
+    assert_eq!(place.run_with(&[&arguments[..], &["known.txt"]].concat()).status, Some(0));
+    let text = place.read("known.txt");
+    assert!(
+        text.contains("# a remark\n") && text.contains(" until=2031-01-31 reason=\"later\" PB114"),
+        "{text}"
+    );
+    assert_eq!(text.matches(CODE).count(), 1, "{text}");
+    let updated = place.run("check --baseline known.txt --update-baseline");
+    assert_eq!(updated.status, Some(0), "{updated}");
+    let text = place.read("known.txt");
+    assert!(text.contains(" until=2031-01-31 reason=\"later\" PB114"), "{text}");
+    assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), 2, "{text}");
+}
+
+#[test]
+fn what_cannot_be_accepted_is_wrong_usage() {
+    let place = place();
+    let run = |arguments: &[&str]| place.run_with(&[&["check", "parts/1235.1P.dxf"], arguments].concat());
+    for arguments in [
+        &["--accept", "PB210", "--reason", "why"][..],
+        &["--accept", "PB999", "--reason", "why"],
+        &["--accept", CODE],
+        &["--accept", CODE, "--reason", " "],
+        &["--accept", CODE, "--reason", "why", "--until", "2026-02-29"],
+        &["--accept", CODE, "--reason", "why", "--until", "2026-11-24", "--date", "2026-11-25"],
+    ] {
+        let run = run(arguments);
+        assert_eq!(run.status, Some(2), "{run}");
+        assert_snapshot!(run);
+    }
+    assert!(!place.path().join("pathbuild-baseline.txt").exists());
+    let today = ["--accept", CODE, "--reason", "why", "--until", "2026-11-25", "--date", "2026-11-25"];
+    assert_eq!(run(&today).status, Some(0), "the last day counts");
+}
+
+#[test]
+fn an_entry_holds_on_its_last_day_and_not_on_the_next() {
+    let place = place();
+    assert_eq!(accept(&place, &["--until", "2031-12-31"]).status, Some(0));
+    assert_snapshot!(strict(&place, "--date 2031-12-31"));
+    assert_snapshot!(strict(&place, "--date 2032-01-01"));
+    assert_snapshot!(strict(&place, "--date 2032-01-01 --lang de"));
+}
+
+#[test]
+fn a_table_of_the_configuration_holds_on_its_last_day_and_not_on_the_next() {
+    for until in ["until = 2031-12-31", "until = \"2031-12-31\""] {
+        let place = place().file("pathbuild.toml", entry(&format!("reason = \"by hand\"\n{until}\n")));
+        assert_eq!(strict(&place, "--date 2031-12-31").status, Some(0));
+        assert_snapshot!("a_table_that_has_ended", strict(&place, "--date 2032-01-01"));
+    }
+    let raised = entry("reason = \"by hand\"\nuntil = 2031-12-31\n").replace("ignore", "error");
+    let place = place().file("pathbuild.toml", raised);
+    assert_snapshot!(strict(&place, "--date 2031-12-31"));
+    assert_eq!(strict(&place, "--date 2032-01-01").stderr.matches("error:").count(), 0);
+}
+
+#[test]
+fn an_ended_table_leaves_the_level_of_the_one_before() {
+    let two = entry("until = 2031-12-31\n")
+        + "\n[[severity-in]]\nfiles = [\"parts/*\"]\nPB114 = \"error\"\nuntil = 2030-12-31\n";
+    let place = place().file("pathbuild.toml", two);
+    let status = |date: &str| place.run(&format!("check parts/1235.1P.dxf --date {date}")).status;
+    assert_eq!(
+        [status("2030-12-31"), status("2031-01-01"), status("2032-01-01")],
+        [Some(1), Some(0), Some(0)]
+    );
+    assert!(strict(&place, "--date 2032-01-01").stderr.contains(CODE));
+}
+
+#[test]
+fn the_date_is_that_of_the_option_else_of_the_variable_in_utc() {
+    let place = place();
+    assert_eq!(accept(&place, &["--until", "2031-12-31"]).status, Some(0));
+    // 2031-12-31 23:59:59 UTC, and a second later.
+    assert_eq!(with_epoch(&place, "1956527999", &[]), Some(0));
+    assert_eq!(with_epoch(&place, "1956528000", &[]), Some(1));
+    assert_eq!(
+        with_epoch(&place, "1956528000", &["--date", "2031-12-31"]),
+        Some(0),
+        "the option comes first"
+    );
+    for epoch in ["soon", "-1", "", "99999999999999"] {
+        assert_eq!(with_epoch(&place, epoch, &[]), Some(2), "{epoch}");
+    }
+    // A leap day, and the ends of a century.
+    let place = place.file("pathbuild.toml", entry("until = 2028-02-29\n"));
+    assert_eq!(
+        with_epoch(&place, "1835481599", &["--baseline", "none"]),
+        Some(2),
+        "the named file must exist"
+    );
+    let place = place.file("none", "");
+    assert_eq!(with_epoch(&place, "1835481599", &["--baseline", "none"]), Some(0));
+    assert_eq!(with_epoch(&place, "1835481600", &["--baseline", "none"]), Some(1));
+}
+
+#[test]
+fn invalid_dates_are_named_with_their_places() {
+    let line = "0123456789abcdef0123456789abcdef";
+    let text = format!("{line} until=2026-02-30 PB114 a.dxf\n{line} reason=why PB114\n{line} until=soon\n");
+    let place = place().file("known.txt", text);
+    assert_snapshot!(place.run("check --baseline known.txt"));
+    assert_snapshot!(place.run("check --baseline known.txt --update-baseline --lang de"));
+    for until in ["\"2026-13-01\"", "2026-12-31T00:00:00", "20261231", "\" 2026-12-31\""] {
+        let place = Place::new().file("pathbuild.toml", entry(&format!("until = {until}\n")));
+        let run = place.run("check");
+        assert_eq!(run.status, Some(2), "{run}");
+        assert!(
+            run.stderr.contains("`severity-in.until`") && run.stderr.contains("pathbuild.toml:6"),
+            "{run}"
+        );
+    }
+    assert_snapshot!(place.run("check --date tomorrow"));
+    assert_snapshot!(place.run("check --date 2026-11-31 --lang de"));
+}
+
+#[test]
+fn an_entry_that_matches_nothing_is_a_warning_where_its_file_was_checked() {
+    let place = place();
+    let arguments = ["check", "--accept", CODE, "--reason", "why", "--baseline", "known.txt"];
+    assert_eq!(place.run_with(&arguments).status, Some(0));
+    let place = place.file("parts/1235.1P.dxf", dxf(GOOD));
+    assert_snapshot!(strict(&place, "--baseline known.txt"));
+    assert_snapshot!(strict(&place, "--baseline known.txt --lang de --format concise"));
+    let is_told = |arguments: &str| {
+        place.run(&format!("check {arguments} --baseline known.txt")).stderr.contains("PB610")
+    };
+    assert!(is_told("") && is_told("parts"));
+    assert!(!is_told("parts/1236.1P.dxf") && !is_told("1235.1P"), "other drawings, or single paths");
+    std::fs::remove_file(place.path().join("parts/1235.1P.dxf")).unwrap();
+    assert!(is_told("") && is_told("parts"), "the drawing is gone");
+    assert!(!is_told("parts/1236.1P.dxf"));
+}
+
+#[test]
+fn a_table_that_matches_nothing_is_a_warning_where_its_files_were_checked() {
+    let is_told =
+        |place: &Place, arguments: &str| place.run(&format!("check {arguments}")).stderr.contains("PB610");
+    let place = place().file("pathbuild.toml", entry("reason = \"why\"\n"));
+    assert!(!is_told(&place, ""), "it matches");
+    let place = place.file("parts/1235.1P.dxf", dxf(GOOD));
+    assert!(is_told(&place, "") && is_told(&place, "parts/1235.1P.dxf"));
+    assert!(!is_told(&place, "parts/1236.1P.dxf") && !is_told(&place, "1235.1P"));
+    let wild = entry("reason = \"why\"\n").replace("parts/1235.1P.dxf", "parts/*");
+    let place = place.file("pathbuild.toml", wild);
+    assert!(is_told(&place, "") && !is_told(&place, "parts/1235.1P.dxf"));
+    let place = place.file("pathbuild.toml", entry(""));
+    assert!(!is_told(&place, ""), "a table without a reason is a setting, not a waiver");
+}
+
+#[test]
+fn reports_carry_the_reason() {
+    let place = place();
+    assert_eq!(accept(&place, &["--until", "2031-12-31"]).status, Some(0));
+    let run = place.run(
+        "check parts/1235.1P.dxf --date 2031-01-01 --report json=a.json --report sarif=b.sarif --report html=c.html",
+    );
+    assert_eq!(run.status, Some(0), "{run}");
+    let json = place.read("a.json");
+    let waived = json.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let waived: Vec<Value> = waived.filter(|line| line["type"] == "waived").collect();
+    assert_eq!(waived.len(), 1, "{json}");
+    let schema: Value = serde_json::from_str(include_str!("../../docs/schemas/output.json")).unwrap();
+    assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&waived[0]), "{}", waived[0]);
+    assert_eq!((&waived[0]["code"], &waived[0]["until"]), (&CODE.into(), &"2031-12-31".into()));
+    assert_eq!(waived[0]["reason"], "the first \"one\" is milled by hand");
+    let sarif: Value = serde_json::from_str(&place.read("b.sarif")).unwrap();
+    let schema: Value = serde_json::from_str(include_str!("schemas/sarif-2.1.0.json")).unwrap();
+    assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&sarif));
+    let results = sarif["runs"][0]["results"].as_array().unwrap();
+    assert_eq!(results.len(), 1);
+    assert_eq!(results[0]["suppressions"][0]["justification"], "the first \"one\" is milled by hand");
+    let page = place.read("c.html");
+    assert!(
+        page.contains("Accepted") && page.contains("the first &quot;one&quot; is milled by hand"),
+        "{page}"
+    );
+}
+
+#[test]
+fn kept_results_do_not_depend_on_the_date() {
+    let place = place().file("pathbuild.toml", entry("reason = \"why\"\nuntil = 2031-12-31\n"));
+    let run = |date: &str| place.run(&format!("check -v --date {date}"));
+    assert!(run("2031-12-31").stderr.contains("drawings whose results still hold: 0 / 2"));
+    let after = run("2032-01-01");
+    assert!(after.stderr.contains("drawings whose results still hold: 2 / 2"), "{after}");
+    assert!(after.stderr.contains(CODE), "{after}");
+    let before = run("2031-12-31");
+    assert!(before.stderr.contains("2 / 2") && !before.stderr.contains(CODE), "{before}");
+}
