@@ -63,12 +63,12 @@ fn a_link_a_file_and_what_everybody_may_write_into_are_refused() {
     assert_eq!(place.refusal().map(|it| it.en), Some("it is a link"));
     fs::remove_file(place.directory()).unwrap();
     fs::write(place.directory(), "").unwrap();
-    assert_eq!(place.refusal().map(|it| it.en), Some("it is no directory"));
+    assert_eq!(place.refusal().map(|it| it.en), Some("it is not a directory"));
     fs::remove_file(place.directory()).unwrap();
     store(&place);
     assert_eq!(place.refusal(), None);
     fs::set_permissions(place.directory(), fs::Permissions::from_mode(0o777)).unwrap();
-    assert_eq!(place.refusal().map(|it| it.en), Some("everybody may write into it"));
+    assert_eq!(place.refusal().map(|it| it.en), Some("every user may write to it"));
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn a_directory_of_other_things_is_refused_and_stays() {
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
     assert_eq!(
         place.refusal().map(|it| it.en),
-        Some("it holds other things and no CACHEDIR.TAG of pathbuild")
+        Some("it contains other files, and no CACHEDIR.TAG of pathbuild")
     );
     assert!(place.clean().is_err());
     fs::remove_file(base.join("one/.bashrc")).unwrap();

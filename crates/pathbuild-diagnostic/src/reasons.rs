@@ -18,13 +18,13 @@ words! {
     /// A directory instead of a file to write.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
     /// R makes the name of a program invalid.
-    NO_FILE_NAME: "the name, of which R is a part, holds a character that cannot be in a file's name", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
+    NO_FILE_NAME: "the name, which includes R, contains a character that file names cannot contain", "der Name, zu dem R gehört, enthält ein Zeichen, das in keinem Dateinamen stehen kann";
     /// A path name that would become a file name such as `CON.1P_Milling.gcode`.
     DEVICE_NAME: "on Windows a file name that begins like this means a device", "unter Windows meint ein Dateiname, der so beginnt, ein Gerät";
     /// A pipe, a socket or a device.
     NOT_REGULAR: "it is not a regular file", "es ist keine gewöhnliche Datei";
     /// A link out of an untrusted repository.
-    LEADS_OUT: "it leads out of the repository, which is not trusted", "sie führt aus dem Repository hinaus, dem nicht getraut wird";
+    LEADS_OUT: "it leads out of the repository, which is not trusted", "sie führt aus dem Repository hinaus, dem nicht vertraut wird";
     /// A file outside of the post's directory that it tries to insert.
     LEADS_OUT_OF_POST: "it leads out of the post's directory", "sie führt aus dem Verzeichnis des Postprozessors hinaus";
     /// A file of a control text outside of the post's directory.
@@ -34,25 +34,25 @@ words! {
     /// A text file that is not UTF-8.
     NOT_UTF_8: "it is not UTF-8", "sie ist nicht in UTF-8";
     /// A cache file of another user.
-    NO_OWN_FILE: "it is no file of this user", "es ist keine Datei dieses Benutzers";
+    NO_OWN_FILE: "it is not a file of this user", "es ist keine Datei dieses Benutzers";
     /// A cache file that is too large.
-    NEVER_SO_LARGE: "it is larger than what pathbuild keeps", "sie ist größer als alles, was pathbuild aufhebt";
+    NEVER_SO_LARGE: "it is larger than anything that pathbuild keeps", "sie ist größer als alles, was pathbuild aufhebt";
     /// A cache directory that is a link.
     IS_LINK: "it is a link", "es ist eine Verknüpfung";
     /// A cache directory that is a file.
-    NO_DIRECTORY_BUT_FILE: "it is no directory", "es ist kein Verzeichnis";
+    NO_DIRECTORY_BUT_FILE: "it is not a directory", "es ist kein Verzeichnis";
     /// A cache directory of another user.
-    SOMEBODY_ELSES: "it belongs to somebody else", "es gehört jemand anderem";
+    SOMEBODY_ELSES: "it belongs to another user", "es gehört einem anderen Benutzer";
     /// A cache directory with write access for everyone.
-    OPEN_TO_ALL: "everybody may write into it", "alle dürfen hineinschreiben";
+    OPEN_TO_ALL: "every user may write to it", "jeder Benutzer darf hineinschreiben";
     /// A cache directory that cannot be inspected.
-    NOT_LOOKED_AT: "it cannot be looked at", "es lässt sich nicht einsehen";
+    NOT_LOOKED_AT: "it cannot be inspected", "es lässt sich nicht einsehen";
     /// A cache directory that contains foreign files.
-    HOLDS_OTHERS: "it holds other things and no CACHEDIR.TAG of pathbuild", "es enthält anderes und keine CACHEDIR.TAG von pathbuild";
+    HOLDS_OTHERS: "it contains other files, and no CACHEDIR.TAG of pathbuild", "es enthält andere Dateien und keine CACHEDIR.TAG von pathbuild";
     /// A cache directory in an untrusted repository.
-    IN_STRANGERS_TREE: "it lies in a tree that is not trusted", "es liegt in einem Baum, dem nicht getraut wird";
+    IN_STRANGERS_TREE: "it lies in a directory tree that is not trusted", "es liegt in einem Verzeichnisbaum, dem nicht vertraut wird";
     /// A directory that is not a cache.
-    NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is no cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
+    NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is not a cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
     /// Likewise: what is to be kept.
     TOO_MUCH_TO_KEEP: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
     /// Likewise.
@@ -82,7 +82,7 @@ words! {
     /// Error of the operating system.
     HELD: "another program has it open", "ein anderes Programm hat sie offen";
     /// Error of the operating system.
-    BAD_NAME: "the system allows no such file name", "das System lässt den Dateinamen nicht zu";
+    BAD_NAME: "the system does not allow this file name", "das System lässt den Dateinamen nicht zu";
 }
 
 /// An error of ours that [`reason`] gives back in every language.

@@ -142,7 +142,7 @@ fn a_large_program_is_checked_more_coarsely_not_never() {
     let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
     // 20240 mm² divided into 16 million cells.
     let help = plunge.help(Lang::En).expect("help");
-    assert!(help.contains("stock known at 0.036"), "{help}");
+    assert!(help.contains("stock known to within 0.036"), "{help}");
 }
 
 #[test]

@@ -42,7 +42,7 @@ messages! {
     KEY_OF_TOP: InvalidConfiguration {
         en: "the key `{key}` is in the wrong place",
         de: "der Schlüssel `{key}` steht an der falschen Stelle",
-        help_en: "`{near}` belongs to the top of the file, before the first [table]",
+        help_en: "`{near}` belongs at the top of the file, before the first [table]",
         help_de: "`{near}` gehört an den Anfang der Datei, vor die erste [Tabelle]",
     }
     /// An unknown key that is similar to one of another table.
@@ -56,7 +56,7 @@ messages! {
     NEAR_KEY_OF_TOP: InvalidConfiguration {
         en: "unknown key `{key}`",
         de: "unbekannter Schlüssel `{key}`",
-        help_en: "did you mean `{near}`? It belongs to the top of the file, before the first [table]",
+        help_en: "did you mean `{near}`? It belongs at the top of the file, before the first [table]",
         help_de: "ist `{near}` gemeint? Das gehört an den Anfang der Datei, vor die erste [Tabelle]",
     }
     /// A key of an earlier version.
@@ -115,8 +115,8 @@ messages! {
     NO_DIRECTORY: InvalidConfiguration {
         en: "`{key}` names {directory}, which is not a directory",
         de: "`{key}` nennt {directory}, das kein Verzeichnis ist",
-        help_en: "correct the name; names in pathbuild.toml are relative to it, those of options to the working directory",
-        help_de: "den Namen berichtigen; Namen in pathbuild.toml beziehen sich auf deren Ort, die von Optionen auf das Arbeitsverzeichnis",
+        help_en: "correct the name; names in pathbuild.toml are relative to that file, those of options to the working directory",
+        help_de: "den Namen berichtigen; Namen in pathbuild.toml beziehen sich auf das Verzeichnis dieser Datei, die von Optionen auf das Arbeitsverzeichnis",
     }
     /// A value that is none of the choices.
     INVALID_CHOICE: InvalidConfiguration {
@@ -270,10 +270,10 @@ words! {
     REGEXES: "regular expressions", "reguläre Ausdrücke";
     /// Patterns of names.
     GLOBS: "patterns of names", "Namensmuster";
-    /// A size such as "256 MiB" and more than 0.
-    SIZE: "a size such as \"256 MiB\" and more than 0", "eine Größe wie \"256 MiB\" und mehr als 0";
-    /// A time such as "50 ms\.
-    DURATION: "a time such as \"50 ms\"", "eine Zeit wie \"50 ms\"";
+    /// A size greater than 0, such as "256 MiB".
+    SIZE: "a size greater than 0, such as \"256 MiB\"", "eine Größe über 0 wie \"256 MiB\"";
+    /// A duration such as "50 ms".
+    DURATION: "a duration such as \"50 ms\"", "eine Dauer wie \"50 ms\"";
     /// A text.
     TEXT: "a text", "ein Text";
     /// A date.

@@ -144,8 +144,8 @@ messages! {
     }
     /// Note: the element that the text would belong to on another layer.
     ELEMENT_ON_OTHER_LAYER: TextWithoutElement {
-        en: "on layer {layer} it would belong to {element} at {point}",
-        de: "auf Layer {layer} würde {element} bei {point} zu ihm gehören",
+        en: "on layer {layer}, the text would belong to {element} at {point}",
+        de: "auf Layer {layer} würde {element} bei {point} zum Text gehören",
     }
     /// A circle smaller than the cutter.
     CIRCLE_TOO_SMALL: CircleTooSmall {
@@ -340,7 +340,7 @@ messages! {
     DECIMAL_COMMA: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} has a decimal comma, DXF numbers have a point",
         de: "{entity}: \"{value}\" in Gruppe {code} hat ein Dezimalkomma, DXF-Zahlen haben einen Punkt",
-        help_en: "the program that wrote the file uses the system's number format; set that to a decimal point for it",
+        help_en: "the program that wrote the file uses the system's number format; set the decimal separator there to a point",
         help_de: "das Programm, das die Datei schrieb, verwendet das Zahlenformat des Systems; dort den Dezimalpunkt einstellen",
     }
     /// A number that is not finite: nan, inf, 1e400.
@@ -387,8 +387,8 @@ messages! {
     }
     /// Bytes that are invalid in the encoding.
     UNDECODABLE: DoubtfulEncoding {
-        en: "the file is in {encoding}, which does not know some bytes of this text",
-        de: "die Datei ist in {encoding} geschrieben, das einige Bytes dieses Textes nicht kennt",
+        en: "the file is in {encoding}, in which some bytes of this text are invalid",
+        de: "die Datei ist in {encoding} kodiert, worin einige Bytes dieses Textes ungültig sind",
         help_en: "special characters of texts and layer names may be wrong; save the drawing as R2007 or later",
         help_de: "Sonderzeichen in Texten und Layernamen können falsch sein; die Zeichnung als R2007 oder neuer speichern",
     }
@@ -417,8 +417,8 @@ messages! {
     NOT_COMPATIBLE: UnsupportedCurve {
         en: "polylines, blocks and curves on path layers are left out, as PathDxf2GCode does; the first is {entity}",
         de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden ausgelassen wie von PathDxf2GCode; die erste ist {entity}",
-        help_en: "explode it into lines and arcs, or work without `compatible`, where it is milled",
-        help_de: "in Linien und Bögen auflösen oder ohne `compatible` arbeiten: dann wird gefräst",
+        help_en: "explode them into lines and arcs, or remove `compatible`: then they are milled",
+        help_de: "in Linien und Bögen auflösen oder `compatible` weglassen: dann werden sie gefräst",
     }
     /// Three-dimensional polylines and meshes.
     POLYLINE_NOT_FLAT: UnsupportedCurve {
@@ -450,7 +450,7 @@ messages! {
     }
     /// A block that contains itself or is nested too deeply.
     BLOCK_NESTED: InvalidDxf {
-        en: "block {block} is nested too deep, or contains itself",
+        en: "block {block} is nested too deeply, or contains itself",
         de: "Block {block} ist zu tief verschachtelt oder enthält sich selbst",
         help_en: "explode the insertion",
         help_de: "die Einfügung auflösen",

@@ -52,8 +52,8 @@ messages! {
     NOT_DXF: InvalidDxf {
         en: "this is not a DXF file: {found}",
         de: "das ist keine DXF-Datei: {found}",
-        help_en: "save the drawing as DXF (ASCII or binary, R10 or later); a DWG file renamed to .dxf is none",
-        help_de: "die Zeichnung als DXF speichern (ASCII oder binär, ab R10); eine in .dxf umbenannte DWG-Datei ist keine",
+        help_en: "save the drawing as DXF (ASCII or binary, R10 or later); a DWG file renamed to .dxf is still DWG",
+        help_de: "die Zeichnung als DXF speichern (ASCII oder binär, ab R10); eine in .dxf umbenannte DWG-Datei bleibt DWG",
     }
     /// A drawing in other units than configured.
     WRONG_UNITS: WrongUnits {
@@ -92,17 +92,17 @@ messages! {
     }
     /// Ignore files that are too large in total.
     TOO_MANY_RULES: LimitReached {
-        en: "the .gitignore and .ignore files below {directory} have more than {limit} bytes together: the directory is skipped",
+        en: "the .gitignore and .ignore files below {directory} add up to more than {limit} bytes: the directory is skipped",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: das Verzeichnis wird übergangen",
-        help_en: "name a directory further down; or raise `{key}` under [limits] in pathbuild.toml: all together may have 16 times as much",
-        help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: zusammen darf es 16-mal so viel sein",
+        help_en: "name a deeper directory; or raise `{key}` under [limits] in pathbuild.toml: these files together may have 16 times that size",
+        help_de: "ein tieferes Verzeichnis nennen; oder `{key}` unter [limits] in pathbuild.toml erhöhen: diese Dateien dürfen zusammen 16-mal so groß sein",
     }
     /// A line of output that is longer than any reader accepts, including this program.
     OUTPUT_LINE_TOO_LONG: LimitReached {
         en: "line {line} of {name} has {length} bytes, which exceeds the limit of {limit}; nothing is written",
         de: "Zeile {line} von {name} hat {length} Byte und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
-        help_en: "shorten the comment Q; with many probes, another `z-model` than \"plane\" writes four of them in a line",
-        help_de: "den Kommentar Q kürzen; bei vielen Proben schreibt ein anderes `z-model` als \"plane\" vier davon in eine Zeile",
+        help_en: "shorten the comment Q; with many probes, use another `z-model` than \"plane\": each formula then uses only four probes",
+        help_de: "den Kommentar Q kürzen; bei vielen Proben ein anderes `z-model` als \"plane\" wählen: jede Formel verwendet dann nur vier Proben",
     }
     /// A program that is too large to write.
     OUTPUT_TOO_LARGE: LimitReached {
@@ -129,8 +129,8 @@ messages! {
     TOO_MANY_ENTRIES: LimitReached {
         en: "there are more than {limit} files and directories below {directory}: the directory is skipped",
         de: "unter {directory} liegen mehr als {limit} Dateien und Verzeichnisse: das Verzeichnis wird übergangen",
-        help_en: "name a directory further down; or list everything that does not belong to the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "ein Verzeichnis weiter unten nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_en: "name a deeper directory; or list everything that does not belong to the library in an .ignore file; or raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "ein tieferes Verzeichnis nennen; oder was nicht zur Bibliothek gehört, in einer Datei .ignore aufführen; oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A file that cannot be removed.
     CANNOT_REMOVE: CannotWrite {

@@ -85,14 +85,14 @@ messages! {
     }
     /// A character that cannot begin a word.
     UNKNOWN_CHARACTER: UnknownCharacter {
-        en: "`{found}` begins no word; the line is left out",
+        en: "no word begins with `{found}`; the line is left out",
         de: "mit `{found}` beginnt kein Wort; die Zeile bleibt unbeachtet",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
     /// A character that cannot begin a word and that the dialect ignores.
     UNKNOWN_CHARACTER_PASSED: UnknownCharacter {
-        en: "`{found}` begins no word; it is ignored",
+        en: "no word begins with `{found}`; it is ignored",
         de: "mit `{found}` beginnt kein Wort; es wird übergangen",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
@@ -120,9 +120,9 @@ messages! {
     }
     /// A block number that is too large, or not at the beginning.
     BLOCK_NUMBER: InvalidWord {
-        en: "`{found}` is no block number for {dialect}",
+        en: "`{found}` is not a block number for {dialect}",
         de: "`{found}` ist für {dialect} keine Satznummer",
-        help_en: "N stands first in the line, without decimals, and is at most {most}",
+        help_en: "N comes first in the line, has no decimals, and is at most {most}",
         help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
     }
     /// An unclosed comment.
@@ -295,8 +295,8 @@ messages! {
     }
     /// A drilling cycle in a dialect without drilling cycles.
     UNKNOWN_CYCLE: UnknownWord {
-        en: "{dialect} does not take the drilling cycle {word}: what it does is missing from the result",
-        de: "{dialect} nimmt den Bohrzyklus {word} nicht: was er tut, fehlt im Ergebnis",
+        en: "{dialect} does not support the drilling cycle {word}: its moves are missing from the result",
+        de: "{dialect} kennt den Bohrzyklus {word} nicht: seine Bewegungen fehlen im Ergebnis",
         help_en: "write the cycle out as moves",
         help_de: "den Zyklus als einzelne Bewegungen schreiben",
     }
@@ -311,7 +311,7 @@ messages! {
     CALLED_ELSEWHERE: WordNotFollowed {
         en: "the subprogram {name} is not in this file: its moves are not known",
         de: "das Unterprogramm {name} steht nicht in dieser Datei: seine Bewegungen sind unbekannt",
-        help_en: "put it behind the program in the same file, or check the program at the control",
+        help_en: "put it after the program in the same file, or check the program at the control",
         help_de: "es in derselben Datei hinter das Programm schreiben oder das Programm an der Steuerung prüfen",
     }
     /// Recursion.
@@ -337,7 +337,7 @@ messages! {
     }
     /// Calls within calls.
     CALLS_TOO_DEEP: WordNotFollowed {
-        en: "subprograms and loops are nested more than {most} deep: this one is not followed",
+        en: "subprograms and loops are nested more than {most} levels deep: this one is not followed",
         de: "Unterprogramme und Schleifen sind mehr als {most}fach geschachtelt: hier wird nicht weiter verfolgt",
         help_en: "write the innermost moves out",
         help_de: "die innersten Bewegungen ausschreiben",
@@ -428,7 +428,7 @@ messages! {
     MACHINE_COORDINATES_RELATIVE: ConflictingWords {
         en: "G53 counts from the machine's zero, and G91 from where the tool is",
         de: "G53 zählt ab Maschinennull und G91 von da, wo das Werkzeug ist",
-        help_en: "switch to G90 before",
+        help_en: "switch to G90 first",
         help_de: "vorher auf G90 schalten",
     }
     /// G53 with another motion than G0 and G1.
@@ -461,8 +461,8 @@ messages! {
     OFFSET_UNKNOWN: UnknownOffset {
         en: "the position of {system} is unknown; it is assumed to be that of {base}",
         de: "die Lage von {system} ist unbekannt; angenommen wird die von {base}",
-        help_en: "lengths and the box hold only within one system",
-        help_de: "Längen und Größe gelten nur innerhalb eines Systems",
+        help_en: "lengths and the overall size are valid only within one work offset",
+        help_de: "Längen und Abmessungen gelten nur innerhalb einer Nullpunktverschiebung",
     }
     /// G28, G30 or G53 with an unknown target.
     POSITION_UNKNOWN: UnknownOffset {
@@ -475,7 +475,7 @@ messages! {
     UNITS_NOT_STATED: UnitsNotStated {
         en: "there is no {inch} or {mm} before the first move; millimetres are assumed",
         de: "vor der ersten Bewegung fehlt {inch} oder {mm}; Millimeter werden angenommen",
-        help_en: "state the unit: the control keeps that of the program before",
+        help_en: "state the unit: the control keeps that of the previous program",
         help_de: "die Einheit angeben: die Steuerung behält die des vorigen Programms",
     }
     /// A unit that contradicts a comment.
@@ -489,7 +489,7 @@ messages! {
     MODES_NOT_STATED: ModesNotStated {
         en: "there is no {words} before the first move that depends on it; {taken} is assumed",
         de: "vor der ersten Bewegung, die davon abhängt, fehlt {words}; {taken} wird angenommen",
-        help_en: "state it: the control keeps that of the program before",
+        help_en: "state it: the control keeps what the previous program set",
         help_de: "angeben: die Steuerung behält, was das vorige Programm gesetzt hat",
     }
     /// Coordinates without a motion word, as XpertMILL accepts them.
@@ -583,7 +583,7 @@ messages! {
     }
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {
-        en: "an arc by R: its centre moves by {shift} mm when the last digit of R changes",
+        en: "an arc with R: its centre moves by {shift} mm when the last digit of R changes",
         de: "ein Bogen mit R: sein Mittelpunkt wandert um {shift} mm, wenn sich die letzte Ziffer von R ändert",
         help_en: "write it with I and J",
         help_de: "mit I und J schreiben",
@@ -592,8 +592,8 @@ messages! {
     NEAR_FULL_CIRCLE: DoubtfulArc {
         en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, and the last digit decides",
         de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, und die letzte Ziffer entscheidet",
-        help_en: "write a full circle with equal ends, and leave out an arc that is none",
-        help_de: "einen Vollkreis mit gleichen Enden schreiben, und einen Bogen, der keiner ist, weglassen",
+        help_en: "if a full circle is meant, write equal ends; if not, leave the arc out",
+        help_de: "ist ein Vollkreis gemeint, gleiche Enden schreiben; sonst den Bogen weglassen",
     }
     /// An arc whose neighbours it would continue if it ran the other way round.
     ARC_DOUBLES_BACK: DoubtfulArc {
@@ -611,8 +611,8 @@ messages! {
     }
     /// A program that is too large for simulating the material.
     TOO_LARGE_TO_FOLLOW: LimitReached {
-        en: "following the material of this program exceeds the limit of {limit} cells; not checked: rapid moves into material",
-        de: "das Material dieses Programms zu verfolgen überschreitet die Grenze von {limit} Zellen; nicht geprüft: Eilgang ins Material",
+        en: "following the material of this program takes more cells than the limit of {limit}; not checked: rapid moves into material",
+        de: "um das Material dieses Programms zu verfolgen, sind mehr als die erlaubten {limit} Zellen nötig; nicht geprüft: Eilgang ins Material",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }

@@ -31,7 +31,7 @@ messages! {
     }
     /// A value that a key cannot take.
     VALUE_NOT_TAKEN: UnusableValue {
-        en: "`{name}` is `{value}`, but {expected} is needed; the value is not taken",
+        en: "`{name}` is `{value}`, but {expected} is needed; the value is not imported",
         de: "`{name}` ist `{value}`, nötig ist aber {expected}; der Wert wird nicht übernommen",
         help_en: "set the key in pathbuild.toml by hand",
         help_de: "den Schlüssel in pathbuild.toml von Hand setzen",
@@ -45,35 +45,35 @@ messages! {
     }
     /// A spindle without a range of speeds.
     EMPTY_SPEEDS: UnusableValue {
-        en: "the spindle's speeds from {from} to {to} are no range; they are not taken",
-        de: "die Drehzahlen von {from} bis {to} sind kein Bereich; sie werden nicht übernommen",
+        en: "the spindle speeds from {from} to {to} are not a range; they are not imported",
+        de: "die Drehzahlen von {from} bis {to} ergeben keinen Bereich; sie werden nicht übernommen",
         help_en: "set `spindle-speeds` in pathbuild.toml by hand",
         help_de: "`spindle-speeds` in pathbuild.toml von Hand setzen",
     }
     /// A laser.
     LASER: UnusableValue {
-        en: "the controller is in laser mode ($32), so $30 and $31 are no spindle speeds",
+        en: "the controller is in laser mode ($32), so $30 and $31 are not spindle speeds",
         de: "die Steuerung ist im Laserbetrieb ($32), daher sind $30 und $31 keine Drehzahlen",
         help_en: "if the machine has a spindle as well, set `spindle-speeds` by hand",
         help_de: "hat die Maschine auch eine Spindel, `spindle-speeds` von Hand setzen",
     }
     /// Several spindles.
     SEVERAL_SPINDLES: UnusableValue {
-        en: "there are several spindles, so no speeds are taken: {names}",
+        en: "there are several spindles, so no spindle speeds are imported: {names}",
         de: "es gibt mehrere Spindeln, daher werden keine Drehzahlen übernommen: {names}",
         help_en: "set `spindle-speeds` by hand to those of the spindle that mills",
         help_de: "`spindle-speeds` von Hand auf die der Spindel setzen, die fräst",
     }
     /// An ini file without a unit.
     UNIT_MISSING: UnusableValue {
-        en: "[TRAJ] has no LINEAR_UNITS, so the unit of the lengths is not known; none is taken",
+        en: "[TRAJ] has no LINEAR_UNITS, so the unit of the lengths is unknown; no length is imported",
         de: "in [TRAJ] fehlt LINEAR_UNITS, daher ist die Einheit der Längen unbekannt; keine wird übernommen",
         help_en: "add LINEAR_UNITS = mm or LINEAR_UNITS = inch",
         help_de: "LINEAR_UNITS = mm oder LINEAR_UNITS = inch ergänzen",
     }
     /// Axes without limits.
     NO_TRAVEL: UnusableValue {
-        en: "the limits of the axes are no travel; they are not taken",
+        en: "the limits of the axes do not make up a travel; they are not imported",
         de: "die Grenzen der Achsen ergeben keinen Verfahrweg; sie werden nicht übernommen",
         help_en: "set `travel` in pathbuild.toml by hand",
         help_de: "`travel` in pathbuild.toml von Hand setzen",

@@ -125,8 +125,8 @@ messages! {
     STALE_OTHER_MOVES: StaleOutput {
         en: "{name} has other moves than {program}: another post-processor wrote it before the path was changed",
         de: "{name} hat andere Bewegungen als {program}: ein anderer Postprozessor hat es geschrieben, bevor der Pfad geändert wurde",
-        help_en: "do not run it: emit with that post, or emit --remove-stale removes it",
-        help_de: "nicht laufen lassen: mit jenem Postprozessor neu schreiben (emit), oder emit --remove-stale entfernt es",
+        help_en: "do not run it: emit it again with that post-processor, or remove it with emit --remove-stale",
+        help_de: "nicht laufen lassen: mit jenem Postprozessor neu schreiben (emit) oder mit emit --remove-stale entfernen",
     }
     /// A path that the Q-project does not embed.
     LACKS_PATH: QProjectLacksPath {

@@ -47,7 +47,7 @@ messages! {
     COMMAS: UnknownParameter {
         en: "parameters are separated by commas here",
         de: "hier sind Parameter durch Kommas getrennt",
-        help_en: "separate them with blanks: write \"{text}\"",
+        help_en: "separate them with spaces: write \"{text}\"",
         help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
     /// A text that is a remark.
@@ -138,8 +138,8 @@ messages! {
     LOST_BARS: LostBars {
         en: "nothing holds the part inside this outline: the path has {letters} for support bars, but no line with line type BORDER or CENTER",
         de: "das Teil in diesem Umriss wird von nichts gehalten: der Pfad hat {letters} für Stützstege, aber keine Linie mit Linientyp BORDER oder CENTER",
-        help_en: "give the outline line type BORDER or CENTER (programs and blocks lose it to CONTINUOUS), or remove {letters} where the part is held otherwise",
-        help_de: "dem Umriss den Linientyp BORDER oder CENTER geben (Programme und Blöcke machen CONTINUOUS daraus) oder {letters} entfernen, wenn das Teil anders gehalten wird",
+        help_en: "give the outline line type BORDER or CENTER (some CAD programs and blocks turn it into CONTINUOUS), or remove {letters} where the part is held otherwise",
+        help_de: "dem Umriss den Linientyp BORDER oder CENTER geben (manche CAD-Programme und Blöcke machen CONTINUOUS daraus) oder {letters} entfernen, wenn das Teil anders gehalten wird",
     }
     /// An infeed greater than the thickness.
     INFEED_ABOVE_THICKNESS: DoubtfulValue {
@@ -153,7 +153,7 @@ messages! {
         en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
         de: "D ist {value}: die Markierung ist {depth} mm tief in Material von {thickness} mm",
         help_en: "D is the height of the mark's bottom above the plate, not its depth: a mark 0.2 mm deep is D{example}; `mark-depth` under [warnings] allows deeper ones",
-        help_de: "D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
+        help_de: "D ist die Höhe des Grundes über der Platte, nicht die Tiefe: eine Markierung von 0,2 mm Tiefe ist D{example}; `mark-depth` unter [warnings] erlaubt tiefere",
     }
     /// Marks with the path's D that cut through most of the material.
     DEEP_MARKS_OF_PATH: DoubtfulValue {
@@ -248,8 +248,8 @@ messages! {
     }
     /// @ together with other letters.
     AT_WITH_OTHERS: InvalidAtReference {
-        en: "@ cannot stand beside other parameters",
-        de: "@ kann nicht neben anderen Parametern stehen",
+        en: "@ cannot be combined with other parameters",
+        de: "@ kann nicht mit anderen Parametern kombiniert werden",
         help_en: "with @ the path has exactly the parameters of the other path",
         help_de: "mit @ hat der Pfad genau die Parameter des anderen Pfads",
     }
@@ -292,14 +292,14 @@ messages! {
     BOTTOM_OF_MARK: ParameterWithoutEffect {
         en: "{letter} has no effect here: a mark (line type DIVIDE) goes down to D",
         de: "{letter} hat hier keine Wirkung: eine Markierung (Linientyp DIVIDE) geht bis D",
-        help_en: "write D{value} if that is how deep the mark is; what goes down to B is line type CONTINUOUS",
-        help_de: "D{value} schreiben, wenn die Markierung so tief ist; bis B geht der Linientyp CONTINUOUS",
+        help_en: "write D{value} if the mark ends at that height; only line type CONTINUOUS goes down to B",
+        help_de: "D{value} schreiben, wenn die Markierung auf dieser Höhe endet; bis B geht nur der Linientyp CONTINUOUS",
     }
     /// D of a milling segment.
     DEPTH_OF_MILLING: ParameterWithoutEffect {
         en: "{letter} has no effect here: milling (line type CONTINUOUS) goes down to B",
         de: "{letter} hat hier keine Wirkung: Fräsen (Linientyp CONTINUOUS) geht bis B",
-        help_en: "write B{value} if the cut is to go down to there; only a mark (line type DIVIDE) goes down to D",
+        help_en: "write B{value} if the cut should end at that height; only a mark (line type DIVIDE) goes down to D",
         help_de: "B{value} schreiben, wenn bis dorthin gefräst werden soll; bis D geht nur eine Markierung (Linientyp DIVIDE)",
     }
     /// A chain parameter on a segment other than the first.
@@ -327,8 +327,8 @@ messages! {
     EMPTY_ELEMENT: InvalidVariableDefinition {
         en: "\"{definition}\" has an empty element",
         de: "\"{definition}\" hat ein leeres Element",
-        help_en: "remove the comma, or write the value between",
-        help_de: "das Komma entfernen oder den Wert dazwischenschreiben",
+        help_en: "remove the comma, or add the missing value",
+        help_de: "das Komma entfernen oder den fehlenden Wert ergänzen",
     }
     /// A path with variables that is emitted on its own.
     MISSING_VALUE: MissingVariableValue {
@@ -362,7 +362,7 @@ messages! {
     EQUALS_SIGN: UnknownVariable {
         en: "there is no variable \"{variable}\" in this path",
         de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
-        help_en: "write \"{meant}\" for the number: values follow their letter directly, and = puts in a variable",
+        help_en: "write \"{meant}\" for the number: values follow their letter directly, and = inserts a variable",
         help_de: "für die Zahl \"{meant}\" schreiben: Werte folgen direkt auf ihren Buchstaben, und = setzt eine Variable ein",
     }
     /// A value that the definition does not permit.
@@ -398,8 +398,8 @@ messages! {
     }
     /// References that are nested too deeply; they may be cyclic.
     TOO_DEEP: EndlessVariable {
-        en: "the value of \"{variable}\" refers to itself, or values refer to others more than {limit} deep",
-        de: "der Wert von \"{variable}\" verweist auf sich selbst, oder Werte verweisen mehr als {limit} tief auf andere",
+        en: "the value of \"{variable}\" refers to itself, or values refer to others more than {limit} levels deep",
+        de: "der Wert von \"{variable}\" verweist auf sich selbst, oder Werte verweisen über mehr als {limit} Stufen auf andere",
         help_en: "a value may refer to other variables, but not in a circle; write long chains of them as one value",
         help_de: "ein Wert darf auf andere Variablen verweisen, aber nicht im Kreis; lange Ketten davon als einen Wert schreiben",
     }

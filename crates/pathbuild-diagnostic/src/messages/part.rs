@@ -5,7 +5,7 @@ messages! {
     GOUGE: GougedPart {
         en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
         de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
-        help_en: "draw the path half of O beside the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
+        help_en: "draw the path half of O away from the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen oder den Umriss berichtigen; `part-tolerance` in pathbuild.toml erlaubt kleine Abweichungen",
     }
     /// A cut into a part that another path brings.
@@ -19,7 +19,7 @@ messages! {
     LEFTOVER: LeftoverAtPart {
         en: "up to {thickness} mm of material remain at the outline of the part, from {from} to {to}, over {length} mm (places: {count})",
         de: "am Umriss des Teils bleiben bis zu {thickness} mm Material stehen, von {from} bis {to}, auf {length} mm (Stellen: {count})",
-        help_en: "draw the path half of O beside the outline; to leave an allowance on purpose, draw the part with it",
+        help_en: "draw the path half of O away from the outline; to leave an allowance on purpose, draw the part with it",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen; soll ein Aufmaß bleiben, das Teil damit zeichnen",
     }
     /// A cut beside an outline that does not go through the plate.
@@ -33,7 +33,7 @@ messages! {
     UNREACHABLE_CORNER: UnreachableCorner {
         en: "the cutter, O{tool}, does not reach all of the outline: inner corners such as the one at {point} are too sharp, over {length} mm in all",
         de: "der Fräser, O{tool}, erreicht nicht den ganzen Umriss: Innenecken wie die bei {point} sind zu scharf, zusammen auf {length} mm",
-        help_en: "round the corners of the part with at least half of O, use a smaller cutter, or accept the rounding",
+        help_en: "round the corners of the part with a radius of at least half of O, use a smaller cutter, or accept the rounding",
         help_de: "die Ecken des Teils mit mindestens O/2 runden, einen kleineren Fräser nehmen oder die Rundung hinnehmen",
     }
     /// A part that nothing holds.

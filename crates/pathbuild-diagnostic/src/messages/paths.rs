@@ -15,7 +15,7 @@ messages! {
         help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
         help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
     }
-    /// What is left begins on the way, where nothing ends.
+    /// A remaining segment begins in the middle of a traversed one.
     BEGINS_ON_OTHER: NothingContinues {
         en: "the path breaks off here: {element} begins at {point}, in the middle of another segment; segments not reached: {left}",
         de: "hier bricht der Pfad ab: bei {point} beginnt {element} mitten auf einem anderen Segment; nicht erreichte Segmente: {left}",
@@ -137,8 +137,8 @@ messages! {
     MISSING_NAME: MissingSubpathName {
         en: "the subpath does not say which path to embed",
         de: "der Unterpfad sagt nicht, welcher Pfad einzubetten ist",
-        help_en: "put a text over it: \">1234.1P\"; or make it DOT to skip it, DASHED for a sweep",
-        help_de: "einen Text darüberlegen: \">1234.1P\"; oder DOT, um ihn auszulassen, DASHED für eine Leerfahrt",
+        help_en: "put a text over it: \">1234.1P\"; or change the line type to DOT to skip it, to DASHED for a sweep",
+        help_de: "einen Text darüberlegen: \">1234.1P\"; oder den Linientyp ändern: DOT, um ihn auszulassen, DASHED für eine Leerfahrt",
     }
     /// `>` without a path name.
     INVALID_NAME: InvalidPathName {
@@ -175,8 +175,8 @@ messages! {
     }
     /// Note: the paths of the drawings that were searched, none of them with a similar name.
     NAMES_THERE: PathNotFound {
-        en: "paths in the drawings that may hold it by their names: {names}",
-        de: "Pfade in den Zeichnungen, die ihn dem Namen nach enthalten können: {names}",
+        en: "paths in the drawings whose names admit it: {names}",
+        de: "Pfade in den Zeichnungen, deren Namen ihn zulassen: {names}",
     }
     /// Note: the path is elsewhere in the library.
     ELSEWHERE: PathNotFound {

@@ -113,8 +113,8 @@ messages! {
     }
     /// Macros that multiply the output.
     MACRO_SIZE: EndlessMacro {
-        en: "the post writes far more text than the program has moves",
-        de: "der Postprozessor schreibt weit mehr Text, als das Programm Bewegungen hat",
+        en: "the post writes far too much text for the number of moves in the program",
+        de: "der Postprozessor schreibt viel zu viel Text für die Zahl der Bewegungen im Programm",
         help_en: "look for macros that contain others several times",
         help_de: "nach Makros suchen, die andere mehrmals enthalten",
     }
@@ -169,7 +169,7 @@ messages! {
     LINE_UNREADABLE: UnreadableLine {
         en: "the post writes \"{line}\", which is not G-code; its effect on the machine is unknown",
         de: "der Postprozessor schreibt \"{line}\", das kein G-Code ist; seine Wirkung an der Maschine ist unbekannt",
-        help_en: "if that is meant, set SuppressParserErrors in the post",
+        help_en: "if that is intended, set SuppressParserErrors in the post",
         help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
     }
     /// A cutter diameter that is missing from the tool table.
@@ -290,9 +290,9 @@ messages! {
     }
     /// A variable used in the text that defines it, although variables are substituted before statements run.
     VARIABLE_UNDEFINED_YET: UnknownMacro {
-        en: "{text}, line {line}, column {column}: {name} gets its value in this text, which only later texts see",
-        de: "{text}, Zeile {line}, Spalte {column}: {name} erhält seinen Wert in diesem Text, den erst spätere Texte sehen",
-        help_en: "assign it in a text that is called before, such as program-start",
+        en: "{text}, line {line}, column {column}: {name} is assigned in this text, but only later texts see the value",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} wird in diesem Text zugewiesen, den Wert sehen aber erst spätere Texte",
+        help_en: "assign it in a text that is called earlier, such as program-start",
         help_de: "in einem Text zuweisen, der vorher aufgerufen wird, etwa program-start",
     }
     /// Note: the coolant of the tool table is not written.
@@ -338,8 +338,8 @@ messages! {
     VARIABLE_WITHOUT_VALUE: UnknownMacro {
         en: "{text}, line {line}, column {column}: {name} has no value here: {reason}",
         de: "{text}, Zeile {line}, Spalte {column}: {name} hat hier keinen Wert: {reason}",
-        help_en: "give it one, or ask first whether it exists, by a statement with \"!\"",
-        help_de: "ihr einen geben oder vorher mit einer Anweisung mit \"!\" fragen, ob es sie gibt",
+        help_en: "give it a value, or first test whether it exists, with a \"!\" statement",
+        help_de: "ihr einen Wert geben oder vorher mit einer Anweisung mit \"!\" prüfen, ob es sie gibt",
     }
     /// Unknown variable, with a suggestion.
     VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
@@ -350,8 +350,8 @@ messages! {
     }
     /// Variables that contain each other.
     VARIABLE_DEPTH: EndlessMacro {
-        en: "{text}, line {line}, column {column}: the text of {name} names variables more than {limit} deep",
-        de: "{text}, Zeile {line}, Spalte {column}: der Text von {name} nennt Variablen mehr als {limit} tief",
+        en: "{text}, line {line}, column {column}: variables in the text of {name} are nested more than {limit} levels deep",
+        de: "{text}, Zeile {line}, Spalte {column}: im Text von {name} sind Variablen tiefer als {limit} verschachtelt",
     }
     /// A text that becomes too long.
     TEXT_LENGTH: EndlessMacro {
@@ -374,8 +374,8 @@ messages! {
     LONE_BRACE: InvalidControlText {
         en: "{text}, line {line}, column {column}: this brace closes nothing",
         de: "{text}, Zeile {line}, Spalte {column}: diese Klammer schließt nichts",
-        help_en: "a brace that is to be written is preceded by a backslash",
-        help_de: "eine Klammer, die ausgegeben werden soll, erhält einen Backslash davor",
+        help_en: "to write a brace, put a backslash before it",
+        help_de: "soll eine Klammer ausgegeben werden, einen Backslash davorsetzen",
     }
     /// A missing `}`.
     OPEN_BRACE: InvalidControlText {
@@ -389,10 +389,10 @@ messages! {
     }
     /// A statement with a paragraph sign.
     STATEMENT_UNKNOWN: InvalidControlText {
-        en: "{text}, line {line}, column {column}: statements with \"§\" are not understood",
-        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit \"§\" werden nicht verstanden",
-        help_en: "the manual that describes them is not known",
-        help_de: "das Handbuch, das sie beschreibt, ist nicht bekannt",
+        en: "{text}, line {line}, column {column}: statements with \"§\" are not supported",
+        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen mit \"§\" werden nicht unterstützt",
+        help_en: "no known manual describes them; write the text without them",
+        help_de: "kein bekanntes Handbuch beschreibt sie; den Text ohne sie schreiben",
     }
     /// A missing name after `=` or `!`.
     NAME_EXPECTED: InvalidControlText {
@@ -476,7 +476,7 @@ messages! {
     READ_AFTER_ASSIGNMENT: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: {name} is assigned before this, but here it still has its old value",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird davor zugewiesen, hat hier aber noch den alten Wert",
-        help_en: "variables are put in before statements are run; the new value is seen by the next text",
+        help_en: "variables are substituted before statements run; only the next text sees the new value",
         help_de: "Variablen werden eingesetzt, bevor Anweisungen laufen; den neuen Wert sieht erst der nächste Text",
     }
     /// A number without a format, as in `X~X1~`.
@@ -497,19 +497,19 @@ messages! {
     NO_Z_IN_TEXT: InvalidControlText {
         en: "{operation} goes from Z {from} to Z {to} while it mills, but the text {text} has no ~Z1~",
         de: "{operation} geht beim Fräsen von Z {from} nach Z {to}, aber der Text {text} hat kein ~Z1~",
-        help_en: "add Z to the text; for a way straight down between passes, lift-between-passes = true also does (never for T-slot cutters)",
-        help_de: "Z in den Text aufnehmen; für den Weg gerade hinab zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
+        help_en: "add Z to the text; for a straight plunge between passes, lift-between-passes = true is enough (never with T-slot cutters)",
+        help_de: "Z in den Text aufnehmen; für das senkrechte Eintauchen zwischen zwei Durchgängen genügt lift-between-passes = true (nie bei T-Nuten-Fräsern)",
     }
     /// A text without Z for a helix.
     NO_Z_IN_ARC: InvalidControlText {
         en: "{operation} has a helix from Z {from} to Z {to}, but the text arc has no ~Z1~",
         de: "{operation} hat eine Helix von Z {from} nach Z {to}, aber der Text arc hat kein ~Z1~",
-        help_en: "add Z with ~Z1~ to the text arc; where the control knows no helix, to the text line, and it is written as lines",
-        help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Helix, in den Text line, dann werden es Strecken",
+        help_en: "add Z with ~Z1~ to the text arc; if the control does not support helices, add it to the text line: the helix is then written as lines",
+        help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Helix, in den Text line: die Helix wird dann in Strecken geschrieben",
     }
     /// A text for something that programs do not contain.
     TEXT_NEVER_CALLED: InvalidControlText {
-        en: "{text} is never called: programs contain nothing that it is for",
+        en: "{text} is never called: programs contain nothing that needs it",
         de: "{text} wird nie aufgerufen: Programme enthalten nichts, wofür er da ist",
         help_en: "delete it, so that its output is not relied on",
         help_de: "ihn löschen, damit sich niemand auf seine Ausgabe verlässt",
@@ -542,7 +542,7 @@ messages! {
     }
     /// A word or character that the controller does not accept.
     WORD_REJECTED: RejectedWord {
-        en: "line {line} of the output: {dialect} does not take \"{word}\"",
+        en: "line {line} of the output: {dialect} does not accept \"{word}\"",
         de: "Zeile {line} der Ausgabe: {dialect} nimmt \"{word}\" nicht an",
         help_en: "change the post's text, or name the dialect that the control really has",
         help_de: "den Text im Postprozessor ändern oder den Dialekt nennen, den die Steuerung wirklich hat",
@@ -577,8 +577,8 @@ messages! {
     }
     /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {
-        en: "here it cuts, but the output has not switched the spindle on, as `spindle` of the tool says; if that is done by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
-        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, wie es `spindle` des Werkzeugs sagt; geschieht das von Hand: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
+        en: "the tool cuts here, but the output has not switched the spindle on, although the tool has a `spindle` speed; if that is done by hand: spindle = \"manual\" outside all tables of pathbuild.toml",
+        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, obwohl `spindle` beim Werkzeug eine Drehzahl angibt; geschieht das von Hand: spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml",
     }
     /// Note: the spindle turns in the wrong direction.
     SPINDLE_OTHER_WAY: PostDiffers {
@@ -597,7 +597,7 @@ messages! {
     }
     /// Note: a move along another curve.
     GOES_ANOTHER_WAY: PostDiffers {
-        en: "the tool goes to {place} as in the program, but not by the same way",
+        en: "the tool goes to {place} as in the program, but by a different route",
         de: "das Werkzeug fährt wie im Programm nach {place}, aber auf anderem Weg",
     }
     /// Note: a rapid move instead of a cut, or the reverse.
@@ -613,7 +613,7 @@ messages! {
     /// Note: a move after the last cut.
     GOES_TOO_FAR: PostDiffers {
         en: "this is {found} to {place} after the program's last cut",
-        de: "das ist {found} nach {place} hinter dem letzten Schnitt des Programms",
+        de: "nach dem letzten Schnitt des Programms folgt hier noch {found} nach {place}",
     }
     /// Note: a different way between two cuts.
     WAY_NOT_FREE: PostDiffers {

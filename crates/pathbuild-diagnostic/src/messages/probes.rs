@@ -59,7 +59,7 @@ messages! {
     }
     /// A measured height too far from the drawn one.
     TOO_FAR: CorrectionTooLarge {
-        en: "#{probe} is {value}, which is {off} away from the {expected} that were drawn; up to {limit} is allowed",
+        en: "#{probe} is {value}, which is {off} away from the drawn {expected}; up to {limit} is allowed",
         de: "#{probe} ist {value}, das ist {off} entfernt von den gezeichneten {expected}; erlaubt ist bis {limit}",
         help_en: "measure again; if it is right, correct T in the drawing, or allow more with --max-correction",
         help_de: "noch einmal messen; wenn es stimmt, T in der Zeichnung berichtigen oder mit --max-correction mehr erlauben",
@@ -75,20 +75,20 @@ messages! {
     UNKNOWN_PROBE: UnknownProbe {
         en: "the formula uses #{probe}, which {file} does not have",
         de: "die Formel verwendet #{probe}, das es in {file} nicht gibt",
-        help_en: "both files must be of the same run of emit: emit again, and measure with the new program",
+        help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
     /// A probe that is missing from the program.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
         en: "{file} was made without a probe #{probe}",
         de: "{file} ist ohne eine Probe #{probe} entstanden",
-        help_en: "both files must be of the same run of emit: emit again, and measure with the new program",
+        help_en: "both files must come from the same run of emit: emit again, and measure with the new program",
         help_de: "beide Dateien müssen vom selben emit stammen: noch einmal ausgeben und mit dem neuen Programm messen",
     }
     /// A probe at another position.
     OTHER_PROBE: UnknownProbe {
-        en: "#{probe} is {here} here, and {file} was made with {there}",
-        de: "#{probe} ist hier {here}, und {file} ist mit {there} entstanden",
+        en: "#{probe} is {here} here, but {file} was made with {there}",
+        de: "#{probe} ist hier {here}, aber {file} ist mit {there} entstanden",
         help_en: "the drawing has changed since; emit again, and measure with the new program",
         help_de: "die Zeichnung hat sich seither geändert; noch einmal ausgeben und mit dem neuen Programm messen",
     }
@@ -110,7 +110,7 @@ messages! {
     OPERATOR_EXPECTED: InvalidFormula {
         en: "the formula is malformed here",
         de: "die Formel ist hier fehlerhaft",
-        help_en: "between values stands one of + - * /, and a bracket is closed by the one that belongs to it: ( ) or [ ]",
+        help_en: "write one of + - * / between values, and close each bracket with one of its kind: ( ) or [ ]",
         help_de: "zwischen Werten steht eines von + - * /, und zu jeder Klammer gehört die passende: ( ) oder [ ]",
     }
     /// An unclosed formula.
@@ -202,14 +202,14 @@ messages! {
     }
     /// A program that was written with `--compatible`.
     COMPATIBLE_PROGRAM: OldProgram {
-        en: "{name} was written with --compatible: without it its drawing gives another program",
+        en: "{name} was written with --compatible: without that option, the drawing gives a different program",
         de: "{name} wurde mit --compatible geschrieben: ohne diese Option ergibt die Zeichnung ein anderes Programm",
         help_en: "adjust it with --compatible, or run emit again without it",
         help_de: "adjust mit --compatible aufrufen oder emit noch einmal ohne diese Option",
     }
     /// A program that was written without `--compatible`.
     NOT_COMPATIBLE_PROGRAM: OldProgram {
-        en: "{name} was written without --compatible: with it its drawing gives another program",
+        en: "{name} was written without --compatible: with that option, the drawing gives a different program",
         de: "{name} wurde ohne --compatible geschrieben: mit dieser Option ergibt die Zeichnung ein anderes Programm",
         help_en: "adjust it without --compatible (`compat` gives that option), or run emit again with it",
         help_de: "adjust ohne --compatible aufrufen (`compat` setzt diese Option) oder emit noch einmal mit ihr",

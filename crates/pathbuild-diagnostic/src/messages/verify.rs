@@ -10,15 +10,15 @@ messages! {
     }
     /// `verify --against`: a missing mode such as `G54` in the header.
     MODE_MISSING: MovesDiffer {
-        en: "{word} is missing before the first move: the control may keep what the program before has set",
+        en: "{word} is missing before the first move: the control may keep what the previous program set",
         de: "{word} fehlt vor der ersten Bewegung: die Steuerung behält womöglich, was das vorige Programm gesetzt hat",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
     /// `verify --against`: another coolant word, M7 to M9.
     COOLANT_DIFFERS: MovesDiffer {
-        en: "the coolant is `{found}`, for the drawing's cutter it is `{expected}`",
-        de: "die Kühlung ist `{found}`, für den Fräser der Zeichnung ist sie `{expected}`",
+        en: "the coolant is `{found}`, but for the drawing's cutter it must be `{expected}`",
+        de: "die Kühlung ist `{found}`, für den Fräser der Zeichnung muss sie aber `{expected}` sein",
         help_en: "write the program again with `pathbuild emit`, or correct `coolant` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `coolant` in [tool.NAME] berichtigen",
     }
@@ -38,8 +38,8 @@ messages! {
     }
     /// `verify --against`: a move to the right point along another curve.
     DRAWN_OTHERWISE: MovesDiffer {
-        en: "the tool goes there by another way than the drawing says",
-        de: "das Werkzeug fährt auf anderem Weg dorthin, als die Zeichnung sagt",
+        en: "the tool goes to this point by a different route than in the drawing",
+        de: "das Werkzeug fährt auf anderem Weg zu diesem Punkt als in der Zeichnung",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -80,8 +80,8 @@ messages! {
     }
     /// `verify --against`: another tool.
     TOOLS_DIFFER: MovesDiffer {
-        en: "the tool is T{found}, for the drawing it is T{expected}",
-        de: "das Werkzeug ist T{found}, für die Zeichnung ist es T{expected}",
+        en: "the tool is T{found}, but the drawing needs T{expected}",
+        de: "das Werkzeug ist T{found}, die Zeichnung braucht aber T{expected}",
         help_en: "write the program again with `pathbuild emit`, or correct `number` in [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder `number` in [tool.NAME] berichtigen",
     }
@@ -94,14 +94,14 @@ messages! {
     }
     /// `verify --against`, with an unchecked definition.
     MOVES_NOT_COMPARED: DoubtfulPost {
-        en: "the moves were not compared with path {path}: with unchecked = true, nothing tells whether what {post} writes mills the drawing",
-        de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true sagt nichts, ob das, was {post} schreibt, die Zeichnung fräst",
+        en: "the moves were not compared with path {path}: with unchecked = true, it is unknown whether the output of {post} mills the drawing",
+        de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true ist nicht bekannt, ob die Ausgabe von {post} die Zeichnung fräst",
         help_en: "remove `unchecked` in pathbuild.toml and emit the program again, or check its moves by hand",
         help_de: "`unchecked` in der pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
     }
     /// `verify --against`: O.
     NUMBERS_DIFFER: MovesDiffer {
-        en: "the program's number is O{found}, for the drawing it is O{expected}: on the control it may be another program's",
+        en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
         de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann sie einem anderen Programm gehören",
         help_en: "write the program again with `pathbuild emit`; set `program-number` if the control has another number for it",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; hat die Steuerung eine andere Nummer dafür, `program-number` setzen",
@@ -115,8 +115,8 @@ messages! {
     }
     /// `verify --against`: another spindle direction or speed.
     SPINDLES_DIFFER: MovesDiffer {
-        en: "the spindle runs with `{found}`, for the drawing's cutter it is `{expected}`",
-        de: "die Spindel läuft mit `{found}`, für den Fräser der Zeichnung ist es `{expected}`",
+        en: "the spindle runs with `{found}`, but the drawing's cutter needs `{expected}`",
+        de: "die Spindel läuft mit `{found}`, der Fräser der Zeichnung braucht aber `{expected}`",
         help_en: "write the program again with `pathbuild emit`, or correct [tool.NAME]",
         help_de: "das Programm mit `pathbuild emit` neu schreiben oder [tool.NAME] berichtigen",
     }
@@ -136,7 +136,7 @@ messages! {
     }
     /// `G28` while the tool is below the surface.
     HOME_FROM_DEPTH: RapidInMaterial {
-        en: "a rapid move to a place of the machine from Z {z}: the material stands up to Z {surface}",
+        en: "a rapid move from Z {z} to a fixed position of the machine: the material reaches up to Z {surface}",
         de: "ein Eilgang ab Z {z} zu einer festen Position der Maschine: das Material reicht bis Z {surface}",
         help_en: "raise the tool above the material first",
         help_de: "das Werkzeug zuerst über das Material heben",
@@ -234,17 +234,17 @@ messages! {
     }
     /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
-        en: "the header says that the cutter has {header} mm; T{index} of `[tool]` has {table} mm",
+        en: "the header says that the cutter has {header} mm, but T{index} of `[tool]` has {table} mm",
         de: "laut Kopf hat der Fräser {header} mm; T{index} in `[tool]` hat {table} mm",
-        help_en: "use the cutter named in the header, or correct `[tool]`: for rapid moves, the smaller one removes material and the larger one hits it",
-        help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen: für Eilgänge trägt der kleinere Material ab, und der größere stößt an",
+        help_en: "use the cutter named in the header, or correct `[tool]`; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
+        help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter in the header or the tool table that differs from that of an option.
     OTHER_CUTTER_GIVEN: Disagreement {
         en: "{place} says that the cutter has {found} mm, --cutter says {given} mm",
         de: "{place} sagt, der Fräser hat {found} mm, --cutter sagt {given} mm",
-        help_en: "correct the wrong one: for rapid moves, the smaller one removes material and the larger one hits it",
-        help_de: "das Falsche berichtigen: für Eilgänge trägt der kleinere Material ab, und der größere stößt an",
+        help_en: "correct the wrong one; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
+        help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter in the header or an option that differs from that of the drawing.
     OTHER_CUTTER_DRAWN: Disagreement {
@@ -271,15 +271,15 @@ messages! {
     TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments describe T{number} with {one} mm and with {other} mm, or with different tips",
         de: "Kommentare beschreiben T{number} mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
-        help_en: "find out which tool is meant: for rapid moves, the smaller one removes material",
-        help_de: "klären, welches Werkzeug gemeint ist: für Eilgänge trägt das kleinere Material ab",
+        help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
+        help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }
     /// The same for a tool without a number.
     CURRENT_TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments describe the tool with {one} mm and with {other} mm, or with different tips",
         de: "Kommentare beschreiben das Werkzeug mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
-        help_en: "find out which tool is meant: for rapid moves, the smaller one removes material",
-        help_de: "klären, welches Werkzeug gemeint ist: für Eilgänge trägt das kleinere Material ab",
+        help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
+        help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }
     /// A tool that comments list, and that the program never uses.
     TOOL_NEVER_SELECTED: Disagreement {
@@ -293,7 +293,7 @@ messages! {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
         de: "Kommentare geben eine Ecke des Rohteils mit {axis} {one} und mit {axis} {other} an",
         help_en: "correct the wrong one: the higher one was used",
-        help_de: "das Falsche berichtigen: benutzt wurde die höhere",
+        help_de: "das Falsche berichtigen: verwendet wurde die höhere Angabe",
     }
     /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {
@@ -313,14 +313,14 @@ messages! {
     RAPID_IN_MATERIAL: RapidInMaterial {
         en: "a rapid move at Z {z} through material that still stands up to Z {height}, near {point}",
         de: "ein Eilgang auf Z {z} durch Material, das noch bis Z {height} steht, bei {point}",
-        help_en: "raise the cutter before, or mill there first (stock known at {resolution} mm)",
+        help_en: "raise the cutter first, or mill there beforehand (stock known to within {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
     /// A rapid move in the plane at cutting depth, where the surface of the material is unknown.
     RAPID_AT_DEPTH: RapidAtDepth {
         en: "a rapid move at Z {z} past {point}, where nothing was cut to that depth: the program cuts as deep just before or after it, so there is probably material",
         de: "ein Eilgang auf Z {z} über {point}, wo nichts so tief gefräst wurde: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
-        help_en: "raise the cutter before; if the material does not reach there, `--surface` gives its height, for an exact check",
+        help_en: "raise the cutter first; if the material does not reach there, `--surface` gives its height, for an exact check",
         help_de: "den Fräser vorher anheben; reicht das Material nicht bis dorthin, gibt `--surface` seine Höhe für eine genaue Prüfung an",
     }
     /// A cut before X and Y are known, as in a program that is incremental from its beginning.
@@ -334,7 +334,7 @@ messages! {
     RAPID_PLUNGE: RapidPlunge {
         en: "a rapid move down to Z {z} into material that stands up to Z {height}, at {point}",
         de: "ein Eilgang hinunter auf Z {z} in Material, das bis Z {height} steht, bei {point}",
-        help_en: "go down with G1 and a feed (stock known at {resolution} mm)",
+        help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
     /// A first move in the plane before retracting.
@@ -362,8 +362,8 @@ messages! {
     SPINDLE_OFF: SpindleOff {
         en: "this is a cutting move with the spindle off",
         de: "das ist eine Fräsbewegung bei stehender Spindel",
-        help_en: "switch it on with M3 before; a program without M3 to M5 is not asked for it",
-        help_de: "sie vorher mit M3 einschalten; von einem Programm ohne M3 bis M5 wird das nicht verlangt",
+        help_en: "switch it on with M3 first; programs without any of M3 to M5 are not checked for this",
+        help_de: "sie vorher mit M3 einschalten; Programme ohne M3 bis M5 werden darauf nicht geprüft",
     }
     /// A program that ends with the spindle on.
     SPINDLE_LEFT_ON: SpindleLeftOn {
@@ -388,8 +388,8 @@ messages! {
     }
     /// A spindle speed outside of the machine's range.
     SPINDLE_SPEED: SpindleSpeed {
-        en: "S {speed} is outside the machine's {least} to {most}",
-        de: "S {speed} liegt außerhalb der {least} bis {most} der Maschine",
+        en: "S {speed} is outside the machine's range of {least} to {most}",
+        de: "S {speed} liegt außerhalb des Bereichs der Maschine von {least} bis {most}",
         help_en: "change S, or the spindle's range under [machine]",
         help_de: "S ändern oder den Bereich der Spindel unter [machine]",
     }
@@ -409,15 +409,15 @@ messages! {
     }
     /// A program that leaves the working area of the machine.
     OUTSIDE_MACHINE: OutsideMachine {
-        en: "{axis} {value} is outside the machine's {least} to {most}",
-        de: "{axis} {value} liegt außerhalb der {least} bis {most} der Maschine",
+        en: "{axis} {value} is outside the machine's travel of {least} to {most}",
+        de: "{axis} {value} liegt außerhalb des Verfahrwegs der Maschine von {least} bis {most}",
         help_en: "move the part, or change the travel under [machine]",
         help_de: "das Werkstück versetzen oder den Verfahrweg unter [machine] ändern",
     }
     /// A program that is larger than the working area of the machine.
     LARGER_THAN_MACHINE: OutsideMachine {
-        en: "the program needs {size} mm in {axis}, the machine has {most}",
-        de: "das Programm braucht {size} mm in {axis}, die Maschine hat {most}",
+        en: "the program needs {size} mm in {axis}, but the machine has {most}",
+        de: "das Programm braucht {size} mm in {axis}, die Maschine hat aber nur {most}",
         help_en: "wherever the part is clamped, it does not fit",
         help_de: "wo immer das Werkstück gespannt ist, es passt nicht",
     }
@@ -435,7 +435,7 @@ messages! {
     }
     /// `diff`: moves along different curves.
     SHAPES_DIFFER: MovesDiffer {
-        en: "the moves differ: this one and that in line {line} of the other program have the same ends, but not the same way between them",
+        en: "the moves differ: this one and the one in line {line} of the other program have the same ends, but different routes between them",
         de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen Programms haben dieselben Enden, aber nicht denselben Weg dazwischen",
     }
     /// `diff`: a rapid move and a cut.

@@ -268,7 +268,7 @@ fn a_block_that_contains_itself_is_a_fault() {
     {
         let drawing = drawing(&blocks, "0 INSERT\n8 X\n2 B\n10 0\n20 0");
         let [fault] = &drawing.faults[..] else { panic!("{drawing:?}") };
-        assert_eq!(fault.diagnostic.text(Lang::En), "block B is nested too deep, or contains itself");
+        assert_eq!(fault.diagnostic.text(Lang::En), "block B is nested too deeply, or contains itself");
         assert_eq!(fault.diagnostic.code(), Code::InvalidDxf);
     }
 }

@@ -98,7 +98,7 @@ fn older_files_are_in_their_code_page() {
 fn bytes_that_the_encoding_does_not_know_are_doubtful_once() {
     let (text, said) = doubtful("AC1021", "", b"T3 \xFC");
     assert_eq!(text, "T3 \u{fffd}");
-    assert_eq!(said, "the file is in UTF-8, which does not know some bytes of this text");
+    assert_eq!(said, "the file is in UTF-8, in which some bytes of this text are invalid");
     assert_eq!(doubtful("AC1015", "ANSI_1253", b"\xD2").0, "\u{fffd}");
     assert_eq!(doubtful("AC1015", "ANSI_1252", b"\x81").0, "\u{81}");
     assert_eq!(doubtful("AC1015", "ANSI_932", b"\x83").0, "\u{fffd}");

@@ -279,7 +279,9 @@ fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     ));
     let notes = raw.diagnostics[0].notes.iter().map(|note| note.text(pathbuild_diagnostic::Lang::En));
     assert!(
-        notes.into_iter().any(|note| note.contains("on layer 1234.1P~A it would belong to a line at (0, 0)"))
+        notes
+            .into_iter()
+            .any(|note| note.contains("on layer 1234.1P~A, the text would belong to a line at (0, 0)"))
     );
 }
 

@@ -333,7 +333,10 @@ fn what_is_wrong_in_a_text_is_an_error() {
             "PB751 program-start, line 1, column 1: there is no variable Radios here (did you mean Radius?",
         ),
         ("{.~X1~}", "PB751 program-start, line 1, column 3: X1 has no value here: no move has been made yet"),
-        ("~Q2~", "PB753 program-start, line 1, column 1: the text of Q2 names variables more than 32 deep"),
+        (
+            "~Q2~",
+            "PB753 program-start, line 1, column 1: variables in the text of Q2 are nested more than 32 levels deep",
+        ),
         ("a}", "PB759 program-start, line 1, column 2: this brace closes nothing"),
         ("{$a", "PB759 program-start, line 1, column 4: a statement is not closed"),
         ("{*a", "PB759 program-start, line 1, column 1: a statement is not closed"),
@@ -342,7 +345,7 @@ fn what_is_wrong_in_a_text_is_an_error() {
         ("{?1 $a}", "PB759 program-start, line 1, column 3: a statement in braces is expected here"),
         ("{=1{2}}", "PB759 program-start, line 1, column 3: the name of a variable is expected here"),
         ("{=~Q1~{2}}", "PB759 program-start, line 1, column 3: the name of a variable is expected here"),
-        ("{§1}", "PB759 program-start, line 1, column 1: statements with \"§\" are not understood"),
+        ("{§1}", "PB759 program-start, line 1, column 1: statements with \"§\" are not supported"),
         ("{1/0}", "PB759 program-start, line 1, column 2: the term has no value"),
         ("{x 1.5}", "PB759 program-start, line 1, column 1: only whole numbers have bits"),
         ("{1,5}", "PB759 program-start, line 1, column 3: \",\" is not expected here"),
@@ -361,12 +364,12 @@ fn texts_that_no_program_calls_are_errors() {
         Post::read(definition.as_bytes(), Utf8Path::new("t.toml")).map(drop).map_err(|errors| texts(&errors))
     };
     for (text, expected) in [
-        ("bezier = 'a'", "bezier is never called: programs contain nothing that it is for"),
+        ("bezier = 'a'", "bezier is never called: programs contain nothing that needs it"),
         (
             "subprogram-start = 'a'",
-            "subprogram-start is never called: programs contain nothing that it is for",
+            "subprogram-start is never called: programs contain nothing that needs it",
         ),
-        ("subprogram-end = 'a'", "subprogram-end is never called: programs contain nothing that it is for"),
+        ("subprogram-end = 'a'", "subprogram-end is never called: programs contain nothing that needs it"),
         (
             "contour-start = 'a'\nrapid = 'b'",
             "contour-start is never called, because the definition has rapid",

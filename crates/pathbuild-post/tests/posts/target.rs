@@ -39,7 +39,7 @@ fn refused(target: &str, text: &str) -> Vec<String> {
 }
 
 fn rejected(line: u32, target: &str, word: &str) -> String {
-    format!("line {line} of the output: {target} does not take \"{word}\"")
+    format!("line {line} of the output: {target} does not accept \"{word}\"")
 }
 
 /// The number of errors is limited, within one line and over several, because each contains part of its line.
@@ -286,7 +286,7 @@ fn a_program_that_breaks_a_rule_of_verify_is_not_written() {
     let spindle = |speeds| Machine { spindle: Some(speeds), ..Machine::default() };
     assert_eq!(run_on(spindle((500.0, 1000.0)), "M3 S1000", "M5"), Ok(()));
     let errors = run_on(spindle((500.0, 999.0)), "M3 S1000", "M5").unwrap_err();
-    assert!(errors[0].starts_with("PB746 S 1000 is outside the machine's 500 to 999"), "{errors:?}");
+    assert!(errors[0].starts_with("PB746 S 1000 is outside the machine's range of 500 to 999"), "{errors:?}");
     let travel = |x| {
         let size = Some(Travel::Size([x, 100.0, 100.0]));
         Machine { travel: size, ..Machine::default() }
