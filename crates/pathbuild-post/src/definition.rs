@@ -112,7 +112,7 @@ impl Post {
         Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
 
-    /// What a program of this post says, in the words of RS274: how [`write`](Self::write) reads one back where no dialect is named.
+    /// Translates a program of this post to the words of RS274, as [`write`](Self::write) does for reading it back if no dialect is named.
     pub fn translate(&self, text: &[u8]) -> TranslatedText {
         match &self.engine {
             Engine::CamBam(definition) => cambam::translate(definition, text),
@@ -120,8 +120,8 @@ impl Post {
         }
     }
 
-    /// The first line, from 1, in which a program differs from another one of this post, and that one's line. Lines that are only a comment
-    /// in both are equal.
+    /// The number, from 1, of the first line in which a program of this post differs from the expected one, and the expected line. Lines
+    /// that both programs treat as a mere comment are ignored.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         let marks = match &self.engine {
             Engine::CamBam(definition) => definition.comment_marks(),
@@ -184,8 +184,8 @@ impl Post {
         Ok(output)
     }
 
-    /// Checks that the text makes the machine do what the job describes, and nothing forbidden. If no dialect defines the meaning of its
-    /// words, or if the definition has its own axes, its shadow is checked instead. Doubtful constructs are returned.
+    /// Checks that the text makes the machine do what the job describes, and that it breaks no rule. If no dialect defines the meaning of
+    /// its words, or if the definition has its own axes, its translation to RS274 is checked instead. Returns doubtful constructs.
     fn read_back(
         &self,
         text: &[u8],

@@ -35,7 +35,8 @@ pub fn native_remark(text: &str) -> Remark<'_> {
     }
 }
 
-/// Whether a comment tells what the program was made from, as in the head of each of our programs. The comments of the job repeat it.
+/// Whether a comment is the provenance or the title at the head of a program of pathbuild. Such comments are dropped, because the job's own
+/// comments repeat them.
 pub fn is_of_head(text: &str) -> bool {
     text.parse::<Provenance>().is_ok() || path_of_title(text).is_some()
 }
@@ -283,7 +284,7 @@ impl Builder {
     }
 
     fn set_coolant(&mut self, coolant: Coolant) {
-        // Posts have words for one of both.
+        // Posts have no word for flood and mist together.
         self.state.coolant = Some(if coolant.flood { Coolant::FLOOD } else { coolant });
         self.update();
     }
@@ -340,7 +341,7 @@ impl Builder {
             return Err(self.errors);
         }
         if !self.has_cut && self.job.operations.len() > 1 {
-            // The way home is up to the post.
+            // The last operation cuts nothing: it only leads home, and that is up to the post.
             self.job.operations.pop();
         }
         self.job.set_surface(0.0);

@@ -32,13 +32,13 @@ pub struct Job {
     pub has_no_surface: bool,
 }
 
-/// The number of a program, where it is not configured: the first one in its name. Of 8001.1P it is 8001.
+/// The program number used if none is configured: the first number in the program's name, such as 8001 in 8001.1P.
 pub fn program_number(name: &str) -> Option<u32> {
     name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
 }
 
 impl Job {
-    /// The program's number: that in its name, else in its first part's.
+    /// The program number: the first number in the job's name, otherwise in the name of its first part.
     pub(super) fn number(&self) -> Option<u32> {
         program_number(&self.name).or_else(|| program_number(&self.operations.first()?.part))
     }

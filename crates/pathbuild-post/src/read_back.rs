@@ -25,9 +25,9 @@ pub(super) struct Expected<'a> {
     pub(super) tolerance: Option<Tolerance>,
     /// Capabilities of the machine.
     pub(super) machine: Option<&'a Machine>,
-    /// What a text without a target says.
+    /// The translation to RS274 of a text without a target.
     pub(super) translated: Option<&'a TranslatedText>,
-    /// The spindle is not switched by the program.
+    /// Whether the operator switches the spindle, or the target has no word for it, so that the program need not.
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
     pub(super) is_flat: bool,

@@ -6,7 +6,7 @@ use pathbuild_gcode::interpret::{Disputes, UnionWord, code_name, union_word};
 
 use crate::job::Units;
 
-/// A program that moves and switches like the lines passed to it, line by line.
+/// The RS274 translation of a program, built line by line: it moves and switches like the lines passed to it.
 #[derive(Debug)]
 pub(crate) struct Shadow {
     text: String,
@@ -17,14 +17,14 @@ pub(crate) struct Shadow {
     is_blank_open: bool,
 }
 
-/// A program in the words of RS274/NGC, line for line as it was written in others.
+/// A program translated line by line to the words of RS274/NGC.
 #[derive(Clone, Debug, Default)]
 pub struct TranslatedText {
-    /// For the reader of the dialect `LinuxCnc`.
+    /// The translation, to be read in the dialect `LinuxCnc`.
     pub text: String,
-    /// Words that were left out of it; of each the first.
+    /// Words that the translation omits, each with its first occurrence.
     pub doubtful: Vec<DoubtfulWord>,
-    /// Words that do something else on other controls, with the line of the first one.
+    /// Words whose meaning differs between controls, with the line of the first one.
     pub disputed: Option<(u32, Vec<String>)>,
 }
 
@@ -42,13 +42,13 @@ pub struct DoubtfulWord {
 /// What is doubtful about a word where no dialect is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// It is not followed, and changes where the tool goes on some controls, or what is run.
+    /// It is not followed, and on some controls it changes where the tool goes or which lines are run.
     Dangerous,
     /// It is not followed.
     Unknown,
 }
 
-/// More of them are no news.
+/// Maximum number of doubtful words that are reported.
 const MOST_DOUBTFUL: usize = 20;
 
 impl Shadow {
@@ -111,7 +111,7 @@ impl Shadow {
         begins || ends
     }
 
-    /// A code that says where or how the tool moves. Where one axis is mirrored, arcs turn the other way.
+    /// Adds a G code of a position or motion. If one axis is mirrored, G2 and G3 are exchanged.
     fn code(&mut self, tenths: i64, is_mirrored: bool) {
         let tenths = match tenths {
             20 if is_mirrored => 30,
@@ -156,7 +156,7 @@ impl Shadow {
     }
 }
 
-/// What a code is called, given ten times its number.
+/// The name of a code, given ten times its number.
 fn name(letter: char, tenths: i64) -> String {
     u16::try_from(tenths).map_or_else(|_| letter.to_string(), |code| code_name(letter, code))
 }
@@ -222,8 +222,9 @@ impl CommentMarks {
     }
 }
 
-/// The first line, from 1, in which a program differs from another one, and that one's line. Lines that are only a comment count in neither;
-/// what opens a comment is what opens one in the other program, because a control may execute lines that look like comments elsewhere.
+/// The number, from 1, of the first line in which a program differs from the expected one, and the expected line. Comment lines are
+/// ignored, but only if their opening mark also opens a comment line of the expected program, because what looks like a comment may be
+/// executed by another control.
 pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMarks) -> Option<(u32, String)> {
     let (found, expected) = (String::from_utf8_lossy(found), String::from_utf8_lossy(expected));
     let openings: Vec<&str> = expected.lines().filter_map(|line| opening(line, marks)).collect();
@@ -244,7 +245,8 @@ pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMar
     Some((line, expected.get(same).map(|(_, text)| text.clone()).unwrap_or_default()))
 }
 
-/// The sign that opens the comment of a line that is nothing else. A control may end a line at a CR.
+/// The opening mark of a line that consists of a comment; `None` for any other line. A line that contains a CR is not a comment, because a
+/// control may end the line there.
 fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
     let line = line.trim();
     let found = words(line, marks);

@@ -13,7 +13,8 @@ use pathbuild_gcode::read::LONGEST_LINE;
 
 use crate::shadow::{CommentMarks, words};
 
-/// A control that posts write for: what it accepts is what the rules of its dialect accept as usual.
+/// A control that posts write for. It accepts the words and notations that are usual in its dialect, not those that are only read with a
+/// warning.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
     /// The dialect in which the output is read back.

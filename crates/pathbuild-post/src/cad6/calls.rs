@@ -68,7 +68,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Definitions that write every rapid as it is also write the one to the start.
+    /// Moves to the start of the job, for definitions that write every rapid as it is.
     fn begin(&mut self) {
         if self.abilities.rapid {
             self.call(What::Rapid { to: self.at });
@@ -164,7 +164,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds a call that neither moves the tool nor ends a contour. If moves wait to be written, it waits with them.
+    /// Adds a call that neither moves the tool nor ends a contour. While rapids are pending, the call is kept back with them.
     fn add_aside(&mut self, what: What<'a>) {
         if self.ways.is_empty() {
             self.call(what);

@@ -139,7 +139,7 @@ impl Definition {
 /// Why no program calls a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Uncalled {
-    /// Programs do not contain what the text is for.
+    /// Programs contain nothing that needs the text.
     Never,
     /// The definition has this other text, which is called instead.
     Instead(ControlTextKind),

@@ -65,7 +65,7 @@ pub(super) fn write(
     Ok(EngineOutput { text, shadow, origins, warnings, switches })
 }
 
-/// What a text says, in the words of RS274. `units` are those of the job, where the definition names none.
+/// Translates a text to the words of RS274. `units` are those of the job, which apply if the definition names none.
 pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> TranslatedText {
     let mut shadow = Shadow::new(definition.units().unwrap_or(units), false);
     for line in text.split(|&byte| byte == b'\n') {

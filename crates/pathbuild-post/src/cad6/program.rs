@@ -19,7 +19,7 @@ use crate::{PostMacro, PostOptions};
 /// Executes the calls of a job.
 pub(super) struct Caller<'a, 'r> {
     job: &'a Job,
-    /// For each operation.
+    /// The feeds of each operation.
     feeds: Vec<Feeds>,
     runner: &'r mut Runner<'a>,
     /// The output unit, in mm.

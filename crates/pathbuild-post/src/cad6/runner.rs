@@ -45,7 +45,7 @@ pub(super) struct Runner<'a> {
     pub(super) warnings: Vec<Diagnostic>,
     /// The texts that were called.
     pub(super) called: Vec<ControlTextKind>,
-    /// For each line.
+    /// The origin of each line.
     origins: Vec<LineOrigin>,
 }
 
@@ -205,7 +205,7 @@ impl<'a> Runner<'a> {
         Box::new(locate(diagnostic, kind, text, span, self.file))
     }
 
-    /// Returns the content of the file.
+    /// Returns the content of the file, the origin of each line, and the warnings.
     pub(super) fn finish(self) -> (Vec<u8>, Vec<LineOrigin>, Vec<Diagnostic>) {
         (self.text, self.origins, self.warnings)
     }

@@ -1,9 +1,8 @@
 //! Mathematical terms: numbers, operators and functions. (book: program/reading)
 //!
-//! All operators are left-associative. From lowest to highest precedence: `||`, `&&`, comparisons with `&
-//! ^` (bitwise), `+ -`, `* /`,
-//! `^^` (power), signs and `!`. The manual does not specify the order of some of these, nor any functions, so those are defined by
-//! pathbuild.
+//! All operators are left-associative. From lowest to highest precedence: `||`, `&&`, comparisons together with the bitwise `&`, `|` and
+//! `^`, then `+ -`, `* /`, `^^` (power), signs and `!`. The manual does not specify the order of some of these, nor any functions, so those
+//! are defined by pathbuild.
 
 use std::ops::Range;
 
@@ -252,7 +251,7 @@ pub(super) enum Wrong {
 }
 
 impl Wrong {
-    /// Converts it to a fault at the name of the function.
+    /// Converts the reason to a fault at the name of the function.
     pub(super) fn at(self, span: Range<usize>) -> Box<Fault> {
         match self {
             Self::Name => Fault::new(&posts::TERM_FUNCTION, span),

@@ -163,7 +163,7 @@ impl Definition {
         CommentMarks { open: mark(Section::Comment), close: mark(Section::EndComment) }
     }
 
-    /// Its words for motions that are no G words, each with the number of the G word that it stands for.
+    /// The definition's own words for motions, which are not G words, each with the number of the G word that it stands for.
     pub(super) fn own_motions(&self) -> Vec<(u32, String)> {
         let text = |code: Code| self.section(code.section()).literal().trim().to_owned();
         let is_own = |word: &str| !word.is_empty() && words(word, &CommentMarks::default()).words.is_empty();

@@ -44,8 +44,8 @@ pub(super) fn write(
     Ok(EngineOutput { text, post_build, leaves_out_coolant: leaves_out_coolant(&plan) })
 }
 
-/// What a text of this definition says, in the words of RS274. A line that has the definition's own word for a motion, which is no G word,
-/// moves so.
+/// Translates a text of this definition to the words of RS274. A definition may have its own words for motions, which are not G words;
+/// lines with such a word get the corresponding G word.
 pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText {
     let marks = definition.comment_marks();
     let own_words = definition.own_motions();

@@ -42,7 +42,7 @@ pub(super) struct Writer<'a> {
     pub(super) move_values: MoveValues,
     /// Index of the current operation: the first in the header, the last in the footer.
     operation: usize,
-    /// For each operation.
+    /// The feeds of each operation.
     feeds: Vec<Feeds>,
     /// The tool used by `{$tool.index}`.
     pub(super) tool: &'a Tool,
@@ -63,7 +63,7 @@ pub(super) struct Writer<'a> {
     pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
     /// The part of the definition being written: a section and a line of its file.
     place: (Section, u32),
-    /// For each line written.
+    /// The origin of each line written.
     origins: Vec<LineOrigin>,
     /// Least and greatest angle in degrees of paths wrapped around a cylinder.
     pub(super) angles: Option<[f64; 2]>,
@@ -109,7 +109,7 @@ impl<'a> Writer<'a> {
         writer
     }
 
-    /// The text of the whole file, its shadow, and what is doubtful in it.
+    /// Writes the whole program: its text, its translation to RS274, and doubtful constructs.
     pub(super) fn run(mut self) -> Result<WrittenText, Box<Diagnostic>> {
         self.section(Section::PostFile)?;
         self.end_line();
