@@ -23,7 +23,7 @@ pub use nearest::{is_slip, nearest};
 pub use place::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, in_prose};
 pub use words::{Lang, Text};
 
-/// Every text that messages put in, those of other crates aside.
+/// All texts of this crate that can be arguments of messages.
 pub fn texts() -> impl Iterator<Item = &'static Text> {
     let texts = [words::TEXTS, reasons::TEXTS, limits::TEXTS, messages::configuration::TEXTS];
     texts.into_iter().flatten().copied()

@@ -1,4 +1,4 @@
-//! What exceeds a limit of the configuration. (PB005; book: reference/configuration)
+//! Diagnostics about limits of the configuration that are exceeded. (PB005; book: reference/configuration)
 
 use std::time::Duration;
 
@@ -28,7 +28,7 @@ words! {
     LONG_TEXT: "it is longer than {limit} bytes", "es ist länger als {limit} Bytes";
     /// The limit itself.
     BYTES: "{count} bytes", "{count} Bytes";
-    /// Likewise.
+    /// A limit that is a time.
     SECONDS: "{count} s", "{count} s";
 }
 

@@ -37,7 +37,7 @@ impl Sentence {
 /// Values of a message by the names of its arguments.
 pub(crate) type Arguments = Vec<(&'static str, Value)>;
 
-/// What can be said under a code. A code has one message for each way in which it happens.
+/// A message of a code. A code has one message for each situation that it covers.
 ///
 /// Messages are statics declared by the `messages!` macro in [`crate::messages`]; two messages are equal if they are the same static.
 #[derive(Debug)]
@@ -72,8 +72,8 @@ impl Serialize for Message {
     }
 }
 
-/// A value in a message. Strings do not turn into values by themselves: a name or a piece of source text is [`quoted`](Value::quoted), prose
-/// is a [`Text`] or a [`Sentence`], and what a library says is [`foreign`](Value::foreign).
+/// A value in a message. Strings do not turn into values by themselves: a name or a piece of source text is [`quoted`](Value::quoted),
+/// prose is a [`Text`] or a [`Sentence`], and the error text of a library is [`foreign`](Value::foreign).
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Value {
     /// A name or a piece of source text, the same in every language.
@@ -100,7 +100,7 @@ impl Value {
         Self::Quoted(text.as_ref().into())
     }
 
-    /// What a library or the operating system says of an error.
+    /// The error text of a library or of the operating system.
     pub fn foreign(text: impl fmt::Display) -> Self {
         Self::Foreign(text.to_string().into())
     }

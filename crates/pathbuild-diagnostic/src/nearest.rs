@@ -1,16 +1,17 @@
-//! Suggestions for misspelt names. Their distance is that of optimal string alignment: letters to change, put in, leave out or swap with
-//! their neighbour.
+//! Suggestions for misspelt names. The distance between two names is that of optimal string alignment: the number of letters to change,
+//! insert, remove or swap with a neighbour.
 
 use strsim::osa_distance;
 
-/// Bytes beyond which a name is not compared: every known name is shorter, and comparing takes the product of both lengths.
+/// Maximum length in bytes of a name that is compared. Every known name is shorter, and the cost is the product of both lengths.
 const LONGEST: usize = 200;
 
-/// Digits from which on a number identifies something. Shorter numbers count: `3101.1P` is followed by `3101.2P`.
+/// Minimum number of digits of a number that identifies something, in which a slip is likely. Shorter numbers just count: `3101.2P` follows
+/// `3101.1P` and is not a misspelling of it.
 const LONG_NUMBER: usize = 3;
 
-/// The known name nearest to a misspelt one: at most a third of its letters differ, and its numbers are the same, slips of the pen aside.
-/// The first of several wins.
+/// The known name nearest to a misspelt one: at most a third of its letters differ, and its numbers are the same except for a single slip.
+/// Of several equally near names, the first is returned.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > LONGEST {
         return None;
@@ -20,13 +21,13 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     let length = name.chars().count();
     let (most, own) = (length.div_ceil(3), letters(&name));
     let near = |candidate: &'a str| {
-        // A letter more or less is one that differs.
+        // An additional or missing letter counts as a different one.
         if candidate.chars().count().abs_diff(length) > most {
             return None;
         }
         let other = candidate.to_lowercase();
         let others = letters(&other);
-        // Each letter that only one of them has is one that differs: nearly all names are told apart by this.
+        // A letter that only one of the names contains counts as a different one. This cheap test rejects nearly all names.
         if (own & !others).count_ones().max((others & !own).count_ones()) as usize > most {
             return None;
         }
@@ -36,8 +37,8 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
 }
 
-/// Whether one name is the other with a single slip of the pen: a character changed, added, left out or swapped with its neighbour. Case
-/// and leading zeros do not count, and a neighbour in a numbering is another name.
+/// Whether two names differ by a single typing error: a character changed, added, left out or swapped with its neighbour. Case and leading
+/// zeros are ignored, and names with consecutive numbers are different names.
 pub fn is_slip(name: &str, other: &str) -> bool {
     let plain = |name: &str| {
         let name = name.to_lowercase();
@@ -53,7 +54,7 @@ pub fn is_slip(name: &str, other: &str) -> bool {
 struct Numbers(Vec<String>);
 
 impl Numbers {
-    /// A letter like a digit counts as that digit beside one: `31O1` is 3101.
+    /// Extracts the numbers. A letter that looks like a digit counts as that digit if it is next to a digit: `31O1` is 3101.
     fn of(name: &str) -> Self {
         let mut numbers = vec![String::new()];
         let mut letters = name.chars().peekable();
@@ -74,7 +75,7 @@ impl Numbers {
         Self(numbers.iter().map(|number| number.trim_start_matches('0').to_owned()).collect())
     }
 
-    /// Whether these are the others, but for a slip of the pen in one of them.
+    /// Whether the numbers are the same, except for a typing error in one of them.
     fn may_mean(&self, others: &Self) -> bool {
         if self.0.len() != others.0.len() {
             return self.0.concat() == others.0.concat();
@@ -88,7 +89,7 @@ impl Numbers {
     }
 }
 
-/// Whether a long number is another with a digit left out or put in, or with two neighbours swapped.
+/// Whether two numbers, at least one of them long, differ by one additional digit or by two neighbouring digits that are swapped.
 fn is_misspelt(number: &str, other: &str) -> bool {
     let (long, short) = if number.len() < other.len() { (other, number) } else { (number, other) };
     if long.len() < LONG_NUMBER {
@@ -103,7 +104,7 @@ fn is_misspelt(number: &str, other: &str) -> bool {
     }
 }
 
-/// The letters of a name, a bit for each; some share theirs.
+/// The set of letters of a name as bits. Several letters may share a bit.
 fn letters(name: &str) -> u32 {
     name.chars().fold(0, |found, letter| found | 1 << (u32::from(letter) % 32))
 }

@@ -23,7 +23,7 @@ impl Point {
         Self { x: Number(x), y: Number(y) }
     }
 
-    /// The point with as many decimals as tell it from other points of the same sentence that would look like it.
+    /// The point with enough decimals to distinguish it from other points in the same sentence.
     pub(crate) fn apart_from(self, others: &[Self]) -> String {
         let shown = |point: Self| (point.x.to_string(), point.y.to_string());
         let alike: Vec<Self> = others.iter().copied().filter(|other| shown(*other) == shown(self)).collect();

@@ -53,19 +53,19 @@ words! {
     IN_STRANGERS_TREE: "it lies in a directory tree that is not trusted", "es liegt in einem Verzeichnisbaum, dem nicht vertraut wird";
     /// A directory that is not a cache.
     NO_CACHE: "it has no CACHEDIR.TAG of pathbuild, so it is not a cache of pathbuild", "es hat keine CACHEDIR.TAG von pathbuild, ist also kein Cache von pathbuild";
-    /// Likewise: what is to be kept.
+    /// A result that is too large for a cache file.
     TOO_MUCH_TO_KEEP: "there is more to keep than a file can hold", "es ist mehr aufzuheben, als in eine Datei passt";
-    /// Likewise.
+    /// A cache directory with an unreadable tag.
     TAG_UNREADABLE: "its CACHEDIR.TAG cannot be read", "seine CACHEDIR.TAG ist nicht lesbar";
-    /// Names of temporary files that are all taken.
+    /// All names for temporary files are taken.
     TOO_MANY_TEMPORARY: "there are too many temporary files beside it", "daneben liegen zu viele temporäre Dateien";
-    /// A drawing that another program writes.
+    /// A drawing that another program is writing.
     CHANGES_WHILE_READ: "it changes while it is being read", "sie ändert sich, während sie gelesen wird";
-    /// Pictures.
+    /// A picture that is too large for memory.
     PICTURE_TOO_LARGE: "the picture is too large", "das Bild ist zu groß";
-    /// Programs without pictures.
+    /// A picture format that requires a feature without which the program was built.
     WITHOUT_PICTURES: "this pathbuild was built without the feature `pictures`: .html and .svg are left", "dieses pathbuild wurde ohne das Feature `pictures` gebaut: es bleiben .html und .svg";
-    /// In the words of operating systems.
+    /// Error of the operating system.
     PERMISSION_DENIED: "permission denied", "keine Berechtigung";
     /// Error of the operating system.
     EXISTS: "file exists", "es gibt sie schon";
@@ -85,7 +85,7 @@ words! {
     BAD_NAME: "the system does not allow this file name", "das System lässt den Dateinamen nicht zu";
 }
 
-/// An error of ours that [`reason`] gives back in every language.
+/// Creates an error with a text of pathbuild, from which [`reason`] returns the text in every language.
 pub fn error(kind: ErrorKind, text: &'static Text) -> Error {
     Error::new(kind, Ours(text))
 }
@@ -101,7 +101,7 @@ impl fmt::Display for Ours {
 
 impl std::error::Error for Ours {}
 
-/// What a system's error says, in the program's words where it has some.
+/// The reason of an IO error: in pathbuild's own words if there are some, otherwise as the system puts it.
 pub fn reason(error: &Error) -> Value {
     match error.get_ref() {
         Some(inner) => match inner.downcast_ref::<Ours>() {

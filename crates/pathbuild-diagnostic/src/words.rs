@@ -17,7 +17,8 @@ pub enum Lang {
 
 /// Prose in every language: a word, a phrase or a sentence, with `{name}` where an argument goes.
 ///
-/// This is the only type of prose. A message takes it as an argument beside drawn text ([`Diagnostic::quoting`](crate::Diagnostic::quoting)), never a string.
+/// This is the only type of prose: a message takes prose as a `Text`, never as a string. Strings are for text from drawings
+/// ([`Diagnostic::quoting`](crate::Diagnostic::quoting)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Text {
     /// English.
@@ -27,14 +28,14 @@ pub struct Text {
 }
 
 impl Text {
-    /// The sentence in one language, its arguments not yet put in.
+    /// The text in one language, with its placeholders unfilled.
     pub fn in_lang(&self, lang: Lang) -> &'static str {
         lang.choose(self.en, self.de)
     }
 }
 
 impl Lang {
-    /// One of two values, such as the halves of a sentence that only one command says.
+    /// Selects one of two values by language.
     pub fn choose<T>(self, en: T, de: T) -> T {
         match self {
             Self::En => en,
@@ -111,7 +112,7 @@ words! {
     DEFAULT: "default", "Vorgabe";
 }
 
-/// Deserializes a text of the program as its one leaked copy. There are only a few dozen.
+/// Deserializes a text as a `&'static Text`: each different text is leaked once. There are only a few dozen.
 pub(crate) fn kept_text<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Text, D::Error> {
     static KEPT: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
         LazyLock::new(Mutex::default);

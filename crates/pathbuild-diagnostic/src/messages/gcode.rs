@@ -41,14 +41,14 @@ messages! {
         help_en: "remove it, or check at the control what it does",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
-    /// As above, of a program that is read by its definition.
+    /// The same for a program that is read by a post definition.
     FOREIGN_TO_DEFINITION: ForeignWord {
         en: "{word} is not checked: {post} does not write it, and what it does is not followed",
         de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
         help_en: "remove it, or check at the control what it does",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
-    /// Codes that are read as in RS274, while the dialect was chosen for want of a sign.
+    /// Words on which controls disagree, in a program that does not reveal its dialect.
     DIALECT_NOT_NAMED: UnnamedDialect {
         en: "controls disagree on what {words} does; read as {dialect}",
         de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden; gelesen als {dialect}",
