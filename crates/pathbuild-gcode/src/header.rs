@@ -243,7 +243,7 @@ impl HeaderReader {
         }
     }
 
-    /// Processes the comments at the beginning of a text whose steps have none, because it was translated.
+    /// Processes the comments at the beginning of a text. This is for translated programs, whose steps contain no comments.
     pub fn head_of(&mut self, text: &[u8]) {
         let steps = std::mem::take(&mut self.events);
         head_remarks(text).for_each(|remark| self.comment(0, &remark));
@@ -355,8 +355,8 @@ impl StatedCutter {
         libm::fabs(self.diameter - diameter) <= self.tolerance
     }
 
-    /// The widths for the check of rapid moves. A tip that is not known to be flat counts as the centre line of the moves, both in removing
-    /// material and in hitting it: the tool fits into its own cut.
+    /// The widths for the check of rapid moves. If the tip is not known to be flat, only the centre line of the moves counts, both for
+    /// removing material and for collisions, so that the tool always fits into its own cut.
     pub fn widths(&self) -> Cutter {
         let flat = self.flat.unwrap_or(0.0);
         Cutter { diameter: self.diameter, removed: flat, colliding: flat }
@@ -368,7 +368,7 @@ impl StatedCutter {
         is_near(self.diameter, other.diameter) && is_same_tip
     }
 
-    /// Both descriptions of a tool in one: the narrower one counts for what is known to be flat.
+    /// Combines two descriptions of a tool: the greater diameter, and the smaller width that is known to be flat.
     fn with(&self, other: &Self) -> Self {
         let flat = [self.flat, other.flat].into_iter().flatten().reduce(f64::min);
         Self { diameter: self.diameter.max(other.diameter), flat, ..*self }
@@ -505,7 +505,7 @@ impl Collector {
         self.tools.push(CuttingTool { line, number: self.number, cutter });
     }
 
-    /// In a program without tool changes, the only tool of the list is the one that cuts.
+    /// Assigns the only listed tool to the cuts of a program without tool changes.
     fn only_tool(&mut self) {
         let mut numbered = self.numbered.iter();
         let (Some((number, cutter)), None) = (numbered.next(), numbered.next()) else { return };
@@ -514,7 +514,7 @@ impl Collector {
         }
     }
 
-    /// A description together with a known one, reporting a contradiction.
+    /// Combines a description with a known one, and reports a contradiction between them.
     fn combined(
         &mut self,
         known: Option<StatedCutter>,

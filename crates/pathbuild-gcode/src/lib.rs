@@ -1,5 +1,4 @@
-//! Writes, reads, checks and post-processes programs in G-code. (book: program/gcode, book: program/posts,
-//! book: program/reading)
+//! Writes, reads, checks and post-processes programs in G-code. (book: program/gcode, book: program/posts, book: program/reading)
 
 pub mod adjust;
 pub mod dialect;

@@ -228,7 +228,7 @@ pub(super) fn fill_from_log<'a>(
     }
 }
 
-/// Marks the missing values as faulty, because without the log nothing can be said about them.
+/// Marks missing values as already reported, because the problem is the log and not each single value.
 fn give_up(probes: &mut [ProbeLine<'_>]) {
     for probe in probes.iter_mut().filter(|probe| probe.value == Entered::Nothing) {
         probe.value = Entered::Wrong;

@@ -18,7 +18,8 @@ pub enum Charset {
 }
 
 impl Dialect {
-    /// Formats a comment in the dialect. The text must begin with a word of our own.
+    /// Formats a comment in the dialect. The text must begin with a word chosen by pathbuild, because some controls act on comments that
+    /// begin with certain words.
     pub fn comment(self, text: &str, charset: Charset) -> String {
         let spelling = &self.rules().spelling;
         let text = within_comment(text, Some(self), charset);

@@ -1,6 +1,6 @@
 //! Subprograms, which run wherever they are called, and loops with a number of repetitions. (book: program/reading, "Subprograms")
 //!
-//! Only what stands in the same file can be followed: `o100 sub` or `O100`, and for M97 the lines behind a block number.
+//! Only subprograms in the same file can be followed: `o100 sub`, `O100`, and for M97 the lines from a block number on.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -182,7 +182,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Passes over the lines to the end of a subroutine or a loop.
+    /// Skips the lines up to the end of a subroutine or a loop.
     fn pass(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Outcome {
         while let Some(block) = reader.next_block() {
             let is_end = |word: OWord| word.kind == end && &*name_of_o_word(&block, word) == name;

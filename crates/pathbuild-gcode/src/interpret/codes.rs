@@ -108,7 +108,7 @@ impl Command {
         }
     }
 
-    /// How far the interpreter follows it. A command that is reported as not followed needs no second report.
+    /// How far the interpreter follows the command. One that is reported as not followed needs no second report.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,
@@ -206,7 +206,7 @@ pub(super) fn is_cycle(code: u16) -> bool {
     matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890)
 }
 
-/// What a G or M code, ten times its number, is called: `G1`, `G38.2`.
+/// The name of a G or M code, given ten times its number: `G1`, `G38.2`.
 pub fn name(letter: char, code: u16) -> String {
     match code % 10 {
         0 if letter == 'O' => letter.to_string(),

@@ -199,7 +199,7 @@ const NEGATIVE_POWER: Fault = Fault(&Text {
 });
 const DIVISION_BY_ZERO: Fault = Fault(&Text { en: "division by zero", de: "Division durch null" });
 
-/// What a native program lists about its probes before its first word.
+/// The probes that a native program lists before its first word.
 #[derive(Debug, Default)]
 pub(super) struct StatedProbes {
     pub(super) probes: BTreeMap<u32, ProgramProbe>,

@@ -199,21 +199,21 @@ fn ends_in_keyword(line: &[u8]) -> bool {
     KEYWORDS.iter().any(|keyword| has(&lower, keyword))
 }
 
-/// How a word is followed where no dialect is named.
+/// How a word is interpreted if no dialect is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnionWord {
-    /// The reader of LinuxCNC follows it, under this code.
+    /// As this code of LinuxCNC.
     Followed(u16),
-    /// It switches off what is off already, or leaves the way of the tool's tip alone.
+    /// Not at all: it switches off what is already off, or does not affect where the tool tip goes.
     Neutral,
-    /// What it does is unknown.
+    /// Not at all: its effect is unknown.
     NotFollowed {
-        /// It changes where the tool goes on some controls, or which line is run next.
+        /// Whether it changes, on some controls, where the tool goes or which line is run next.
         is_dangerous: bool,
     },
 }
 
-/// What a word does where no dialect is named. `code` is ten times its number.
+/// How a word is interpreted if no dialect is named. `code` is ten times its number.
 pub fn union_word(letter: char, code: u16) -> UnionWord {
     if letter == 'M' { union_m_word(code) } else { union_g_word(code) }
 }
@@ -251,7 +251,7 @@ fn union_g_word(code: u16) -> UnionWord {
     }
 }
 
-/// What a dialect takes a G word for.
+/// The meaning of a G word in a dialect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Meaning {
     Command(Command),
@@ -260,7 +260,7 @@ enum Meaning {
     Own,
 }
 
-/// Looks for G words on which the dialects disagree that know all words of a program.
+/// Finds the G words of a program that have different meanings in those dialects that know all of its words.
 #[derive(Clone, Debug, Default)]
 pub struct Disputes {
     /// G and M words by letter and ten times their number, each with its first line.
@@ -307,7 +307,7 @@ fn meaning(rules: &Rules, code: u16) -> Option<Meaning> {
         _ if code == inch || code == mm => Meaning::Command(Command::Inches(code == inch)),
         _ if rules.words.g_own.contains(&code) => Meaning::Own,
         Command::Dwell => Meaning::Dwell(match rules.dwell.p {
-            // The configuration says which.
+            // The configuration tells which; the difference does not count as a dispute.
             DwellUnit::BySetting => DwellUnit::Seconds,
             unit => unit,
         }),

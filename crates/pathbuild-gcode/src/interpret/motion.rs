@@ -67,7 +67,8 @@ impl Interpreter<'_> {
         self.state.motion_code = code;
     }
 
-    /// Warns about a motion word that neither moves nor sets F. It does not count for later lines either, where those state their motion.
+    /// Warns about a motion word that neither moves nor sets F. In dialects where each line states its motion, such a word has no effect on
+    /// later lines either.
     fn check_does_something(&mut self, block: &Block<'_>, motion: Motion, code: u16, span: Span) {
         let sets_feed = self.words.values.has(b'F') && !self.rules.layers;
         let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);
@@ -450,7 +451,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Another value than 0 was meant for another plane, so it remains unused, which is reported.
+    /// Accepts a 0 for the centre word of the third axis. Any other value was probably meant for another plane; it remains unused, which is
+    /// reported.
     fn take_zero_of_third_centre(&mut self, plane: Plane, has_centre: bool) {
         let letter = b"IJK"[plane.third()];
         let is_zero = self.words.values.peek(letter).is_some_and(|slot| slot.value == 0.0);

@@ -221,8 +221,8 @@ fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
     }
 }
 
-/// Reports a text whose formulas were applied with heights that it does not list, as in programs of PathDxf2GCode. Then nothing tells
-/// whether the numbers before them are right.
+/// Reports a text whose formulas were applied with heights that it does not list, as in programs of PathDxf2GCode. Such a text does not
+/// allow checking the numbers before the formulas.
 pub fn unstated_heights(text: &[u8]) -> Option<Diagnostic> {
     let is_stated = !probe_entries(text).is_empty() || Provenance::of_head(text).is_some();
     let mut formulas = formula_texts(text).filter(|formula| !is_stated && formula.is_applied);

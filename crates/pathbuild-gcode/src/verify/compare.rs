@@ -229,12 +229,13 @@ fn begin_together(
     Err(DifferenceKind::Place)
 }
 
-/// Skips a move that is too short to be anything but rounding, if it ends at the position of the other. Returns whether it did.
+/// Skips a move that is too short to be anything but rounding, if it ends at the position reached in the other program. Returns whether it
+/// did.
 fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance) -> bool {
     let Some(stretch) = one.stretch() else { return false };
     let here = other.place().unwrap_or(stretch.end());
-    // The rounded end of a short arc must differ from its start, because the arc would be a full circle; it is therefore written longer by one
-    // unit of the last digit. The rest of a longer move, however, is a real excess.
+    // The rounded end of a short arc must differ from its start, or the arc would be a full circle; the writer therefore extends the arc by
+    // one unit of the last digit. The rest of a longer move, however, is a real excess.
     let slack = if stretch.begin > 0.0 { tolerance.place } else { 3.0 * tolerance.place };
     let is_standing = stretch.length <= 4.0 * tolerance.place && is_near(&stretch.end(), &here, slack);
     if is_standing {

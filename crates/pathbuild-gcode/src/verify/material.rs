@@ -372,7 +372,7 @@ pub struct Cutter {
     pub diameter: f64,
     /// Width that a cut certainly clears to its full depth; if it is 0, only the centre line.
     pub removed: f64,
-    /// Width that hits material at the height of the tip; if it is 0, only the centre line.
+    /// Width that collides with material at the height of the tip; if it is 0, only the centre line.
     pub colliding: f64,
 }
 
@@ -394,7 +394,8 @@ impl Cutter {
         }
     }
 
-    /// The cutter if another source gives it another diameter: the smaller one removes material, the larger one hits it.
+    /// The cutter for a tool to which another source gives another diameter: the smaller diameter removes material, the larger one collides
+    /// with it.
     #[must_use]
     pub fn or_diameter(self, diameter: f64) -> Self {
         Self {

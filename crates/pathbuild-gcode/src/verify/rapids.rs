@@ -147,7 +147,7 @@ impl Program for Moves<'_> {
 /// The sides of a box in the plane, as least and greatest coordinates in mm.
 type Sides = [(f64, f64); 2];
 
-/// The moves that affect the material at some positions; whether other moves hit material is irrelevant.
+/// The moves that affect the material at some positions; all others are irrelevant there.
 struct Near<'d> {
     drawn: &'d toolpath::Program,
     /// `None` means everywhere.

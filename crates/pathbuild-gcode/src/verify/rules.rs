@@ -44,7 +44,7 @@ pub struct Rules<'c> {
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
     directions: ArcDirections,
-    /// Since when G52 or G92 is active, and whether that was after the first cut.
+    /// Line and code of the active G52 or G92, and whether it came after the first cut.
     shifted: Option<(u32, u16, bool)>,
 }
 
@@ -145,7 +145,8 @@ impl<'c> Rules<'c> {
         (z < surface - SAME_HEIGHT).then_some(surface)
     }
 
-    /// A named position that does not move X or Y, such as `G53 Z0` or `G28 Z0`, is considered to be raised, although its height is unknown.
+    /// Checks that the tool is raised before the first move in the plane. A move to a machine position that does not change X or Y, such as
+    /// `G53 Z0` or `G28 Z0`, is assumed to raise it, although the height is unknown.
     fn first_move(&mut self, line: u32, movement: &Move) {
         if self.is_raised {
             return;
@@ -171,7 +172,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Only programs that switch the spindle are checked for it, because on many machines the operator does that.
+    /// Checks that the spindle turns, but only in programs that switch it: on many machines the operator does that.
     fn cutting(&mut self, line: u32, movement: &Move) {
         if !matches!(movement.pace, Pace::Feed(_)) || movement.is_nothing() || is_first_height(movement) {
             return;
@@ -194,7 +195,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Reports the first cut without a known position in the plane, because other checks do without such moves.
+    /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves.
     fn position(&mut self, line: u32, movement: &Move) {
         let is_known = movement.from.known.and(movement.to.known).has(Axes::XY) || movement.named.is_some();
         if !is_known && !std::mem::replace(&mut self.position_said, true) {

@@ -29,9 +29,9 @@ pub struct PostWords {
     first_places: BTreeSet<u16>,
     /// The greatest feed of its rapid moves in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
-    /// Words that the reader leaves out, where the post's programs are read by its definition.
+    /// Words that the post writes but the translation by its definition omits.
     others: BTreeSet<String>,
-    /// The definition that writes it, where no dialect is named.
+    /// The name of the definition, if no dialect is named.
     definition: Option<String>,
     /// Whether it lets the control round corners without limit.
     pub(super) rounds_freely: bool,
@@ -109,17 +109,18 @@ impl PostWords {
         }
     }
 
-    /// The words of a definition without a dialect, called by its name: it also writes words that the reader leaves out.
+    /// Turns the words into those of a definition without a dialect. `name` is the name of the definition, `others` are the words that its
+    /// translation omits.
     pub fn of_definition(self, name: &str, others: impl IntoIterator<Item = String>) -> Self {
         Self { others: others.into_iter().collect(), definition: Some(name.to_owned()), ..self }
     }
 
-    /// Whether they are the words of a definition without a dialect: the control is unknown.
+    /// Whether these are the words of a definition without a dialect, so that the control is unknown.
     pub(super) fn is_of_definition(&self) -> bool {
         self.definition.is_some()
     }
 
-    /// Whether the post writes a word that the reader leaves out.
+    /// Whether a word that the translation omits is one that the post writes.
     fn has_other(&self, word: &str) -> bool {
         self.others.contains(word)
     }
@@ -172,7 +173,8 @@ pub struct WordRules<'w> {
     is_strict: bool,
     progress: Progress,
     has_moved_in_plane: bool,
-    /// Words before the first cut that go where the post only goes after it. They are harmless in programs that do not cut.
+    /// Words before the first cut that lead to machine positions where the post's programs do not go before it. They are harmless in
+    /// programs that do not cut.
     early_places: Vec<(u32, StatedWord)>,
     found: BTreeSet<(char, u16)>,
     problems: Problems,
@@ -227,7 +229,7 @@ impl<'w> WordRules<'w> {
         self.report_name(line, code_name(word.letter, word.code));
     }
 
-    /// A word that the reader leaves out, where the program is read by its post's definition.
+    /// Handles a word that the translation of a program by its post's definition omits.
     pub fn left_out(&mut self, line: u32, word: &str) {
         if !self.words.has_other(word) {
             self.report_name(line, word.to_owned());
@@ -239,8 +241,9 @@ impl<'w> WordRules<'w> {
         self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign(word, dialect, is_strict));
     }
 
-    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height; if the post
-    /// raises the cutter before, the line for that is missing. (Moves at unknown height are checked in [`super::rules`].)
+    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. If programs of
+    /// the post raise the cutter before that move, the line that does so is missing here. (Moves at unknown height are checked in
+    /// [`super::rules`].)
     fn first_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);

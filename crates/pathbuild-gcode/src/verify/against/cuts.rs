@@ -25,8 +25,8 @@ const FEED: f64 = 0.001 * (1.0 + 1e-6);
 /// A centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
 const CENTRE: f64 = 3.0 * PLACE;
 
-/// How far chords may leave their arc, in mm, for a control that takes no helices: as far as the post for it allows. The post writes as few
-/// chords as that takes, so where one is missing, the next one leaves the arc further.
+/// Greatest distance in mm of chords from their arc, for controls that do not support helices; the same as in the post for them. The post
+/// writes as few chords as this permits, so if one is missing, the chord across the gap exceeds it.
 pub(super) const CHORD: f64 = 0.01;
 
 #[derive(Debug)]
@@ -39,7 +39,7 @@ pub(super) struct Cuts<M: Iterator<Item = (u32, Move)>> {
     chain: Chain,
     clearance: f64,
     tolerance: Tolerance,
-    /// Whether the control takes helices; otherwise chords replace them.
+    /// Whether the control supports helices; otherwise chords replace them.
     takes_helices: bool,
     difference: Option<Difference>,
     /// Number of expected moves that were found.
@@ -238,7 +238,7 @@ impl<M: Iterator<Item = (u32, Move)>> Cuts<M> {
     }
 }
 
-/// The fraction of a helix at which a chord of the rest of it ends.
+/// Checks a chord that replaces the next part of a helix, and returns the fraction of the helix at which it ends.
 fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     let (end, Some(course)) = (chord.end(), rest.movement.course()) else {
         return Err(DifferenceKind::Shape);
@@ -252,7 +252,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     }
     let sweep = course.sweep() * (share - rest.begin);
     let sagitta = course.radius() * (1.0 - libm::cos(sweep / 2.0));
-    // The ends are rounded, and the further apart they are, the more that counts.
+    // The ends of a chord are rounded. The longer the chord, the more it may leave the arc because of that.
     let rounding = PLACE * libm::sqrt(CHORD / (2.0 * course.radius()));
     if sweep < std::f64::consts::PI && sagitta <= CHORD + rounding {
         Ok(share)
@@ -326,7 +326,7 @@ impl Chain {
         outcome
     }
 
-    /// Whether moves go as expected, and no further.
+    /// Checks that moves are the expected ones; at the end of the program, further harmless moves are permitted.
     fn check_rest(moves: &[Numbered], expected: &[Numbered], way: &Way<'_>) -> Result<(), Option<Numbered>> {
         let mut found = moves.iter().filter(|(_, movement)| !way.stands(movement));
         for (_, expected) in expected.iter().filter(|(_, movement)| !way.stands(movement)) {
@@ -342,8 +342,9 @@ impl Chain {
         }
     }
 
-    /// The moves behind a place where the way may begin; those before it are harmless. `None` if the program does not come there, or not
-    /// from a known height where that `is_later` than the first one.
+    /// The moves after the program has reached `place`, where the expected moves may begin. The error is a move before that which is not
+    /// harmless. `None` if the program does not reach the place, or if it does so from an unknown height although the place `is_later` than
+    /// the start.
     fn arrived(
         &self,
         place: &Position,
@@ -387,7 +388,7 @@ impl Way<'_> {
         matches!(movement.shape, MoveShape::Line) && (is_raised || stays) && is_height && is_place
     }
 
-    /// Where the way begins, and the places that it comes to before it goes below S0.
+    /// The start of the expected moves, and the positions that they reach before they go below S0.
     fn clear_places(&self) -> impl Iterator<Item = Position> {
         let ends = self.expected.iter().map(|(_, it)| it.to);
         let is_clear = |at: &Position| at.known == Axes::ALL && self.is_clear(at.z());

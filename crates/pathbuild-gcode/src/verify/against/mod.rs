@@ -1,8 +1,8 @@
 //! Checks whether a program does what a drawing says, from its first line to its last. (book: program/reading, `verify --against`)
 //!
 //! The program of the drawing defines where the tool goes, in one coordinate system, in the plane XY, with one tool at one spindle speed.
-//! Anything else in a
-//! program that could change where, how deep or how fast the tool cuts is a difference. The claims in its header are ignored.
+//! Anything else in a program that could change where, how deep or how fast the tool cuts is a difference. The claims in the program's
+//! header are ignored.
 
 mod cuts;
 mod setup;
@@ -30,7 +30,7 @@ pub struct Drawn<M> {
     pub clearance: f64,
     /// The cutter as known to the machine.
     pub tool: ToolUse,
-    /// The number that a control knows the program by, where the post writes one.
+    /// The program number by which a control identifies the program, if the post writes one.
     pub number: Option<u32>,
     /// Time in seconds for the spindle to reach its speed before cutting.
     pub spin_up: f64,
@@ -96,7 +96,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> Against<'w, M> {
         }
     }
 
-    /// A word that the reader leaves out, where the program is read by its post's definition.
+    /// Handles a word that the translation of a program by its post's definition omits.
     pub fn left_out(&mut self, line: u32, word: &str) {
         self.words.left_out(line, word);
     }
