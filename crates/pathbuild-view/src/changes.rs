@@ -1,6 +1,6 @@
 //! Classifies how the moves of a path change with its drawing: added, removed, deeper, faster, shifted.
 //!
-//! Moves are compared in the coordinates of the program, so moving a drawing on the sheet changes nothing. (docs: "Comparing")
+//! Moves are compared in the coordinates of the program, so moving a drawing on the sheet changes nothing. (book: program/comparing)
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -25,11 +25,11 @@ pub struct Change {
 /// How moves changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ChangeKind {
-    /// Only in the new program.
+    /// The moves are only in the new program.
     Added,
-    /// Only in the old program.
+    /// The moves are only in the old program.
     Removed,
-    /// They follow the same lines as before, with a different final result.
+    /// The moves follow the same lines as before, with a different final result.
     Altered {
         /// How many mm the deepest pass is higher; negative if it is deeper.
         raised: f64,
@@ -62,7 +62,7 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
 
 /// The runs of moves in which two programs differ.
 fn differing(old: &[SceneMove], new: &[SceneMove]) -> Vec<(Range<usize>, Range<usize>)> {
-    // The way to the first fully known position depends on the machine.
+    // Moves before the first fully known position depend on the machine.
     let begin = |moves: &[SceneMove]| {
         moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count()
     };

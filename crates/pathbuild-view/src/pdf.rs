@@ -31,7 +31,7 @@ const FONT_NAME: Name<'static> = Name(b"PATHBD+DejaVuSans");
 const CAP_HEIGHT: f32 = 729.0;
 const STEM: f32 = 80.0;
 
-/// Codes of glyphs are their numbers in the font.
+/// Declares that a glyph's code in the text is its number in the font.
 const GLYPH_NUMBERS: SystemInfo<'static> =
     SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
@@ -76,7 +76,7 @@ pub(crate) fn document(trees: &[Tree], font: &[u8], metadata: Option<&str>) -> R
     Ok(pdf.finish())
 }
 
-/// Numbers of objects.
+/// Allocates the numbers of PDF objects.
 struct References(i32);
 
 impl References {
@@ -86,7 +86,7 @@ impl References {
     }
 }
 
-/// What the pages of a document share.
+/// Resources that the pages of a document share.
 #[derive(Default)]
 struct Resources {
     /// The glyphs that occur, with the characters they stand for.

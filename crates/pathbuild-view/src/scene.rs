@@ -167,7 +167,7 @@ pub struct Parameter {
     /// The lending path or the option.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub which: Option<String>,
-    /// The line of pathbuild.toml, counted from 1, where that gives the option's value.
+    /// The line of pathbuild.toml, counted from 1, if the option's value comes from there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
 }
@@ -249,7 +249,7 @@ pub struct Label {
 pub struct Bar {
     /// Its element, as an index into [`ScenePath::elements`].
     pub element: u32,
-    /// The way of the cutter's centre over the bar.
+    /// The path of the cutter's centre over the bar.
     pub shape: Shape,
     /// Z of the top.
     #[serde(serialize_with = "millimetres")]
@@ -274,9 +274,9 @@ pub struct FinishedPart {
 /// Material that is left at an outline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeftMaterial {
-    /// The stretch of the outline.
+    /// The part of the outline at which it is left.
     pub outline: Vec<Shape>,
-    /// How far it reaches from there.
+    /// How far the material extends from the outline, in mm.
     #[serde(serialize_with = "millimetres")]
     pub reach: f64,
 }

@@ -79,7 +79,7 @@ pub enum Language {
     De,
 }
 
-/// A path or drawing that ended the compiler.
+/// A path or drawing that took too long or triggered a bug, so that the instance of the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
 pub struct LostPath {
     /// The path.
@@ -94,9 +94,9 @@ pub struct LostPath {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "why", rename_all = "kebab-case")]
 pub enum LossReason {
-    /// It took too long: PB005.
+    /// The path took too long: PB005.
     Time,
-    /// It showed a bug: PB006.
+    /// The path triggered a bug: PB006.
     Bug {
         /// Details about the bug, if known.
         reason: String,

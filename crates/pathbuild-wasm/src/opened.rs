@@ -35,7 +35,7 @@ pub(crate) struct OpenedFiles {
 }
 
 impl OpenedFiles {
-    /// Opens the files if the configuration and its post are valid. Also returns the answer with any problems.
+    /// Opens the files; `None` if the configuration or its post is invalid. Also returns the answer, which contains the problems.
     pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<LostPath>) -> (Option<Self>, Value) {
         let system: Arc<dyn System> = Arc::<Files>::clone(files);
         let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;

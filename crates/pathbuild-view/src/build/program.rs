@@ -250,7 +250,7 @@ fn lines_of_moves(moves: &[Move], text: &[u8], dialect: Dialect) -> Vec<Option<u
     let options = Options { heights: Heights::Nominal, ..Options::default() };
     let mut written: Vec<(u32, Move)> = Vec::new();
     interpret_each(text, dialect, &options, &mut |step| {
-        // Moves before the first fully known position belong to the frame.
+        // Moves before the first fully known position depend on the machine and have no counterpart in the program.
         if let Some((line, movement)) = step.as_move()
             && (!written.is_empty() || movement.from.known == Axes::ALL)
         {
@@ -289,8 +289,8 @@ impl Finder<'_> {
         Some(first)
     }
 
-    /// The line of a rapid move before the next cut: one with the same ends, or else with the same end, or else in the same direction. If
-    /// one line stands for several moves, it is the line of the move before.
+    /// The line of a rapid move before the next cut: one with the same start and end, or else with the same end, or else with the same end
+    /// along the axes that the move changes. If there is none, one line stands for several moves, and it is the line of the previous move.
     fn rapid(&mut self, movement: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);

@@ -28,7 +28,7 @@ const NEAR: f64 = 1.0;
 /// each picture.
 const MOST_EMPTY: usize = 200;
 
-/// Maximum number of texts in a picture. More have no room, and searching for it takes long.
+/// Maximum number of texts in a picture. There is no room for more, and searching for room takes long.
 const MOST_TEXTS: usize = 200;
 
 /// The place of a finding.
