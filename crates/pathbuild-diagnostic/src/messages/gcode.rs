@@ -211,8 +211,8 @@ messages! {
     }
     /// A comment style of another dialect.
     FOREIGN_COMMENT: DoubtfulSpelling {
-        en: "{dialect} is not known to take comments with `{sign}`",
-        de: "von {dialect} ist nicht bekannt, dass es Kommentare mit `{sign}` nimmt",
+        en: "{dialect} is not known to accept comments with `{sign}`",
+        de: "von {dialect} ist nicht bekannt, dass es Kommentare mit `{sign}` annimmt",
         help_en: "begin comments with {comment}",
         help_de: "Kommentare mit {comment} beginnen",
     }
@@ -274,8 +274,8 @@ messages! {
     }
     /// `#` or `[ ]` in a dialect without expressions.
     UNKNOWN_EXPRESSION: UnknownWord {
-        en: "{dialect} knows no parameters and expressions; the line is left out",
-        de: "{dialect} kennt keine Parameter und Ausdrücke; die Zeile bleibt unbeachtet",
+        en: "{dialect} has neither parameters nor expressions; the line is left out",
+        de: "{dialect} kennt weder Parameter noch Ausdrücke; die Zeile bleibt unbeachtet",
         help_en: "write numbers, or read the file as another dialect with --dialect",
         help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
@@ -482,8 +482,8 @@ messages! {
     UNITS_CONTRADICTED: UnitsNotStated {
         en: "{word} is read as {unit}, but the comment says {comment}",
         de: "{word} wird als {unit} gelesen, aber der Kommentar sagt {comment}",
-        help_en: "the filter's own table and its examples contradict each other; `unit-codes` chooses between them",
-        help_de: "die Tabelle des Filters und seine Beispiele widersprechen einander; `unit-codes` wählt zwischen ihnen",
+        help_en: "the table of XpertMILL's import filter and its examples contradict each other; `unit-codes` chooses between them",
+        help_de: "die Tabelle des Importfilters von XpertMILL und seine Beispiele widersprechen einander; `unit-codes` wählt zwischen ihnen",
     }
     /// A program that does not state a mode such as G90 or G17.
     MODES_NOT_STATED: ModesNotStated {
@@ -555,7 +555,7 @@ messages! {
     }
     /// An arc without a required axis word.
     ARC_WITHOUT_END: InvalidArc {
-        en: "{dialect} wants {axes} in an arc, even when they do not change",
+        en: "{dialect} requires {axes} in an arc, even when they do not change",
         de: "{dialect} verlangt {axes} in einem Bogen, auch wenn sie sich nicht ändern",
         help_en: "repeat the coordinates",
         help_de: "die Koordinaten wiederholen",

@@ -10,8 +10,8 @@ messages! {
     }
     /// A cut into a part that another path brings.
     GOUGED_NEIGHBOUR: GougedNeighbour {
-        en: "the cutter, O{tool}, goes {depth} mm into the part of path {other}, which lies at {place} of the program, at {point}",
-        de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das bei {place} des Programms liegt",
+        en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
+        de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das im Programm bei {place} liegt",
         help_en: "place the two farther apart: between parts there must be room for the cutter",
         help_de: "die beiden weiter auseinander setzen: zwischen Teilen muss Platz für den Fräser sein",
     }

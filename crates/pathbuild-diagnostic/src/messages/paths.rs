@@ -156,8 +156,8 @@ messages! {
     }
     /// A name that is only part of a word.
     NAME_GOES_ON: InvalidPathName {
-        en: "\"{value}\" is not a path name, only its part {name}",
-        de: "\"{value}\" ist kein Pfadname, nur der Teil {name}",
+        en: "\"{value}\" is not a path name; only the part {name} is one",
+        de: "\"{value}\" ist kein Pfadname; nur der Teil {name} ist einer",
         help_en: "write the name of the path, and a space before what follows",
         help_de: "den Namen des Pfads schreiben und vor dem, was folgt, ein Leerzeichen",
     }

@@ -154,7 +154,7 @@ messages! {
     /// An arc with different radii at its ends after rounding.
     ARC_ROUNDED: RoundedArc {
         en: "as written, the arc to {place} has the radius {start} at its start and {end} at its end",
-        de: "wie geschrieben hat der Bogen nach {place} am Anfang den Radius {start} und am Ende {end}",
+        de: "so, wie er geschrieben wird, hat der Bogen nach {place} am Anfang den Radius {start} und am Ende {end}",
         help_en: "give the post's number format more decimals",
         help_de: "dem Zahlenformat des Postprozessors mehr Nachkommastellen geben",
     }
@@ -457,8 +457,8 @@ messages! {
     }
     /// Two signs before a term, as in `--5`.
     TERM_TWO_SIGNS: DoubtfulControlText {
-        en: "{text}, line {line}, column {column}: CAD6 takes only one sign in front of a term",
-        de: "{text}, Zeile {line}, Spalte {column}: CAD6 nimmt nur ein Vorzeichen vor einem Ausdruck",
+        en: "{text}, line {line}, column {column}: CAD6 accepts only one sign in front of a term",
+        de: "{text}, Zeile {line}, Spalte {column}: CAD6 erlaubt nur ein Vorzeichen vor einem Ausdruck",
     }
     /// Bit operations and comparisons of unknown precedence, as in `1 & 2 == 2`.
     TERM_MIXED_BITS: DoubtfulControlText {

@@ -234,14 +234,14 @@ messages! {
     }
     /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
-        en: "the header says that the cutter has {header} mm, but T{index} of `[tool]` has {table} mm",
+        en: "the header says that the cutter's diameter is {header} mm, but T{index} of `[tool]` has {table} mm",
         de: "laut Kopf hat der Fräser {header} mm; T{index} in `[tool]` hat {table} mm",
         help_en: "use the cutter named in the header, or correct `[tool]`; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
         help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter in the header or the tool table that differs from that of an option.
     OTHER_CUTTER_GIVEN: Disagreement {
-        en: "{place} says that the cutter has {found} mm, --cutter says {given} mm",
+        en: "{place} says that the cutter's diameter is {found} mm, but --cutter says {given} mm",
         de: "{place} sagt, der Fräser hat {found} mm, --cutter sagt {given} mm",
         help_en: "correct the wrong one; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
         help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
