@@ -6,8 +6,8 @@ use strsim::osa_distance;
 /// Maximum length in bytes of a name that is compared. Every known name is shorter, and the cost is the product of both lengths.
 const LONGEST: usize = 200;
 
-/// Minimum number of digits of a number that identifies something, in which a slip is likely. Shorter numbers just count: `3101.2P` follows
-/// `3101.1P` and is not a misspelling of it.
+/// Minimum number of digits of a number that identifies something, in which a slip is likely. Shorter numbers are mere counters: `3101.2P`
+/// follows `3101.1P` and is not a misspelling of it.
 const LONG_NUMBER: usize = 3;
 
 /// The known name nearest to a misspelt one: at most a third of its letters differ, and its numbers are the same except for a single slip.

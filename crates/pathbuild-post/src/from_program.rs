@@ -33,7 +33,7 @@ impl Job {
             Builder::new(program, assignment, pecks).run()
         });
         let mut operations: Vec<Operation> = operations.collect();
-        // Between two programs the tool is above everything in both.
+        // All operations get the greatest clearance, because between two programs the tool must be above everything in both.
         let clearance =
             operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
         for operation in &mut operations {
@@ -207,7 +207,7 @@ fn as_comment(step: &ProgramStep) -> Option<&Comment> {
     }
 }
 
-/// Removes the way between two holes at the same level, which is part of drilling the second one.
+/// Removes the rapid move between two holes at the same level, because drilling the second hole includes it.
 fn drop_way_between_holes(steps: &mut Vec<JobStep>, next: &Hole) {
     if let [.., JobStep::Hole(before), JobStep::Move(way)] = steps.as_slice() {
         let [x, y] = next.at;

@@ -154,7 +154,7 @@ impl Units {
     }
 }
 
-/// Custom texts before and after something.
+/// Custom texts before and after the program or an operation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Texts {

@@ -99,11 +99,11 @@ fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
 
 /// Number of moves at the beginning that make these cuts.
 fn cut(found: Moves<'_>, expected: Moves<'_>, tolerance: &Tolerance) -> Checked<usize> {
-    // A move to an unknown position is not a cut of the job. The check of ways decides whether it is allowed.
+    // A move to an unknown position is not a cut of the job. Whether it is allowed is decided by the check of the moves between cuts.
     let (run, _) = split(found, |movement| !is_rapid(movement) && movement.to.known == Axes::ALL);
     match compare(run, expected, tolerance) {
         None => Ok(run.len()),
-        // The remaining moves may be a way that the post follows at feed.
+        // The remaining moves may be rapids of the job that the post writes at feed.
         Some(Difference { found: Some(next), expected: None, .. }) => {
             Ok(run.iter().position(|movement| *movement == next).unwrap_or(run.len()))
         }

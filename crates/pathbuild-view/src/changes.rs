@@ -62,7 +62,7 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
 
 /// The runs of moves in which two programs differ.
 fn differing(old: &[SceneMove], new: &[SceneMove]) -> Vec<(Range<usize>, Range<usize>)> {
-    // Moves before the first fully known position depend on the machine.
+    // Moves before the first fully known position depend on the machine and are not compared.
     let begin = |moves: &[SceneMove]| {
         moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count()
     };

@@ -419,7 +419,7 @@ impl Shape {
 }
 
 impl ArcShape {
-    /// The point at a fraction (0 to 1) of the way.
+    /// The point at a fraction (0 to 1) of the arc's length.
     pub fn point(&self, share: f64) -> Point {
         let [x, y] = [self.from[0] - self.centre[0], self.from[1] - self.centre[1]];
         let way = if self.clockwise { -self.degrees } else { self.degrees };

@@ -483,7 +483,7 @@ pub enum LineLength {
     Bare(usize),
 }
 
-/// What may replace a number.
+/// The syntax of expressions and parameters, which may replace numbers.
 #[derive(Debug)]
 pub struct Grammar {
     /// The operators and their precedence.

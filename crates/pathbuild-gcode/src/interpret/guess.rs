@@ -51,7 +51,7 @@ pub fn guess(text: &[u8]) -> Guess {
     by_header(head).or_else(|| by_sign(head)).unwrap_or_else(|| by_words(head))
 }
 
-/// Files written by pathbuild name their dialect.
+/// Returns the dialect that the header of a program written by pathbuild names.
 fn by_header(head: &[u8]) -> Option<Guess> {
     let (provenance, _) = Provenance::of_head(head)?;
     let reason = &Text { en: "its header names it", de: "sein Kopf nennt es" };
@@ -143,7 +143,7 @@ fn by_sign(head: &[u8]) -> Option<Guess> {
     })
 }
 
-/// The first dialect that accepts most of the words.
+/// The dialect with the fewest unknown words; of several, the first.
 fn by_words(head: &[u8]) -> Guess {
     let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
     let strangers = candidates.map(|dialect| unknown_words(head, dialect));

@@ -263,10 +263,10 @@ pub enum Heights {
 /// Meaning of G70 and G71. (book: program/reading)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitCodes {
-    /// As in DIN and in the filter's own examples: G70 inches, G71 millimetres.
+    /// As in DIN 66025 and in the examples of XpertMILL's import filter: G70 inches, G71 millimetres.
     #[default]
     Din,
-    /// As in the table of the filter: the other way round.
+    /// As in the filter's table of codes: G70 millimetres, G71 inches.
     Table,
 }
 

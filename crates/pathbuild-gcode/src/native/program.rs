@@ -116,7 +116,7 @@ pub fn has_title(text: &[u8]) -> bool {
 /// The title is within this number of lines.
 const TITLE_LINES: usize = 4;
 
-/// Whether a text of ours is a compatible program, in which F comes first.
+/// Whether a native program is a compatible one, in which F comes first.
 pub fn is_compatible(text: &[u8]) -> bool {
     let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())

@@ -421,7 +421,7 @@ impl Stock {
     }
 
     /// Stock with an unknown surface, for [`rapids_at_depth`](super::rapids_at_depth); the cutters must be in the order of their lines. The
-    /// whole diameter counts as cut, and only the centre line as hitting material, because the shape of the stock is unknown as well.
+    /// whole diameter removes material, but only the centre line collides with it, because the shape of the stock is unknown as well.
     pub fn with_unknown_surface(cutters: &[(u32, Cutter)]) -> Self {
         let piece = |(line, cutter): &(u32, Cutter)| StockSpan {
             line: *line,

@@ -1,5 +1,5 @@
 //! Control texts as in CAD6's CAM module: texts with variables and statements that are called in a fixed order.
-//! (book: program/reading)
+//! (book: reference/post-definitions)
 //!
 //! A [`Definition`] is read once. `calls` turns a job into calls, `program` sets the variables of each call, and a `Runner` executes it in
 //! two phases: it replaces variables by their values, then statements by their results.
@@ -34,7 +34,7 @@ use crate::target::Guard;
 /// The output of the engine.
 pub(super) struct EngineOutput {
     pub(super) text: Vec<u8>,
-    /// What the text says, in the words of RS274.
+    /// The translation of the text to RS274.
     pub(super) shadow: TranslatedText,
     /// The origin of each line.
     pub(super) origins: Vec<LineOrigin>,

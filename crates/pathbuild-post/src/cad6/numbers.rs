@@ -1,4 +1,4 @@
-//! Formats numbers in statements. (book: program/reading)
+//! Formats numbers in statements. (book: reference/post-definitions)
 
 use std::str::FromStr;
 

@@ -1,4 +1,4 @@
-//! Mathematical terms: numbers, operators and functions. (book: program/reading)
+//! Mathematical terms: numbers, operators and functions. (book: reference/post-definitions)
 //!
 //! All operators are left-associative. From lowest to highest precedence: `||`, `&&`, comparisons together with the bitwise `&`, `|` and
 //! `^`, then `+ -`, `* /`, `^^` (power), signs and `!`. The manual does not specify the order of some of these, nor any functions, so those

@@ -333,7 +333,7 @@ const WIDEST_BY_RADIUS: f64 = PI * 2.0 / 3.0;
 
 // Canned drilling cycles.
 
-/// What a control keeps of a cycle only until its end: the next one states it again.
+/// Registers that a control keeps only until the end of a cycle, so that the next cycle must write them again.
 const FORGOTTEN: [Register; 6] =
     [Register::X, Register::Y, Register::Z, Register::R, Register::P, Register::Q];
 

@@ -23,7 +23,7 @@ pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 /// The output of a writer.
 pub(crate) struct WrittenText {
     pub(crate) text: String,
-    /// What the text says, in the words of RS274.
+    /// The translation of the text to RS274.
     pub(crate) shadow: TranslatedText,
     /// The origin of each line.
     pub(crate) origins: Vec<LineOrigin>,

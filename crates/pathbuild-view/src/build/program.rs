@@ -206,7 +206,7 @@ pub struct GcodeSource<'a> {
     pub rapid: Option<f64>,
 }
 
-/// Converts line ends to LF, so that lines are the ones that the reader counts.
+/// Converts line ends to LF, so that line numbers agree with those of the reader.
 fn plain_lines(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     if text.contains('\n') { text.replace("\r\n", "\n").replace('\r', " ") } else { text.replace('\r', "\n") }

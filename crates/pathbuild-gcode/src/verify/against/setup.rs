@@ -252,7 +252,7 @@ impl<'w> Setup<'w> {
 
     /// Checks that the selected tool or layer is that of the drawing.
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
-        // Where the post inserts its tool by M6, T alone only says which one is next.
+        // If the post inserts its tool by M6, T alone only selects the next tool.
         let chosen = self.inserted.or(self.selected.filter(|_| !self.words.has('M', 60)));
         // A layer is its tool. Elsewhere, a wrong tool has been reported where it was selected.
         let fits = |chosen| {
