@@ -98,8 +98,12 @@ impl<'a> Served<'a> {
 
     /// Sends raw lines; `PORT` is replaced by the server's port.
     fn send(&self, lines: &[&str]) -> Answer {
+        self.send_with(lines, "")
+    }
+
+    fn send_with(&self, lines: &[&str], body: &str) -> Answer {
         let mut stream = self.connect();
-        let request = format!("{}\r\nConnection: close\r\n\r\n", lines.join("\r\n"));
+        let request = format!("{}\r\nConnection: close\r\n\r\n{body}", lines.join("\r\n"));
         stream.write_all(request.replace("PORT", &self.port.to_string()).as_bytes()).unwrap();
         let mut text = String::new();
         stream.read_to_string(&mut text).unwrap();
@@ -237,6 +241,30 @@ fn only_get_is_answered() {
         }
     }
     assert_eq!(served.get("/nothing").status, 404);
+}
+
+/// The text of a program is posted; nothing of it is kept.
+#[test]
+fn a_program_is_taken_from_own_pages() {
+    let place = library();
+    let served = Served::begin(&place, "watch --serve 127.0.0.1:0");
+    let text = "(TOOL/MILL, 6, 0, 20, 0)\nG21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F100\nG1 X20\nG0 X40\nG1 X60\nG0 Z5\nM30\n";
+    let send = |method: &str, origin: &str| {
+        let first = format!("{method} /api/program?name=a.nc&surface=0 HTTP/1.1");
+        let length = format!("Content-Length: {}", text.len());
+        served.send_with(&[&first, "Host: localhost:PORT", &format!("Origin: {origin}"), &length], text)
+    };
+    let answer = send("POST", "http://localhost:PORT");
+    assert_eq!(answer.status, 200, "{}", answer.body);
+    let scene = answer.json();
+    assert_eq!(scene["findings"][0]["code"], "PB740");
+    assert_eq!(scene["findings"][0]["line"], 7);
+    assert_eq!(scene["program"]["cutters"][0]["diameter"], 6.0);
+    assert_eq!(scene["program"]["checks"][0]["outcome"], "assumed");
+    assert_eq!(send("POST", "http://evil.example").status, 403);
+    let wrong = send("GET", "http://localhost:PORT");
+    assert_eq!(wrong.status, 405);
+    assert!(wrong.head.contains("\r\nallow: post"), "{}", wrong.head);
 }
 
 /// A server that is reachable from elsewhere requires a token, which is in the fragment of the link.

@@ -88,6 +88,50 @@ function program() {
   return [...lines, "G00 Z5", "M30", "%", ""].join("\n");
 }
 
+const painted = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+
+/** Pictures while the tool runs by time, ten and a hundred times as fast as the machine. */
+async function played(page, what) {
+  for (const speed of ["10", "100"]) {
+    const rates = [];
+    for (let turn = 0; turn < 3; turn++) {
+      await page.locator("#speed").selectOption(speed);
+      await page.locator("#slider").fill(String(Math.round(MOVES * (0.2 + turn * 0.3))));
+      await page.evaluate(painted);
+      await page.locator("#play").click();
+      rates.push(
+        await page.evaluate(async () => {
+          const begun = performance.now();
+          let drawn = 0;
+          for (; performance.now() - begun < 3000; drawn++) await new Promise(requestAnimationFrame);
+          return (drawn / (performance.now() - begun)) * 1000;
+        }),
+      );
+      await page.locator("#play").click();
+    }
+    told(`pictures a second, running ${speed} times as fast, ${what}`, rates, "");
+    console.log(`the least: ${Math.min(...rates).toFixed(1)}`);
+  }
+}
+
+/** Jumps to anywhere, until the picture is painted. */
+async function jumped(page, what) {
+  const figures = [];
+  for (let jump = 0; jump < 30; jump++) {
+    figures.push(
+      await page.evaluate(async (to) => {
+        const slider = document.getElementById("slider");
+        const begun = performance.now();
+        slider.value = String(to);
+        slider.dispatchEvent(new Event("input"));
+        await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+        return performance.now() - begun;
+      }, Math.round(MOVES * ((jump * 0.618) % 1))),
+    );
+  }
+  told(`jump, ${what}`, figures, "ms");
+}
+
 /** Pictures while the tool runs along a long program. */
 async function run() {
   writeFileSync(join(place, "long.gcode"), program());
@@ -128,6 +172,12 @@ async function run() {
   told("pictures a second", pictures, "");
   console.log(`the least: ${Math.min(...pictures).toFixed(1)}`);
   told("script a picture", scripts, "ms");
+  for (const cutter of ["", "2"]) {
+    if (cutter) await page.locator("#assumedTool").fill(cutter);
+    const what = cutter ? "with stock" : "without stock";
+    await played(page, what);
+    await jumped(page, what);
+  }
   await page.context().close();
 }
 

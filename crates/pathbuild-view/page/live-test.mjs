@@ -113,6 +113,26 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.close();
 }
 {
+  // A program that is opened here is checked by the server that gave out the page; the values of pathbuild.toml hold for it.
+  const { page, faults } = await open(address);
+  const file = join(place, "..", "slot.nc");
+  writeFileSync(file, "(TOOL/MILL, 6, 0, 20, 0)\nG21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F100\nG1 X20\nG0 X40\nG1 X60\nG0 Z5\nM30\n");
+  await page.setInputFiles("#programs", file);
+  await page.waitForFunction(() => document.getElementById("title").textContent === "slot.nc");
+  assert.match(await text(page, "#findings"), /line 7 · PB781/);
+  await page.locator("#assumedSurface").fill("0");
+  await page.locator("#assumedSurface").press("Tab");
+  await page.waitForFunction(() => /PB740/.test(document.getElementById("findings").textContent));
+  assert.match(page.url(), /#program&surface=0$/);
+  assert.match(await text(page, "#checks"), /6 mm \(header\)/);
+  await settled(page);
+  await shot(page, "live-program");
+  await page.keyboard.press("Escape");
+  assert.ok(await page.locator("#viewer").isHidden());
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
   // A saved drawing appears; camera, layers and what was chosen stay.
   const file = "components/2054.1P.dxf";
   const { page, faults } = await open(`${address}#${new URLSearchParams({ file, path: "2054.1P" })}`);

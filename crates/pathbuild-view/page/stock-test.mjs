@@ -10,7 +10,7 @@ const [pathbuild, library] = process.argv.slice(2).map((argument) => resolve(arg
 const directory = mkdtempSync(join(tmpdir(), "pathbuild-stock-"));
 await build({ entryPoints: ["src/stock/stock.ts"], bundle: true, format: "esm", outfile: join(directory, "stock.mjs"), logLevel: "error" });
 const { Stock } = await import(join(directory, "stock.mjs"));
-const given = { tool: null, thickness: null };
+const given = { tool: null, thickness: null, surface: null };
 
 function sceneOf(path) {
   const file = join(directory, "scene.json");
@@ -178,8 +178,10 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   assert.equal(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [0, 0, -1])])), 0);
   assert.ok(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [20, 1, -1])])) > 0);
   assert.equal(Stock.of(plain(null, 2, cut), given), null, "without a cutter there is no stock");
-  const typed = Stock.of(plain(null, null, cut), { tool: 2, thickness: 3 });
+  const typed = Stock.of(plain(null, null, cut), { tool: 2, thickness: 3, surface: null });
   assert.equal(typed.map.cutting.top, 3, "a cutter and a thickness that are typed count");
+  const [blank] = Stock.of(plain(null, null, cut), { tool: 2, thickness: 3, surface: 1 }).map.cutting.blanks;
+  assert.deepEqual([blank.top, Number(blank.through.toFixed(3))], [1, -1.999], "the surface is where it is typed");
 }
 
 {

@@ -1,10 +1,10 @@
-// Makes the page for the browser alone: node web.mjs WASM HTML. One file, with the compiler and its worker in it.
+// Makes the page for the browser alone: node web.mjs WASM HTML [ADDRESS OF THE BOOK]. One file, with the compiler and its worker in it.
 import { readFileSync, writeFileSync } from "node:fs";
 import { spawnSync } from "node:child_process";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
 
-const [wasm, html] = process.argv.slice(2);
+const [wasm, html, book = "https://example.invalid/pathbuild"] = process.argv.slice(2);
 const here = (name) => new URL(name, import.meta.url).pathname;
 const text = (name) => readFileSync(here(name), "utf8");
 
@@ -27,6 +27,7 @@ const parts = {
   worker: await script("src/worker.ts", "iife"),
   script: await script("src/local.ts", "esm"),
   wasm: packed.toString("base64"),
+  book,
 };
 writeFileSync(html, text("local.html").replaceAll(/\{\{(\w+)\}\}/g, (_, name) => parts[name]));
 console.log(`${html}: ${readFileSync(html).length} bytes, the compiler ${packed.length} of them (gzip)`);

@@ -26,7 +26,7 @@ pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
     ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, FinishedPart,
     KeepOut, Label, LeftMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark, SCHEMA,
-    Scene, SceneMove, ScenePath, Shape, Totals, VERSION,
+    Scene, SceneMove, ScenePath, Shape, ToolSpan, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;

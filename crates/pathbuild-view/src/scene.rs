@@ -52,6 +52,9 @@ pub struct ScenePath {
     pub zero: Point,
     /// Cutter diameter O.
     pub tool: Option<f64>,
+    /// The cutters of a program with several, each from a line on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tools: Vec<ToolSpan>,
     /// Upper face T of the material.
     pub thickness: Option<f64>,
     /// Sweep height S.
@@ -91,6 +94,15 @@ pub struct ScenePath {
     /// Example values for parameters that nothing else gives and that the program needs.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub examples: Vec<Example>,
+}
+
+/// A cutter of a program with several.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ToolSpan {
+    /// The line from which it is in the spindle.
+    pub line: u32,
+    /// Its diameter in mm.
+    pub diameter: f64,
 }
 
 /// The native text of a program.
@@ -360,6 +372,9 @@ pub struct Finding {
     pub message: BilingualText,
     /// The help; may be empty.
     pub help: BilingualText,
+    /// Facts that explain it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<BilingualText>,
     /// The file.
     pub file: Option<String>,
     /// The path.

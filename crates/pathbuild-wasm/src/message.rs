@@ -1,6 +1,7 @@
 //! Questions and answers.
 
 use pathbuild_diagnostic::Lang;
+use pathbuild_workspace::dropped::Assumptions;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -31,6 +32,14 @@ pub enum Question {
     Check(Place),
     /// Totals over all checked paths, as in `stats`: `{ statistics }`.
     Statistics,
+    /// A G-code program, whose text follows: `{ seen }`, and its scene with what `verify` finds.
+    Program {
+        /// The name of its file.
+        name: String,
+        /// What is assumed for it.
+        #[serde(flatten)]
+        assumptions: Assumptions,
+    },
     /// The scene of a path, or of all paths of a drawing. The scene follows.
     Scene(Place),
     /// The picture of a path, or of all paths of a drawing. The SVG follows.

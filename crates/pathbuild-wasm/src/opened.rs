@@ -15,6 +15,7 @@ use pathbuild_path::PathName;
 use pathbuild_post::BUILT_IN;
 use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::config::{self, Overrides};
+use pathbuild_workspace::dropped::DroppedProgram;
 use pathbuild_workspace::emit::{self, FileOwners, SceneReport, ShownText, TargetPatterns};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
@@ -94,7 +95,7 @@ impl OpenedFiles {
     }
 
     /// Answers a question about the opened files.
-    fn reply(&mut self, question: Question) -> Answer {
+    fn reply(&mut self, question: Question, bytes: &[u8]) -> Answer {
         match question {
             Question::Index { file } => json!({ "rows": self.index(&file) }).into(),
             Question::Check(place) => json!({ "row": self.check(place) }).into(),
@@ -110,6 +111,10 @@ impl OpenedFiles {
                 seen(svg.map(String::into_bytes))
             }
             Question::Emit { places } => self.emit(&places),
+            Question::Program { name, assumptions } => {
+                let program = DroppedProgram { name, text: bytes.to_vec(), assumptions };
+                seen(Some(program.scene(&mut self.session).into_bytes()))
+            }
             Question::Put { .. } | Question::Open { .. } => Answer::default(),
         }
     }
@@ -269,7 +274,7 @@ impl Compiler {
             question => question,
         };
         match &mut self.opened {
-            Some(opened) => opened.reply(question),
+            Some(opened) => opened.reply(question, bytes),
             None => json!({ "wrong": "nothing is open" }).into(),
         }
     }

@@ -5,6 +5,7 @@
 pub mod check;
 pub mod config;
 pub mod diff;
+pub mod dropped;
 pub mod emit;
 pub mod files;
 pub mod findings;

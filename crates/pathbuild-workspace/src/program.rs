@@ -95,9 +95,21 @@ impl Program {
         file: &Utf8Path,
         reading: ReadingOptions,
     ) -> Result<Self, Box<Diagnostic>> {
+        Self::of_text(workspace, file, read(workspace, file)?, reading)
+    }
+
+    /// Reads the text of a file and keeps its steps.
+    ///
+    /// # Errors
+    /// The program has more steps than may be kept.
+    pub fn of_text(
+        workspace: &Workspace,
+        file: &Utf8Path,
+        text: Vec<u8>,
+        reading: ReadingOptions,
+    ) -> Result<Self, Box<Diagnostic>> {
         let (mut steps, limit) = (Vec::new(), workspace.settings.limits.program_memory.value);
         let mut stopped = None;
-        let text = read(workspace, file)?;
         let mut program =
             Self::read_until(&workspace.settings, file, text, reading, &|_, _| None, &mut |step| {
                 if memory(steps.len() as u64 + 1) > limit {

@@ -1,6 +1,7 @@
 // The compiler: a worker that is asked, is ended when it takes too long, and begun anew after that and after a bug.
 
 import type { Finding, Opened } from "../../../../packaging/npm/index.js";
+import { ProgramSettings } from "./programs.js";
 import { LibraryRow } from "./source.js";
 import type { Answered } from "./worker.js";
 
@@ -81,6 +82,13 @@ export class Compiler {
   async see(what: "scene" | "picture", place: Place): Promise<Uint8Array<ArrayBuffer> | null> {
     const { head, bytes } = await this.ask(what, place);
     return head.seen ? bytes : null;
+  }
+
+  /** A program with settings, as a scene. */
+  async program(name: string, text: ArrayBuffer, { dialect, cutter, surface }: ProgramSettings): Promise<Uint8Array<ArrayBuffer>> {
+    const given = Object.fromEntries(Object.entries({ dialect, cutter, surface }).filter(([, value]) => value !== ""));
+    const { bytes } = await this.next(() => this.put({ ask: "program", name, ...given }, text.slice(0)));
+    return bytes;
   }
 
   /** What all paths add up to that it was asked for. */

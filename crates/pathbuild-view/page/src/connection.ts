@@ -1,6 +1,7 @@
 // What the server that gave out this page is asked. Where others than this machine may come, it wants a token, which stood in the address.
 
 import { Scene } from "./scene.js";
+import { DroppedProgram, ProgramSettings } from "./programs.js";
 import { LibraryNews, Refused, Source } from "./source.js";
 
 const TOKEN = "pathbuild-token";
@@ -27,6 +28,12 @@ export class Connection implements Source {
     return (await this.get(`api/picture?${query(file, path)}`)).blob();
   }
 
+  /** The program goes to the server on this machine that gave out the page, which keeps nothing of it. */
+  async program({ name, bytes }: DroppedProgram, { dialect, cutter, surface }: ProgramSettings): Promise<Scene> {
+    const given = Object.entries({ name, dialect, cutter, surface }).filter(([, value]) => value !== "");
+    return (await this.get(`api/program?${new URLSearchParams(given)}`, { method: "POST", body: bytes })).json();
+  }
+
   /** Calls for each change, until the connection ends. A server that was started again has other pages. */
   async events(hear: () => void): Promise<void> {
     const answer = await this.get("api/events");
@@ -47,8 +54,8 @@ export class Connection implements Source {
     }
   }
 
-  private async get(what: string): Promise<Response> {
-    const answer = await fetch(what, { headers: this.headers, cache: "no-store" });
+  private async get(what: string, request: RequestInit = {}): Promise<Response> {
+    const answer = await fetch(what, { ...request, headers: this.headers, cache: "no-store" });
     if (!answer.ok) throw new Refused(answer.status);
     return answer;
   }

@@ -2,9 +2,10 @@
 
 import { visible } from "./visible.js";
 import { List } from "./list.js";
+import { DroppedProgram, ProgramSettings, fragmentOf, settingsIn } from "./programs.js";
 import { Finding } from "./scene.js";
 import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
-import { hide, lang, onSpeak, otherLang, show, speak, theme } from "./viewer.js";
+import { assume, hide, lang, onAssume, onSpeak, otherLang, show, speak, theme } from "./viewer.js";
 import { Word, say } from "./words.js";
 
 const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -30,9 +31,11 @@ const FILTERS: [Filter, Word][] = [
 /** So many drawings are fetched first: more than any window shows, and painted before a large library has come. */
 const FIRST = 200;
 
-/** The page, which asks that source. */
-export function live(source: Source): void {
-  new Page(source).begin();
+/** The page, which asks that source. Returns what opens a program that was dropped. */
+export function live(source: Source): (program: DroppedProgram) => void {
+  const page = new Page(source);
+  page.begin();
+  return (program) => page.take(program);
 }
 
 class Page {
@@ -51,8 +54,13 @@ class Page {
   private statistics: Statistics | null = null;
   private filter: Filter = "all";
   private open: Wanted | null = null;
+  /** The program that was dropped last, and what the address says of one. */
+  private program: DroppedProgram | null = null;
+  private settings: ProgramSettings | null = null;
   /** The drawing of what is open, where it is no longer there. */
   private isGone = false;
+  /** Why a program cannot be shown. */
+  private failure = "";
   /** Grows with each look: an answer to an older one comes too late. */
   private look = 0;
   private list = new List($("list"), $("items"), (row) => this.choose({ file: row.file, path: row.path }));
@@ -86,12 +94,17 @@ class Page {
     addEventListener("keydown", (event) => {
       if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey) return;
       if (event.key === "/" && event.target !== search) search.focus();
-      else if (event.key === "Escape" && this.open) this.choose(null);
+      else if (event.key === "Escape" && (this.open || this.settings)) this.choose(null);
       else return;
       event.preventDefault();
     });
     addEventListener("hashchange", () => this.follow());
     onSpeak(() => this.say());
+    onAssume((settings) => {
+      history.replaceState(null, "", `#${fragmentOf(settings)}`);
+      this.settings = settings;
+      void this.view(true);
+    });
     speak();
     this.follow();
     void this.pull();
@@ -122,7 +135,7 @@ class Page {
     try {
       while (this.isBehind) {
         this.isBehind = false;
-        this.take(await this.source.library(this.revision, this.isWhole && this.drawings.size === 0 ? FIRST : undefined));
+        this.hear(await this.source.library(this.revision, this.isWhole && this.drawings.size === 0 ? FIRST : undefined));
         this.isBehind ||= !this.isWhole;
       }
     } catch {
@@ -131,7 +144,17 @@ class Page {
     this.isPulling = false;
   }
 
-  private take(news: LibraryNews): void {
+  /** Opens a program, with the settings of the address if it has any. */
+  take(program: DroppedProgram): void {
+    this.program = program;
+    if (this.settings) this.follow();
+    else {
+      history.pushState(null, "", "#program");
+      this.follow();
+    }
+  }
+
+  private hear(news: LibraryNews): void {
     const isFirst = this.revision === 0;
     if (news.all) this.drawings.clear();
     const known = new Set(this.files);
@@ -153,7 +176,7 @@ class Page {
       if (isTouched && !isFirst) void this.view(true);
       this.remark();
     }
-    const only = this.isComplete && !wasComplete && !open ? this.rows() : [];
+    const only = this.isComplete && !wasComplete && !open && !this.settings ? this.rows() : [];
     if (only.length === 1) this.choose(only[0]);
   }
 
@@ -217,6 +240,7 @@ class Page {
   private sayTrouble(): void {
     const lines: HTMLElement[] = [];
     if (!this.isOnline) lines.push(node("p", say("offline", lang)));
+    if (this.settings && !this.program) lines.push(node("p", say("settingsFor", lang)));
     if (this.halted !== null) lines.push(node("p", `${say("halted", lang)} ${this.halted}`));
     for (const { code, file, message, help } of this.problems) {
       const line = node("p", `${file ? `${file}: ` : ""}${code}: ${message[lang]}`);
@@ -241,7 +265,7 @@ class Page {
 
   /** What there is to say of the picture as a whole. */
   private remark(): void {
-    const text = !this.isOnline ? say("offline", lang) : this.isGone ? `${this.open?.file} ${say("gone", lang)}` : "";
+    const text = this.failure !== "" ? this.failure : !this.isOnline ? say("offline", lang) : this.isGone ? `${this.open?.file} ${say("gone", lang)}` : "";
     this.note.textContent = text;
     this.note.hidden = text === "";
   }
@@ -289,10 +313,13 @@ class Page {
   private follow(): void {
     const from = new URLSearchParams(location.hash.slice(1));
     const file = from.get("file");
-    const wasOpen = this.open !== null;
+    const wasOpen = this.open !== null || (this.settings !== null && this.program !== null);
+    this.settings = settingsIn(location.hash.slice(1));
+    if (this.settings) assume(this.settings);
     this.open = file === null ? null : { file, path: from.get("path") };
     this.isGone = false;
-    if (this.open) {
+    this.sayTrouble();
+    if (this.open || (this.settings && this.program)) {
       document.body.dataset.open = "true";
       void this.view(false);
     } else {
@@ -304,22 +331,28 @@ class Page {
     }
     this.list.set(null, this.open);
     this.remark();
-    if (wasOpen && !this.open) $("list").focus();
+    if (wasOpen && !this.open && !this.settings) $("list").focus();
   }
 
   /** Fetches and shows what is open. */
   private async view(isSame: boolean): Promise<void> {
-    const [{ open }, look] = [this, ++this.look];
-    if (!open) return;
+    const [{ open, program, settings }, look] = [this, ++this.look];
     try {
-      const scene = await this.source.scene(open.file, open.path);
+      const scene = settings && program ? await this.source.program(program, settings, lang) : open && (await this.source.scene(open.file, open.path));
+      if (!scene) return;
       if (look !== this.look) return;
+      this.failure = "";
       const isShown = isSame && !$("viewer").hidden;
       $("viewer").hidden = false;
-      show(scene, isShown, () => void this.still(open));
+      show(scene, isShown, () => open && void this.still(open));
       this.isGone = false;
     } catch (error) {
       if (look !== this.look) return;
+      if (settings) {
+        this.failure = error instanceof Error ? error.message : String(error);
+        $("viewer").hidden = false;
+        return this.remark();
+      }
       const isGone = error instanceof Refused && error.status === 404;
       if (isGone && $("viewer").hidden) return this.choose(null);
       this.isGone = isGone;

@@ -4,6 +4,8 @@ import { zipSync } from "fflate";
 import { Compiler, Files, IndexRow, Options, Place } from "./compiler.js";
 import { Given, MOST_BYTES, MOST_FILES, TooMuch, dropped, joined, picked } from "./files.js";
 import { live } from "./live.js";
+import { EXAMPLE, EXAMPLE_NAME } from "./example.js";
+import { DroppedProgram, ProgramSettings, isProgram } from "./programs.js";
 import { Finding, Scene } from "./scene.js";
 import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
 import { lang, onSpeak, speak } from "./viewer.js";
@@ -81,6 +83,12 @@ class Local implements Source {
 
   async picture(file: string, path: string | null): Promise<Blob> {
     return new Blob([await this.see("picture", { file, path })], { type: "image/svg+xml" });
+  }
+
+  async program({ name, bytes }: DroppedProgram, settings: ProgramSettings): Promise<Scene> {
+    await this.listed;
+    this.compiler ??= new Compiler(this.wasm, this.script, this.files, options());
+    return JSON.parse(new TextDecoder().decode(await this.compiler.program(name, bytes, settings)));
   }
 
   events(hear: () => void): Promise<void> {
@@ -220,12 +228,22 @@ async function download(source: Local, wanted: Place[] | Promise<Place[]>): Prom
 }
 
 async function begin(): Promise<void> {
+  let openProgram: (program: DroppedProgram) => void = () => {};
   const toml = $<HTMLTextAreaElement>("toml");
   const source = new Local(await unpacked("wasm"), $("worker").textContent!, offer);
   const take = async (given: Promise<Given>) => {
     tell([]);
     try {
-      const files = joined(source.files, await given);
+      const all = await given;
+      if (!all.isFolder) {
+        const programs = [...all.files].filter(([name]) => isProgram(name));
+        for (const [name, bytes] of programs) {
+          all.files.delete(name);
+          openProgram({ name, bytes });
+        }
+        if (programs.length > 0 && all.files.size === 0) return;
+      }
+      const files = joined(source.files, all);
       toml.value = new TextDecoder().decode(files.get(CONFIGURATION));
       if (files.size > 0) source.open(files, options());
     } catch (error) {
@@ -241,6 +259,7 @@ async function begin(): Promise<void> {
       if (chosen.files) void take(picked(chosen.files)).then(() => (chosen.value = ""));
     });
   }
+  $("drop").addEventListener("click", (event) => event.target instanceof HTMLParagraphElement && $<HTMLInputElement>("drawings").click());
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
@@ -267,8 +286,10 @@ async function begin(): Promise<void> {
     void download(source, source.places({ file: from.get("file") ?? "", path: from.get("path") }));
   });
   $("viewer").querySelector("nav")!.prepend(single);
-  live(source);
+  openProgram = live(source);
+  for (const button of document.querySelectorAll(".example")) button.addEventListener("click", () => openProgram({ name: EXAMPLE_NAME, bytes: new TextEncoder().encode(EXAMPLE).buffer }));
   onSpeak(label);
+  onSpeak(turnBook);
   speak();
 }
 
@@ -278,6 +299,11 @@ function offer(posts: { name: string; for: string }[]): void {
   if (select.options.length > 1) return;
   for (const { name, for: whom } of posts) select.append(new Option(name, name));
   [...select.options].slice(1).forEach((option, index) => (option.title = posts[index].for));
+}
+
+/** The book in the language that holds. */
+function turnBook(): void {
+  for (const link of document.querySelectorAll<HTMLAnchorElement>("a.book")) link.href = link.href.replace(/\/docs\/(en|de)\//, `/docs/${lang}/`);
 }
 
 /** Names of fields, for who sees them and who hears them. */

@@ -1,10 +1,29 @@
 // The page: of one scene, which stands in it, or of a library that is watched.
 
 import { Connection } from "./connection.js";
+import { dropped, picked } from "./files.js";
 import { live } from "./live.js";
+import { DroppedProgram, isProgram } from "./programs.js";
 import { show } from "./viewer.js";
+
+/** Programs come by dropping or picking them; drawings are those of the library. */
+function takePrograms(open: (program: DroppedProgram) => void): void {
+  const take = async (given: ReturnType<typeof picked>) => {
+    const { isFolder, files } = await given;
+    if (isFolder) return;
+    for (const [name, bytes] of files) if (isProgram(name)) open({ name, bytes });
+  };
+  const input = document.getElementById("programs") as HTMLInputElement;
+  document.getElementById("pick-program")!.addEventListener("click", () => input.click());
+  input.addEventListener("change", () => input.files && void take(picked(input.files)).then(() => (input.value = "")));
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    if (event.dataTransfer) void take(dropped(event.dataTransfer));
+  });
+}
 
 const scene = document.getElementById("scene");
 if (scene) show(JSON.parse(scene.textContent!), false);
-else live(new Connection());
+else takePrograms(live(new Connection()));
 document.documentElement.dataset.ready = "true";

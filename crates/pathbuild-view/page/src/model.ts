@@ -1,7 +1,7 @@
 // The moves of all paths behind each other, flattened once.
 
 import { Color, color as named, depthColor, depths } from "./palette.js";
-import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape } from "./scene.js";
+import { Move, Path, Scene, isCut, pointsOfMove, pointsOfShape, toolOf } from "./scene.js";
 
 export interface Step {
   path: Path;
@@ -84,16 +84,17 @@ export function model(scene: Scene): Model {
     const points = flat[index];
     for (let piece = 1; piece < points.length; piece++) push(into, points[piece - 1], points[piece], color, index);
     arrow(cuts ? made.arrows : made.rapidArrows, points, color, index, extent);
-    if (isHole(path, move)) disc(made.holes, points.at(-1)!, path.tool! / 2, color, index);
+    if (isHole(path, move)) disc(made.holes, points.at(-1)!, toolOf(path, move)! / 2, color, index);
     for (const pieces of [made.holes, made.cuts, made.rapids, made.arrows, made.rapidArrows]) pieces.until.push(pieces.step.length);
   });
   return made;
 }
 
 /** Whether a plunge is the whole of its element; without elements it looks like one. */
-function isHole(path: Path, { kind, element, to }: Move): boolean {
+function isHole(path: Path, move: Move): boolean {
+  const { kind, element, to } = move;
   const isAlone = element === undefined || path.elements[element].shape.type === "circle";
-  return kind === "plunge" && path.tool !== null && to[0] !== null && to[1] !== null && isAlone;
+  return kind === "plunge" && toolOf(path, move) !== null && to[0] !== null && to[1] !== null && isAlone;
 }
 
 /** So many triangles are a disc. */

@@ -1,7 +1,7 @@
 // The operations of a scene: what is cut between two rapid moves across. In a program that names its sections by comments, each section.
 
 import { Model } from "./model.js";
-import { MoveKind, isCut } from "./scene.js";
+import { MoveKind, isCut, toolOf } from "./scene.js";
 import { Timeline } from "./timeline.js";
 
 export interface Operation {
@@ -43,9 +43,9 @@ export function operations(model: Model, timeline: Timeline): Operation[] {
     }
     const isNamed = sections !== null;
     const isNew = isNamed ? !current || sections[index] !== sections[last] : hasTravelled;
-    if (!current || isNew || steps[last].path !== path) {
+    if (!current || isNew || steps[last].path !== path || current.tool !== toolOf(path, move)) {
       close(last + 1);
-      current = { moves: [index, index + 1], kind: move.kind, name: sections?.[index] ?? "", depth: null, length: 0, seconds: 0, tool: path.tool };
+      current = { moves: [index, index + 1], kind: move.kind, name: sections?.[index] ?? "", depth: null, length: 0, seconds: 0, tool: toolOf(path, move) };
       found.push(current);
     }
     [hasTravelled, last] = [false, index];

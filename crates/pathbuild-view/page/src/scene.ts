@@ -1,8 +1,10 @@
 // The scene as data: the form is that of pathbuild-view's src/scene.rs, version 1.
 
-import type { Finding } from "../../../../packaging/npm/index.js";
+import type { ProgramRecord } from "./programs.js";
+import type { Finding as Told } from "../../../../packaging/npm/index.js";
 
-export type { Finding };
+/** A finding; `line` is that of the file. */
+export type Finding = Told & { line?: number | null; notes?: { en: string; de: string }[] };
 export type Point = [number, number];
 export type Place = [number | null, number | null, number | null];
 
@@ -74,6 +76,8 @@ export interface Path {
   file: string;
   zero: Point;
   tool: number | null;
+  /** Cutters of a program with several, each from a line on. */
+  tools?: { line: number; diameter: number }[];
   thickness: number | null;
   material: string | null;
   /** Speed of rapid moves in mm/min. */
@@ -106,7 +110,15 @@ export interface KeepOut {
   height: number;
 }
 
+/** The cutter of a move in mm. */
+export function toolOf(path: Path, move: Move): number | null {
+  const own = path.tools?.filter(({ line }) => line <= (move.line ?? 0)).at(-1);
+  return own?.diameter ?? path.tool;
+}
+
 export interface Scene {
+  /** What is known of a program that was dropped on the page. */
+  program?: ProgramRecord;
   schema: string;
   version: number;
   title: string;

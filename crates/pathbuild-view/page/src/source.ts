@@ -1,6 +1,8 @@
 // What a page of a library shows, and whom it asks for it.
 
+import { DroppedProgram, ProgramSettings } from "./programs.js";
 import { Finding, Scene } from "./scene.js";
+import { Lang } from "./words.js";
 
 /** A row of `list`; of what is not checked yet only its name is known. */
 export interface LibraryRow {
@@ -63,6 +65,8 @@ export interface Source {
   scene(file: string, path: string | null): Promise<Scene>;
   /** SVG. */
   picture(file: string, path: string | null): Promise<Blob>;
+  /** A program with these settings: its moves, and what `verify` finds. */
+  program(program: DroppedProgram, settings: ProgramSettings, lang: Lang): Promise<Scene>;
   /** Calls for each change, until there can be no more. */
   events(hear: () => void): Promise<void>;
 }

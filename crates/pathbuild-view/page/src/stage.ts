@@ -156,7 +156,7 @@ export class Stage {
     this.stock = stock && new StockPicture(stock.map, stock.colors);
     if (this.stock) this.scene.add(this.stock.object);
     // The stock shows bars and grooves at their true width: lines as wide as usual would cover them.
-    this.bars.visible = !stock;
+    this.bars.visible = this.holes.object.visible = !stock;
     if (this.cuts.object instanceof LineSegments2) this.cuts.object.material.linewidth = stock ? 0.8 : CUT_WIDTH;
     else this.cuts.object.visible = this.ahead.object.visible = !stock;
     this.draw();

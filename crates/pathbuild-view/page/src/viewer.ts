@@ -5,11 +5,12 @@ import { Spot } from "./labels.js";
 import { sayLegend, sayScale, showLegend } from "./legend.js";
 import { Model, model } from "./model.js";
 import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
-import { Finding, Parameter, Path, Scene, isCut, pointsOfShape } from "./scene.js";
+import { Finding, Parameter, Path, Scene, isCut, pointsOfMove, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
 import { Stock } from "./stock/stock.js";
+import { FIELDS, ProgramSettings, fragmentOf } from "./programs.js";
 import { Timeline, clock, wayUpTo } from "./timeline.js";
 import { visible } from "./visible.js";
 import { Lang, Word, mm, say, sayKind, sayOption } from "./words.js";
@@ -72,6 +73,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   stock = undefined;
   drawStill = still;
   isOpen = true;
+  placeProgram();
   number();
   $("title").textContent = visible(scene.title);
   document.title = visible(scene.title);
@@ -85,6 +87,50 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   slider.max = String(made.steps.length);
   chosen = same && found(same);
   speak();
+}
+
+/** Gives a program's findings their places, and its fields what it says by itself. */
+function placeProgram(): void {
+  const { program } = scene;
+  document.getElementById("download")?.toggleAttribute("hidden", program !== undefined);
+  for (const id of ["typeDialect", "typeSurface", "settings", "checked"]) $(id).hidden = !program;
+  if (!program) return;
+  for (const finding of scene.findings) {
+    const move = scene.paths.flatMap((path) => path.moves).find((move) => move.line === finding.line);
+    const [x, y] = move?.to ?? [null, null];
+    if (!finding.at && x !== null && y !== null) finding.at = [x, y];
+  }
+  const dialect = $<HTMLSelectElement>("assumedDialect");
+  const chosen = dialect.value;
+  dialect.replaceChildren(new Option(`${say("asFound", lang)}: ${program.dialect}`, ""), ...program.dialects.map((name) => new Option(name, name)));
+  dialect.value = chosen;
+  $<HTMLInputElement>("assumedTool").placeholder = [...new Set(program.cutters.map(({ diameter }) => mm(diameter)))].join(", ");
+  $<HTMLInputElement>("assumedSurface").placeholder = program.surface === null ? "" : mm(program.surface);
+  $<HTMLAnchorElement>("settings").href = `#${fragmentOf(settings())}`;
+  const checks = program.checks.map(({ outcome, text: said }) => text("li", said[lang], outcome));
+  $("checks").replaceChildren(...checks);
+}
+
+/** What is typed in for a program. */
+function settings(): ProgramSettings {
+  const values = Object.entries(FIELDS).map(([name, id]) => [name, $<HTMLInputElement>(id).value]);
+  return Object.fromEntries(values) as unknown as ProgramSettings;
+}
+
+/** Types in what an address says. */
+export function assume(settings: ProgramSettings): void {
+  for (const [name, id] of Object.entries(FIELDS)) {
+    const field = $<HTMLInputElement | HTMLSelectElement>(id);
+    const value = settings[name as keyof ProgramSettings];
+    // The dialects are known with the first answer.
+    if (field instanceof HTMLSelectElement && value !== "" && ![...field.options].some((option) => option.value === value)) field.append(new Option(value, value));
+    field.value = value;
+  }
+}
+
+/** Calls when something else is typed in for a program. */
+export function onAssume(hear: (settings: ProgramSettings) => void): void {
+  for (const id of Object.values(FIELDS)) $(id).addEventListener("change", () => scene.program && hear(settings()));
 }
 
 /** Numbers the lines of the text that is listed. */
@@ -194,17 +240,24 @@ function start(keepsView: boolean): void {
 function assumed(): Assumed {
   const typed = (id: string) => $<HTMLInputElement>(id).valueAsNumber;
   const [tool, thickness] = [typed("assumedTool"), typed("assumedThickness")];
-  return { tool: tool > 0 ? tool : null, thickness: thickness > 0 ? thickness : null };
+  const surface = typed("assumedSurface");
+  const known = scene.program?.surface ?? null;
+  return { tool: tool > 0 ? tool : null, thickness: thickness > 0 ? thickness : null, surface: Number.isFinite(surface) ? surface : known };
 }
 
 /** Puts the stock under the moves, or takes it away. */
 function placeStock(): void {
   const cuts = scene.paths.filter(({ moves }) => moves.some((move) => isCut(move.kind)));
   const hasTool = assumed().tool !== null;
-  $("typeTool").hidden = $("typeThickness").hidden = !cuts.some(({ tool }) => tool === null);
+  const hasMoves = made.steps.length > 0;
+  $("run").hidden = $("where").hidden = $("rapids").hidden = $("arrows").hidden = !hasMoves;
+  $("order").hidden = !scene.paths.some(({ elements }) => elements.some(({ order }) => order !== null));
+  $("texts").hidden = !scene.paths.some(({ texts, embedded }) => texts.length > 0 || embedded.length > 1);
+  $("other").hidden = scene.other_layers.length === 0;
+  $("typeTool").hidden = $("typeThickness").hidden = !scene.program && !cuts.some(({ tool }) => tool === null);
   $("typeRapid").hidden = scene.paths.every(({ rapid, moves }) => moves.length === 0 || rapid);
   $("assumed").hidden = $("typeTool").hidden && $("typeRapid").hidden;
-  $("stock").hidden = !cuts.some(({ tool }) => tool !== null || hasTool);
+  $("stock").hidden = !cuts.some(({ tool, tools }) => tool !== null || tools || hasTool);
   if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed());
   stage?.showStock(shown.stock ? stock! : null);
   $("flat").hidden = stage !== null || !shown.stock || !stock;
@@ -215,7 +268,7 @@ function placeStock(): void {
 
 function legend(): void {
   const hasStock = shown.stock && !!stock;
-  sayLegend(made, { rapids: shown.rapids, stock: hasStock, parts: scene.paths.some(({ parts }) => parts?.length), clamps: scene.keep_outs.length > 0 }, lang);
+  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, parts: scene.paths.some(({ parts }) => parts?.length), clamps: scene.keep_outs.length > 0 }, lang);
   showLegend(shown.explain);
 }
 
@@ -464,7 +517,11 @@ function provider({ from, which, line }: Parameter): string {
 function summary(): void {
   const list: [string, string][] = [];
   for (const path of scene.paths) {
-    list.push(["", `${path.name} · ${path.file}`]);
+    list.push(["", path.name === path.file ? path.name.replace(/^.*[\\/]/, "") : `${path.name} · ${path.file}`]);
+    const box = path.elements.length === 0 ? extent(path) : "";
+    if (scene.program) list.push([say("readAs", lang), scene.program.read_as[lang]]);
+    if (box) list.push([say("extent", lang), box]);
+    if (path.tools) list.push([say("tools", lang), path.tools.map(({ diameter }) => mm(diameter)).join(", ")]);
     if (path.tool !== null) list.push([say("tool", lang), mm(path.tool)]);
     if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
     if (path.material) list.push([say("material", lang), path.material]);
@@ -482,18 +539,38 @@ function summary(): void {
   fill(list);
 }
 
+/** From where to where a program cuts. */
+function extent({ moves }: Path): string {
+  const ends = moves.filter(({ kind }) => isCut(kind)).flatMap((move) => pointsOfMove(move));
+  const range = (axis: number) => {
+    const values = ends.map((end) => end[axis]);
+    const [least, most] = [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
+    return least > most ? "" : `${"XYZ"[axis]} ${mm(least)} … ${mm(most)}`;
+  };
+  return [0, 1, 2].map(range).filter((part) => part !== "").join(", ");
+}
+
 function fill(list: [string, string][]): void {
-  details.replaceChildren(...list.flatMap(([name, value]) => [text("dt", name), text("dd", value)]));
+  details.replaceChildren(
+    ...list.flatMap(([name, value]) => {
+      const said = text("dd", "");
+      // A number stays on one line with its sign and its letter.
+      value.split(" ").forEach((word, index) => said.append(index > 0 ? " " : "", text("span", word, word.length <= 24 ? "whole" : "")));
+      return [text("dt", name), said];
+    }),
+  );
 }
 
 /** A click on a finding that has a place goes there. */
 function findings(): void {
   const list = scene.findings.map((it) => {
     const item = text("li", "", it.is_error ? "error" : "");
-    const words = `${it.number} · ${it.code}: ${it.message[lang]}`;
+    const place = scene.program && it.line ? `${say("lineShort", lang)} ${it.line} · ` : "";
+    const words = `${it.number} · ${place}${it.code}: ${it.message[lang]}`;
     const line = text(it.at && stage ? "button" : "span", words);
     if (it.at && stage) line.addEventListener("click", () => goTo(it));
     item.append(line);
+    for (const note of it.notes ?? []) item.append(text("small", note[lang]));
     if (it.help[lang]) item.append(text("small", it.help[lang]));
     item.dataset.number = String(it.number);
     return item;
@@ -505,6 +582,11 @@ function findings(): void {
 /** Looks at the place of a finding, and marks its line. */
 function goTo(finding: Finding): void {
   if (finding.at) stage?.look(finding.at);
+  const step = scene.program ? pathOf.findIndex((_, index) => lineOf[index] === (finding.line ?? 0)) : -1;
+  if (step >= 0) {
+    go(step + 1);
+    describe((chosen = step));
+  }
   for (const item of $("findings").children as Iterable<HTMLElement>) {
     const isIt = item.dataset.number === String(finding.number);
     item.classList.toggle("now", isIt);
@@ -526,6 +608,7 @@ export function speak(): void {
   hearers.forEach((hear) => hear());
   if (!isOpen) return;
   linesOf = null;
+  placeProgram();
   findings();
   placeWork();
   legend();
@@ -673,7 +756,7 @@ $("assumedRapid").addEventListener("input", () => {
   placeWork();
   go(count, share);
 });
-for (const id of ["assumedTool", "assumedThickness"]) {
+for (const id of ["assumedTool", "assumedThickness", "assumedSurface"]) {
   $(id).addEventListener("input", () => {
     stock = undefined;
     placeStock();

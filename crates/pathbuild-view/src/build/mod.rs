@@ -28,6 +28,11 @@ fn finding(number: usize, diagnostic: &Diagnostic, file: &str) -> Finding {
         is_error: diagnostic.is_error(),
         message: BilingualText { en: diagnostic.text(Lang::En), de: diagnostic.text(Lang::De) },
         help: BilingualText { en: help(Lang::En), de: help(Lang::De) },
+        notes: diagnostic
+            .notes
+            .iter()
+            .map(|note| BilingualText { en: note.text(Lang::En), de: note.text(Lang::De) })
+            .collect(),
         file: diagnostic.file.as_ref().map(|file| shown::line(file.as_str()).into_owned()),
         path: diagnostic.path.as_deref().map(str::to_owned),
         line: diagnostic.place.line,

@@ -116,11 +116,7 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
     for record in records {
         let name = shown(record.requirement).in_lang(lang);
         match &record.outcome {
-            Outcome::Made(None) => made.push(name.to_owned()),
-            Outcome::Made(Some(values)) | Outcome::Assumed(values) => {
-                let against = lang.choose("against a cutter of", "mit einem Fräser von");
-                made.push(format!("{name} {against} {}", values.in_lang(lang)));
-            }
+            Outcome::Made(_) | Outcome::Assumed(_) => made.push(record.text(lang)),
             Outcome::NotMade(reason) => {
                 let option = record.option(*reason).in_lang(lang);
                 unmade.push(match record.requirement {
@@ -138,6 +134,28 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
 }
 
 impl CheckRecord {
+    /// The values that rapid moves were checked with.
+    pub fn values(&self) -> Option<&RapidValues> {
+        match &self.outcome {
+            Outcome::Made(values) => values.as_ref(),
+            Outcome::Assumed(values) => Some(values),
+            Outcome::NotMade(_) => None,
+        }
+    }
+
+    /// The check with the values that it was made with, or why it was not made.
+    pub fn text(&self, lang: Lang) -> String {
+        let name = shown(self.requirement).in_lang(lang);
+        match (&self.outcome, self.values()) {
+            (Outcome::NotMade(reason), _) => format!("{name}: {}", reason.text().in_lang(lang)),
+            (_, Some(values)) => {
+                let against = lang.choose("against a cutter of", "mit einem Fräser von");
+                format!("{name} {against} {}", values.in_lang(lang))
+            }
+            (_, None) => name.to_owned(),
+        }
+    }
+
     /// What would enable the check.
     pub fn option(&self, reason: Reason) -> &'static Text {
         match (reason, self.requirement) {

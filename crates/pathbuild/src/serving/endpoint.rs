@@ -144,12 +144,20 @@ pub(super) fn random() -> io::Result<String> {
 /// Prefix of routes that return data of drawings.
 pub(super) const DATA: &str = "/api/";
 
+/// Route that gets the text of a program. Nothing of it is kept.
+pub(super) const PROGRAM: &str = "/api/program";
+
+/// The method of a route.
+pub(super) fn method(path: &str) -> Method {
+    if path == PROGRAM { Method::POST } else { Method::GET }
+}
+
 /// Decides whether a request is answered.
 ///
 /// # Errors
 /// Status of a refused request.
 pub(super) fn admit(endpoint: &Endpoint, request: &Parts) -> Result<(), StatusCode> {
-    if request.method != Method::GET {
+    if request.method != method(request.uri.path()) {
         return Err(StatusCode::METHOD_NOT_ALLOWED);
     }
     let is_called_rightly = match single(&request.headers, header::HOST) {

@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_workspace::dropped::DroppedProgram;
 use pathbuild_workspace::watch::Bell;
 use tokio::sync::{oneshot, watch};
 
@@ -46,14 +47,25 @@ struct PublishedDrawing {
 
 /// A request of a page for a picture or a scene.
 pub(super) struct Question {
-    /// The drawing, by its name in the list.
-    pub(super) file: String,
-    /// The path; `None` for the whole drawing.
-    pub(super) path: Option<String>,
-    /// Form of the answer.
-    pub(super) form: AnswerForm,
+    /// What to show.
+    pub(super) subject: Subject,
     /// Receives the answer; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
+}
+
+/// What a page wants to see.
+pub(super) enum Subject {
+    /// A drawing of the library.
+    Drawing {
+        /// Its name in the list.
+        file: String,
+        /// The path; `None` for the whole drawing.
+        path: Option<String>,
+        /// Form of the answer.
+        form: AnswerForm,
+    },
+    /// A program that was dropped on the page.
+    Program(DroppedProgram),
 }
 
 /// Form in which a drawing or path is returned.
@@ -121,16 +133,11 @@ impl Hub {
     }
 
     /// Asks the watching thread for a scene or picture. The channel is closed if there is no such thread.
-    pub(super) fn ask(
-        &self,
-        file: String,
-        path: Option<String>,
-        form: AnswerForm,
-    ) -> oneshot::Receiver<Option<String>> {
+    pub(super) fn ask(&self, subject: Subject) -> oneshot::Receiver<Option<String>> {
         let (answer, answered) = oneshot::channel();
         let mut state = self.state();
         if let Some(bell) = state.bell.clone() {
-            state.questions.push(Question { file, path, form, answer });
+            state.questions.push(Question { subject, answer });
             bell.ring();
         }
         answered

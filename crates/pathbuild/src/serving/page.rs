@@ -16,7 +16,7 @@ use pathbuild_workspace::session::Session;
 use pathbuild_workspace::watch::{Bell, FirstCheck, Listener, Update};
 use serde_json::{Value, json};
 
-use super::hub::{AnswerForm, Hub, Question};
+use super::hub::{AnswerForm, Hub, Question, Subject};
 use crate::context::Context;
 
 /// The page of a watched library.
@@ -142,11 +142,15 @@ impl Listener for Page<'_> {
     }
 
     fn woken(&self, session: &mut Session<'_>) {
-        for Question { file, path, form, answer } in self.hub.questions() {
+        for Question { subject, answer } in self.hub.questions() {
             // The client may have disconnected.
-            if !answer.is_closed() {
-                _ = answer.send(self.seen(session, &file, path.as_deref(), form));
+            if answer.is_closed() {
+                continue;
             }
+            _ = answer.send(match subject {
+                Subject::Drawing { file, path, form } => self.seen(session, &file, path.as_deref(), form),
+                Subject::Program(program) => Some(program.scene(session)),
+            });
         }
     }
 }

@@ -7,15 +7,17 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
-use axum::extract::{Query, Request, State};
+use axum::body::Bytes;
+use axum::extract::{DefaultBodyLimit, Query, Request, State};
 use axum::http::header::{CONTENT_TYPE, HeaderValue};
 use axum::http::{StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
-use axum::routing::get;
+use axum::routing::{get, post};
 use futures_util::stream;
 use pathbuild_diagnostic::{Lang, shown};
+use pathbuild_workspace::dropped::{Assumptions, DroppedProgram};
 use serde::Deserialize;
 use tokio::runtime;
 use tokio::sync::watch;
@@ -23,8 +25,8 @@ use tokio::time::timeout;
 
 use super::endpoint::answer;
 use super::endpoint::{Endpoint, random};
-use super::endpoint::{HEADERS, admit};
-use super::hub::{AnswerForm, Hub};
+use super::endpoint::{HEADERS, PROGRAM, admit, method};
+use super::hub::{AnswerForm, Hub, Subject};
 
 /// State of the routes.
 pub(super) struct Routes {
@@ -103,6 +105,7 @@ fn router(routes: Arc<Routes>) -> Router {
         .route("/api/scene", get(scene))
         .route("/api/picture", get(picture))
         .route("/api/events", get(events))
+        .route(PROGRAM, post(program).layer(DefaultBodyLimit::max(LARGEST_PROGRAM)))
         .layer(middleware::from_fn_with_state(Arc::clone(&routes), guarded))
         .with_state(routes)
 }
@@ -110,10 +113,11 @@ fn router(routes: Arc<Routes>) -> Router {
 /// Refuses requests that are not admitted, and adds the security headers to every response.
 async fn guarded(State(routes): State<Arc<Routes>>, request: Request, next: Next) -> Response {
     let (parts, body) = request.into_parts();
+    let allowed = method(parts.uri.path()).to_string();
     let mut response = match admit(&routes.endpoint, &parts) {
         Ok(()) => next.run(Request::from_parts(parts, body)).await,
         Err(StatusCode::METHOD_NOT_ALLOWED) => {
-            (StatusCode::METHOD_NOT_ALLOWED, [(header::ALLOW, "GET")]).into_response()
+            (StatusCode::METHOD_NOT_ALLOWED, [(header::ALLOW, allowed)]).into_response()
         }
         Err(status) => status.into_response(),
     };
@@ -158,20 +162,39 @@ struct SceneQuery {
 const JSON: &str = "application/json";
 
 async fn scene(State(routes): State<Arc<Routes>>, Query(query): Query<SceneQuery>) -> Response {
-    answer_with(&routes, query, AnswerForm::Scene, JSON).await
+    answer_with(&routes, drawing(query, AnswerForm::Scene), JSON).await
 }
 
 async fn picture(State(routes): State<Arc<Routes>>, Query(query): Query<SceneQuery>) -> Response {
-    answer_with(&routes, query, AnswerForm::Picture, "image/svg+xml").await
+    answer_with(&routes, drawing(query, AnswerForm::Picture), "image/svg+xml").await
 }
 
-async fn answer_with(
-    routes: &Routes,
-    SceneQuery { file, path }: SceneQuery,
-    form: AnswerForm,
-    kind: &'static str,
+fn drawing(SceneQuery { file, path }: SceneQuery, form: AnswerForm) -> Subject {
+    Subject::Drawing { file, path, form }
+}
+
+/// Size in bytes of the largest program that a page may send.
+const LARGEST_PROGRAM: usize = 64 << 20;
+
+/// The name of a program, and what is assumed for it.
+#[derive(Deserialize)]
+struct ProgramQuery {
+    name: String,
+    #[serde(flatten)]
+    assumptions: Assumptions,
+}
+
+async fn program(
+    State(routes): State<Arc<Routes>>,
+    Query(ProgramQuery { name, assumptions }): Query<ProgramQuery>,
+    text: Bytes,
 ) -> Response {
-    match routes.hub.ask(file, path, form).await {
+    let program = DroppedProgram { name, text: text.into(), assumptions };
+    answer_with(&routes, Subject::Program(program), JSON).await
+}
+
+async fn answer_with(routes: &Routes, subject: Subject, kind: &'static str) -> Response {
+    match routes.hub.ask(subject).await {
         Ok(Some(text)) => ([(CONTENT_TYPE, kind)], text).into_response(),
         Ok(None) => StatusCode::NOT_FOUND.into_response(),
         // The watching thread has ended or is restarting.

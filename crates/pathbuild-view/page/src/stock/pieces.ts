@@ -1,6 +1,6 @@
 // The moves as straight pieces of a cutter's way, and the stock that they are cut from.
 
-import { Move, Path, Scene, isCut, pointsOfMove } from "../scene.js";
+import { Move, Path, Scene, isCut, pointsOfMove, toolOf } from "../scene.js";
 
 /** Numbers of a piece: from x y z, to x y z, the cutter's radius, and 1 for a rapid move. */
 export const WIDTH = 8;
@@ -21,6 +21,8 @@ export interface Blank {
 export interface Assumed {
   tool: number | null;
   thickness: number | null;
+  /** Z of the upper face. */
+  surface: number | null;
 }
 
 export interface Cutting {
@@ -50,9 +52,9 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
   const blanks = new Map<string, Blank>();
   let low = Infinity;
   for (const path of scene.paths) {
-    const tool = path.tool ?? assumed.tool;
-    const radius = (tool ?? 0) / 2;
     for (const move of path.moves) {
+      const tool = toolOf(path, move) ?? assumed.tool;
+      const radius = (tool ?? 0) / 2;
       const isRapid = move.kind === "sweep" || move.kind === "lift";
       const points = tool === null || move.kind === "probe" ? [] : pointsOfMove(move, SAGITTA);
       for (const at of points) for (const axis of [0, 1]) at[axis] += path.zero[axis];
@@ -86,5 +88,7 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
 function faces(path: Path, move: Move, assumed: Assumed): [number, number] {
   const element = move.element === undefined ? undefined : path.elements[move.element];
   const component = path.embedded[element?.path ?? 0];
-  return [component?.thickness ?? path.thickness ?? assumed.thickness ?? 0, component?.raised ?? 0];
+  const known = component?.thickness ?? path.thickness;
+  if (known === null && assumed.surface !== null) return [assumed.surface, assumed.surface - (assumed.thickness ?? 0)];
+  return [known ?? assumed.thickness ?? 0, component?.raised ?? 0];
 }

@@ -1,0 +1,167 @@
+//! Programs that are dropped on the page: their moves, what [`verify`](crate::verify) finds, and what was assumed. (book: program/browser)
+
+use camino::Utf8Path;
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::HeaderReader;
+use pathbuild_view::{BilingualText, Scene, ScenePath, ToolSpan};
+use serde::{Deserialize, Serialize};
+
+use crate::config::{number, positive};
+use crate::emit::SceneReport;
+use crate::program::{Program, ReadingOptions};
+use crate::session::Session;
+use crate::verify::{CheckRecord, Failure, Outcome, RapidValues, VerifiedProgram, Verifier, VerifyOptions};
+
+/// A program that was dropped on the page.
+#[derive(Debug)]
+pub struct DroppedProgram {
+    /// The name of its file.
+    pub name: String,
+    /// Its text.
+    pub text: Vec<u8>,
+    /// What the user typed in.
+    pub assumptions: Assumptions,
+}
+
+/// What a user assumes about a program, as text; what is missing is taken from the program.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct Assumptions {
+    /// Name of the dialect.
+    pub dialect: Option<String>,
+    /// Diameter of the cutter in mm.
+    pub cutter: Option<String>,
+    /// Height of the material's upper face in mm.
+    pub surface: Option<String>,
+}
+
+/// A scene with the facts about its program.
+#[derive(Serialize)]
+struct ProgramScene<'s> {
+    #[serde(flatten)]
+    scene: &'s Scene,
+    program: ProgramRecord,
+}
+
+#[derive(Serialize)]
+struct ProgramRecord {
+    dialect: &'static str,
+    dialects: Vec<&'static str>,
+    /// The dialect, and why it was guessed.
+    read_as: BilingualText,
+    checks: Vec<ShownCheck>,
+    cutters: Vec<ToolSpan>,
+    surface: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct ShownCheck {
+    check: &'static str,
+    outcome: &'static str,
+    text: BilingualText,
+}
+
+impl DroppedProgram {
+    /// The scene of the program as JSON, with its findings and a field `program`.
+    pub fn scene(self, session: &mut Session<'_>) -> String {
+        let workspace = session.workspace();
+        let mut diagnostics = Vec::new();
+        let options = self.assumptions.options(&mut diagnostics);
+        let (reading, cutter) = (options.reading, options.cutter);
+        let file = Utf8Path::new(&self.name);
+        let verified = match Verifier::new(session, options) {
+            Ok(verifier) => verifier.verify(file, self.text.clone()),
+            Err(Failure::Post(diagnostics) | Failure::Drawing(diagnostics)) => {
+                VerifiedProgram { diagnostics, ..VerifiedProgram::default() }
+            }
+            // Only a drawing to compare with can be named wrongly.
+            Err(Failure::Usage(_)) => VerifiedProgram::default(),
+        };
+        diagnostics.extend(verified.diagnostics);
+        let mut scene = Scene::new(file.file_name().unwrap_or(&self.name));
+        let program = match Program::of_text(workspace, file, self.text, reading) {
+            Ok(program) => program,
+            Err(problem) => {
+                let report = SceneReport { scene, diagnostics: vec![*problem] };
+                return report.with_findings(workspace, &self.name).0.to_json();
+            }
+        };
+        let rapids = verified.checks.iter().find_map(CheckRecord::values);
+        let (cutters, surface) = stated(&program, rapids);
+        let mut path = program.scene_path(workspace);
+        equip(&mut path, cutter, &cutters, rapids);
+        scene.paths.push(path);
+        let (scene, _) = SceneReport { scene, diagnostics }.with_findings(workspace, &self.name);
+        let record = ProgramRecord {
+            dialect: program.shown.name(),
+            dialects: Dialect::ALL.iter().map(|dialect| dialect.name()).collect(),
+            read_as: bilingual(|lang| program.read_as(lang)),
+            checks: verified.checks.iter().map(shown_check).collect(),
+            cutters,
+            surface,
+        };
+        let scene = ProgramScene { scene: &scene, program: record };
+        shown::json(&serde_json::to_string(&scene).expect("every part of a scene is plain data")).into_owned()
+    }
+}
+
+impl Assumptions {
+    /// The options of `verify`. Adds what is wrong with the texts.
+    fn options(&self, problems: &mut Vec<Diagnostic>) -> VerifyOptions {
+        let named = |name: &String| Dialect::ALL.iter().copied().find(|dialect| dialect.name() == name);
+        let mut value = |text: Option<&String>, read: fn(&str) -> Result<f64, Box<Diagnostic>>| {
+            read(text?).map_err(|problem| problems.push(*problem)).ok()
+        };
+        VerifyOptions {
+            reading: ReadingOptions {
+                dialect: self.dialect.as_ref().and_then(named),
+                ..ReadingOptions::default()
+            },
+            cutter: value(self.cutter.as_ref(), |text| positive("cutter", text)),
+            surface: value(self.surface.as_ref(), |text| number("surface", text)),
+            ..VerifyOptions::default()
+        }
+    }
+}
+
+/// The cutters and the upper face of the material that a program states.
+fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Option<f64>) {
+    let mut header = HeaderReader::default();
+    for step in &program.read.steps {
+        header.step(step);
+    }
+    let header = header.finish(program.inch_word());
+    let span = |tool: &pathbuild_gcode::header::CuttingTool| {
+        Some(ToolSpan { line: tool.line, diameter: tool.cutter?.diameter })
+    };
+    let surface = rapids.and_then(|values| values.surface).or(header.surface);
+    (header.tools.iter().filter_map(span).collect(), surface)
+}
+
+/// Gives a path the cutters that it is shown with: the one that was typed in, or those that its rapid moves were checked with.
+fn equip(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids: Option<&RapidValues>) {
+    let mut diameters: Vec<f64> = match (cutter, rapids) {
+        (Some(cutter), _) => vec![cutter],
+        (None, Some(values)) => values.cutters.clone(),
+        (None, None) => stated.iter().map(|tool| tool.diameter).collect(),
+    };
+    diameters.dedup();
+    match *diameters {
+        [] => {}
+        [diameter] => path.tool = Some(diameter),
+        _ => path.tools = stated.to_vec(),
+    }
+}
+
+fn shown_check(record: &CheckRecord) -> ShownCheck {
+    let outcome = match record.outcome {
+        Outcome::Made(_) => "made",
+        Outcome::Assumed(_) => "assumed",
+        Outcome::NotMade(_) => "not-made",
+    };
+    ShownCheck { check: record.requirement.name(), outcome, text: bilingual(|lang| record.text(lang)) }
+}
+
+fn bilingual(text: impl Fn(Lang) -> String) -> BilingualText {
+    BilingualText { en: text(Lang::En), de: text(Lang::De) }
+}
