@@ -333,8 +333,8 @@ fn turned([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
 // Arcs as a controller reads them, from rounded numbers. (book: program/gcode)
 //
 // A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are
-// rounded separately, each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre one
-// digit beside the nearest one fits both ends.
+// rounded separately, each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre that
+// differs by one unit of the last digit from the correctly rounded one fits both ends.
 
 /// An arc in its plane, and the notation of its numbers.
 pub struct WrittenArc<'r> {

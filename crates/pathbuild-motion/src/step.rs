@@ -13,7 +13,8 @@ pub struct Step {
     /// Line number, counted from 1, or the step number for a program that does not exist as text.
     pub line: u32,
     pub action: Action,
-    /// The axes with a position specified since the last tool change, during which the machine may have moved the tool.
+    /// The axes for which the program has given a position since the last tool change. The machine may have moved the others during the
+    /// change.
     pub stated: Axes,
 }
 
@@ -43,7 +44,8 @@ pub enum Action {
     Dwell(f64),
     /// T: selects the next tool.
     SelectTool(u32),
-    /// M6: inserts this tool, `None` if no T has selected one. For XpertMILL, moves belong to this layer from here on.
+    /// M6: inserts this tool, `None` if no T has selected one. In programs for XpertMILL, tools are layers: the moves from here on belong
+    /// to this one.
     ChangeTool(Option<u32>),
     /// Changes the state of the spindle.
     Spindle(Spindle),
@@ -59,7 +61,7 @@ pub enum Action {
     Comment(Box<str>),
     /// M0, M60, or M1 if optional: waits for the operator.
     Stop {
-        /// Whether a switch on the machine decides.
+        /// Whether a switch on the machine decides if the program stops here (M1).
         optional: bool,
     },
     /// M2, M30.
@@ -75,18 +77,18 @@ pub struct StatedWord {
     pub code: u16,
     /// Modal group of a G word.
     pub group: Option<Group>,
-    /// How far its effect is followed.
+    /// How much of its effect other steps show.
     pub effect: WordEffect,
 }
 
-/// How far the effect of a word is followed.
+/// How much of the effect of a word the other steps of a program show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WordEffect {
     /// Other steps and positions reflect it.
     Followed,
-    /// It selects a coordinate system, which the control may not have.
+    /// It selects a coordinate system that the control may not have.
     System,
-    /// It goes to a machine position or refers to machine zero, which no program contains.
+    /// It goes to a machine position or refers to machine zero, neither of which a program tells.
     Place,
     /// It runs a subprogram of the file; the subprogram's steps come next.
     Call,
@@ -325,7 +327,7 @@ impl Pace {
 /// Positions that a program specifies by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
-    /// G53: machine coordinates. If the machine's origin is unknown, unknown axes contain machine coordinates.
+    /// G53: machine coordinates. If the machine's origin is unknown, the axes of the target that are not `known` hold machine coordinates.
     Machine,
     /// G28.
     Home1,
