@@ -273,9 +273,9 @@ impl<'a> OpenEdges<'a> {
         (least, Run { strand: index, edge, is_backwards })
     }
 
-    /// The strands that decide the scan, in segment order: the nearest ones, and those that cannot be distinguished from these or from each
-    /// other. Strands beyond the first distinguishable gap are skipped in any order, as well as those after another one at the same
-    /// distance.
+    /// The strands that can affect the scan, in segment order: the nearest one, and all that approximate comparison cannot tell from it,
+    /// directly or through others in between. Strands beyond the first distinguishable gap between distances never win, and neither do
+    /// those whose next edge begins at the same point and depth as that of an earlier strand.
     fn contenders(&self, tip: Tip) -> Vec<usize> {
         let place = [tip.at.x, tip.at.y];
         let mut found: Vec<(f64, usize)> = Vec::new();
@@ -295,7 +295,7 @@ impl<'a> OpenEdges<'a> {
             Some((farthest, _)) if above(reach, *farthest) => {
                 found[..=last].iter().map(|(_, strand)| *strand).collect()
             }
-            // If edges are within the tolerance of each other as far as the search reached, all of them are scanned.
+            // No distinguishable gap lies within the reach of the search: scan all edges.
             _ => (0..self.strands.len()).filter(|index| self.is_open(*index)).collect(),
         };
         contenders.sort_unstable();

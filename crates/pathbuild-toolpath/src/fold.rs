@@ -49,7 +49,7 @@ pub fn fold_traced<P: Parts>(
     (program, trace.unwrap_or_default())
 }
 
-/// Like [`fold_traced`], but as if every element were milled in a single pass: the same ways at their lowest heights.
+/// Like [`fold_traced`], but as if every element were milled in a single pass, at its lowest height.
 pub(crate) fn fold_in_one_pass<P: Parts>(
     parts: &P,
     root: P::Id,
@@ -136,7 +136,7 @@ pub(crate) struct Fold<'a, P: Parts> {
     steps: Vec<ProgramStep>,
     names: Names,
     probes: Vec<ProbePoint>,
-    /// By name of the path.
+    /// The left-out curves, by name of the path.
     left_out: BTreeMap<Box<str>, LeftOut>,
     /// Index of the last sweep as long as only comments follow it; another sweep replaces it.
     mergeable: Option<usize>,
@@ -232,7 +232,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         outside
     }
 
-    /// The infeed where I is `drawn`, and something of this depth is to be milled.
+    /// The infeed for milling something of this depth: I as drawn, or the whole depth if everything is milled in one pass.
     pub(crate) fn infeed(&self, drawn: f64, depth: f64) -> f64 {
         if self.is_one_pass { drawn.max(depth) } else { drawn }
     }
@@ -310,7 +310,7 @@ impl<'a, P: Parts> Fold<'a, P> {
         self.lift_corrected_at(to, self.tip.at, length);
     }
 
-    /// The same, with the height corrected by the probes around another point, the centre of a helical circle.
+    /// Like [`lift`](Self::lift), but the height is corrected by probes for another point: the centre of a helical circle.
     pub(crate) fn lift_corrected_at(&mut self, to: f64, at: Xy, length: f64) {
         let count = Count { class: Class::Sweep, length, feed: None };
         self.step(PlannedMove::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });

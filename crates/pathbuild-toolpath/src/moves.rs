@@ -1,4 +1,4 @@
-//! The moves of a program, and their ways among clamps. (book: program/gcode)
+//! The moves of a program, and the curves along which they are checked against clamps. (book: program/gcode)
 
 use std::f64::consts::{PI, TAU};
 
@@ -49,8 +49,8 @@ impl ToolTip {
                 let centre = [self.at.x() + centre.x, self.at.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = place(to, z.z);
-                // Ends that coincide or almost coincide may stand for an arc of almost no length or for a full circle, which the length
-                // tells. Only ends that contradict the length are corrected; an arc that is not quite a full circle remains.
+                // Ends that coincide or almost coincide may stand for an arc of almost no length or for a full circle; the length tells
+                // which. Only ends that contradict the length are corrected; an arc that is not quite a full circle remains.
                 let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
                 let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
                 let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
@@ -100,7 +100,8 @@ pub const LAST_DIGIT: f64 = 0.001;
 /// Several times the distance in mm by which rounding moves an end along the arc.
 const DOUBTFUL: f64 = 10.0 * LAST_DIGIT;
 
-/// The way of a move, as far as it is known. If only its end is known, that point; `None` if even that is unknown.
+/// The [`Way`] of a move, as far as it is known. If only the end of the move is known, a way without length at that point; `None` if even
+/// the end is unknown.
 pub fn way(movement: &Move) -> Option<Way> {
     let [from, to] = [movement.from, movement.to].map(|end| Xy::new(end.x(), end.y()));
     if !movement.to.known.has(Axes::ALL) {

@@ -12,7 +12,7 @@ use crate::fold::{Parts, fold_in_one_pass};
 use crate::mill::BarPlan;
 use crate::moves::way;
 
-/// The cuts of a path without those that it embeds, in the coordinates of its drawing. `is_slot`: whether a slot cutter mills it.
+/// The cuts of a path without the paths that it embeds, in the coordinates of its drawing. `is_slot`: whether a slot cutter mills it.
 pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
     let options = PathOptions {
         feed: Some(1.0),
@@ -47,7 +47,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         let element = u32::try_from(element).unwrap_or(u32::MAX);
         found.cuts.push(PartCut { way: Way { curve: shifted(&way.curve, path.start), ..way }, element });
     }
-    // They are kept with the drawing's index.
+    // The cuts are kept as long as the drawing's index, so free the spare capacity.
     found.cuts.shrink_to_fit();
     found
 }
@@ -68,7 +68,7 @@ fn cut_element(path: &Path, number: u32) -> CutElement {
     }
 }
 
-/// The way of a move that cuts, as opposed to a rapid move.
+/// The [`Way`] of a move; `None` for a rapid move, which does not cut.
 pub fn cutting_way(movement: &Move) -> Option<Way> {
     if movement.pace == Pace::Rapid { None } else { way(movement) }
 }
@@ -144,7 +144,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
             SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}
         }
     }
-    // A half bar at the end of a segment goes on in the next one, or the cut that follows takes half of O from it.
+    // A half bar at the end of a segment either continues in another segment, or the cut that follows mills half of O away from it.
     let goes_on = |at: Xy| halves.iter().filter(|half| approx::coincide(**half, at)).count() > 1;
     all.into_iter().map(|bar: BarPlace| bar.standing(path.tool / 2.0, &goes_on)).collect()
 }
@@ -161,7 +161,7 @@ struct BarPlace {
     curve: Curve,
     from: f64,
     to: f64,
-    /// Length in mm of the slopes beside it, at most.
+    /// Upper bound on the length in mm of the slopes beside it.
     slope: f64,
     top: f64,
 }
@@ -183,7 +183,7 @@ impl BarsAlong<'_> {
 }
 
 impl BarPlace {
-    /// The bar without what the cuts beside it take.
+    /// The bar as the cuts beside it leave it.
     fn standing(&self, radius: f64, goes_on: &dyn Fn(Xy) -> bool) -> StandingBar {
         let length = self.curve.length();
         let is_whole = |end: f64, at: Xy| approx::near(end, 0.0) && goes_on(at);
@@ -195,5 +195,5 @@ impl BarPlace {
     }
 }
 
-/// Length in mm below which a bar is none.
+/// Length in mm up to which what is left of a bar does not count.
 const SHORTEST: f64 = 0.01;

@@ -30,7 +30,7 @@ pub struct Program {
     pub compatible: bool,
     /// Texts referred to by steps.
     pub names: Names,
-    /// Moves and comments in order. Sweeps are merged; nothing follows the last step.
+    /// Moves and comments in order. Consecutive sweeps are merged. The final lift belongs to the frame and is not among them.
     pub steps: Vec<ProgramStep>,
     /// Z-probes in the order in which they are measured, starting with #51.
     pub probes: Vec<ProbePoint>,
@@ -128,7 +128,8 @@ pub enum PlannedMove {
 pub struct Height {
     /// Z in mm.
     pub z: f64,
-    /// The point for which the height is corrected: the start of the move or the centre of a helical circle, not the end of the move.
+    /// The point for which the height is corrected: the start of the move or the centre of a helical circle.
+    /// [`Correction::steps`](crate::Correction::steps) replaces it by the end of the move.
     pub at: Xy,
 }
 
