@@ -18,7 +18,7 @@ pub(crate) fn may_hold_wanted<'a>(
     // Line numbers continue from the previous query, since a file may name a million layers.
     let mut counted = *blocks;
     any_digit(b'8', bytes, |eight| {
-        let Some(at) = line_behind_code(bytes, eight, line_end) else { return false };
+        let Some(at) = line_after_code(bytes, eight, line_end) else { return false };
         let name = line_from(&bytes[at..], line_end);
         let line = || {
             counted.jump_to(begin + at);
@@ -39,8 +39,8 @@ pub(crate) fn has_text<'a>(
     let line_end = blocks.line_end();
     let bytes = &blocks.bytes()[blocks.consumed()..];
     any_digit(b'1', bytes, |one| {
-        let behind = line_behind_code(bytes, one, line_end);
-        if !behind.is_some_and(|at| is(line_from(&bytes[at..], line_end))) {
+        let after = line_after_code(bytes, one, line_end);
+        if !after.is_some_and(|at| is(line_from(&bytes[at..], line_end))) {
             return false;
         }
         let layer = layer_before(&bytes[..one], line_end);
@@ -100,16 +100,16 @@ fn digits(digit: u8, window: &[u8; VECTOR + 2]) -> u32 {
 }
 
 /// Start of the line after the one with this digit, if that line holds only a group code.
-fn line_behind_code(bytes: &[u8], digit: usize, line_end: u8) -> Option<usize> {
+fn line_after_code(bytes: &[u8], digit: usize, line_end: u8) -> Option<usize> {
     let length = rest_of_code(&bytes[digit + 1..], line_end)?;
     is_begin_of_code(&bytes[..digit], line_end).then_some(digit + 1 + length)
 }
 
 /// Length of the line end at these bytes, if a code may end just before them.
 #[inline]
-fn rest_of_code(behind: &[u8], line_end: u8) -> Option<usize> {
-    let length = behind.iter().position(|byte| *byte == line_end || *byte > b' ')?;
-    (behind[length] == line_end).then_some(length + 1)
+fn rest_of_code(after: &[u8], line_end: u8) -> Option<usize> {
+    let length = after.iter().position(|byte| *byte == line_end || *byte > b' ')?;
+    (after[length] == line_end).then_some(length + 1)
 }
 
 /// Whether a line that ends with these bytes and a digit may be a one-digit code.

@@ -95,7 +95,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     /// The layers of all entities up to the end of the block that may be wanted. `None` if layers alone do not suffice: for insertions, and
-    /// for texts whose characters may be in doubt.
+    /// for texts, which may contain undecodable characters.
     pub(crate) fn layers_ahead(
         &mut self,
         records: &mut Records<'a>,
@@ -317,7 +317,7 @@ pub(crate) enum RecordKind {
     Foreign(EntityKind),
 }
 
-/// Records that say something about a drawing and are no part of what is made: they may lie on the layer of a path.
+/// Records that only annotate a drawing. They may lie on the layer of a path, since they are clearly not to be milled.
 const ANNOTATIONS: [&str; 20] = [
     "ACAD_TABLE",
     "ARC_DIMENSION",

@@ -37,7 +37,7 @@ pub(crate) fn stopped(stop: Stop<'_>, section: &str) -> Fatal {
     })
 }
 
-/// PB002: a pair where none of its kind may stand.
+/// PB002: a pair that is not allowed in its place.
 pub(crate) fn at_pair(message: &'static Message, pair: &Pair<'_>) -> Fatal {
     Box::new(Diagnostic::new(message).quoting("found", shown(pair.value)).at_line(pair.line, None))
 }

@@ -20,7 +20,7 @@ use crate::pairs::{LAYER, Pair, Pairs, Stop};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct LayerId(u32);
 
-/// The layers of the entities before.
+/// The layers of the entities read so far.
 pub(crate) struct Layers<'a, 'o> {
     /// The LAYER table of the drawing.
     table: LayerTable<'a>,
@@ -262,7 +262,7 @@ impl LayerRecord<'_> {
     }
 }
 
-/// What reading the records needs.
+/// The state needed to read records of the LAYER table.
 pub(crate) struct Reading<'r, 'a, 'd> {
     pub(crate) fields: &'r mut Fields<'a>,
     pub(crate) decoder: &'r mut Decoder<'d>,

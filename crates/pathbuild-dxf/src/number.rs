@@ -60,7 +60,6 @@ fn is_with_comma(text: &str) -> bool {
 
 /// Parses `[-]digits[.digits]` with at most 16 characters after the sign. `None` for any other form, including a point next to a single
 /// digit.
-/// digit.
 #[inline]
 fn plain_decimal(value: &[u8]) -> Option<f64> {
     // By far the most frequent number, as heights and normals.

@@ -2,7 +2,7 @@
 
 use crate::{Arc, Circle, Geometry, HorizontalAlign, Line, MText, Point3, Text};
 
-/// Moves, turns, scales and possibly mirrors. A mirroring one maps (x, y) to (x, -y) before it turns.
+/// Moves, turns, scales and possibly mirrors. A mirroring placement maps (x, y) to (x, -y) before it turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
     /// Image of the origin.
