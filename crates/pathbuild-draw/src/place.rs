@@ -202,7 +202,7 @@ impl<'a> Seats<'a> {
             && pieces.all(|piece| piece.clearance(centre) > 1.1 * radius + 0.05)
     }
 
-    /// Whether the rules assign the text to the target when its turn comes, even if lengths are slightly off.
+    /// Whether the rules assign the text to the target when its turn comes, even if the estimated size of the text is slightly off.
     fn is_given(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let near = |factor: f64| self.found(layer, centre, factor * radius);
         if self.candidates[target].takes_text {

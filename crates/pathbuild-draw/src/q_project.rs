@@ -151,8 +151,8 @@ const MODEL_SPACE: u64 = 40;
 fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>]) -> Vec<u8> {
     let mut tickets = Tickets::default();
     let written = entities(elements, texts, &mut tickets);
-    let behind = FIRST_HANDLE + (elements.len() + texts.iter().flatten().count()) as u64;
-    let behind_layers = behind + layers.len() as u64;
+    let after_entities = FIRST_HANDLE + (elements.len() + texts.iter().flatten().count()) as u64;
+    let after_layers = after_entities + layers.len() as u64;
     let number = |text: &str| text.parse::<u64>().unwrap_or_default();
     let mut pairs = Vec::new();
     for pair in records(FRAME).into_iter().flatten() {
@@ -160,19 +160,19 @@ fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<
             None => pairs.push(pair),
             Some("count") => pairs.push(Pair::integer(70, i64::try_from(layers.len()).unwrap_or_default())),
             Some("layers") => {
-                let handles = behind + FIRST_LAYER..;
+                let handles = after_entities + FIRST_LAYER..;
                 pairs.extend(
-                    layers.iter().zip(handles).flat_map(|(name, handle)| layer(name, handle, behind)),
+                    layers.iter().zip(handles).flat_map(|(name, handle)| layer(name, handle, after_entities)),
                 );
             }
             Some("entities") => {
-                let owner = behind_layers + MODEL_SPACE;
+                let owner = after_layers + MODEL_SPACE;
                 pairs.extend(entity_pairs(&written, &tickets, owner));
             }
             Some(handle) => {
                 let handle = match handle.strip_prefix('+') {
-                    Some(handle) => behind_layers + number(handle),
-                    None => behind + number(handle),
+                    Some(handle) => after_layers + number(handle),
+                    None => after_entities + number(handle),
                 };
                 pairs.push(Pair::handle(pair.code, handle));
             }
@@ -181,12 +181,12 @@ fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<
     ascii(&pairs, Some(WINDOWS_1252), b"\r\n")
 }
 
-/// The record of a visible layer, CONTINUOUS and white.
-fn layer(name: &str, handle: u64, behind: u64) -> Record<'_> {
+/// The record of a visible layer, CONTINUOUS and white. `after_entities`: the first handle after those of the entities.
+fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
     vec![
         Pair::new(0, "LAYER"),
         Pair::handle(5, handle),
-        Pair::handle(330, behind + LAYER_TABLE),
+        Pair::handle(330, after_entities + LAYER_TABLE),
         Pair::new(100, "AcDbSymbolTableRecord"),
         Pair::new(100, "AcDbLayerTableRecord"),
         Pair::new(2, name),
@@ -194,7 +194,7 @@ fn layer(name: &str, handle: u64, behind: u64) -> Record<'_> {
         Pair::integer(62, 7),
         Pair::new(6, "CONTINUOUS"),
         Pair::new(290, "1"),
-        Pair::handle(390, behind + PLOT_STYLE),
+        Pair::handle(390, after_entities + PLOT_STYLE),
     ]
 }
 
