@@ -172,7 +172,7 @@ impl ReadError {
         }
     }
 
-    /// The reason why a file cannot be read, to stand in a message about what it was needed for.
+    /// The reason why a file cannot be read, as part of a message about what the file was needed for.
     pub fn reason(self, limit: u64) -> Value {
         match self {
             Self::Missing => (&NO_FILE).into(),

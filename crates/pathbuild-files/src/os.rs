@@ -126,11 +126,11 @@ impl System for OsSystem {
 fn hard_link(data: &fs::Metadata) -> Option<FileLink> {
     use std::os::unix::fs::MetadataExt;
 
-    // Every directory has several.
+    // Directories always have several hard links, so only files count.
     (data.is_file() && data.nlink() > 1).then(|| FileLink::Hard([data.dev(), data.ino()]))
 }
 
-/// Windows does not count them without opening the file.
+/// On Windows, the number of hard links is known only after opening the file.
 #[cfg(not(unix))]
 fn hard_link(_: &fs::Metadata) -> Option<FileLink> {
     None

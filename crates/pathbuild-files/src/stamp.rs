@@ -87,7 +87,7 @@ impl Clock {
     pub fn of(directory: &Utf8Path) -> io::Result<Self> {
         let (probe, file) = replace::temporary(&directory.join(CLOCK), true)?;
         let time = file.metadata().and_then(|data| data.modified());
-        // The file may not have been created at all.
+        // Best effort: a leftover temporary file does no harm.
         _ = fs::remove_file(&probe);
         time.map(Self)
     }
