@@ -341,7 +341,7 @@ impl DirectoryFact {
         let mut canonical = canonical(place, base);
         links.sort_unstable();
         for link in links {
-            // No name holds this character.
+            // A separator that occurs in no path.
             canonical.push('\0');
             canonical.push_str(&self::canonical(&place.join(&*link), base));
         }
