@@ -1,5 +1,5 @@
-//! Plans and generates realistic libraries of drawings for benchmarks and property tests: any number of components, projects that embed them, fixture
-//! projects and variable projects. All of them compile without errors, and the same seed gives the same bytes.
+//! Plans and generates realistic libraries of drawings for benchmarks and property tests: any number of components, projects that embed
+//! them, fixture projects and variable projects. All of them compile without errors, and the same seed gives the same bytes.
 
 use crate::draw::model::{Entity, LineEnds, Point, Polyline, PolylineKind, Shape, Version, Vertex, bulged};
 use crate::draw::{Draft, Sheet};
@@ -86,7 +86,7 @@ fn component_drawing(plan: &Plan, index: usize) -> (String, Sheet) {
     let paths = plan.paths(index);
     let mut draft = Draft::new();
     let furniture = options(&mut draft, &mut random);
-    // Besides the plate.
+    // Features besides the plate.
     let features = if paths.len() == 1 { 3 + random.below(4) } else { 4 - paths.len() };
     for (row, path) in paths.iter().enumerate() {
         let origin = ORIGIN + Point::new(0.0, ROW * row as f64);

@@ -250,8 +250,8 @@ fn component(number: u32, random: &mut Random) -> Vec<u8> {
     dxf(&text)
 }
 
-/// Draws a clamp beside the middle of the first path, beside the path behind it in projects, or beside the rapid move in between: just
-/// touching, in the way, lower or higher than the moves, or with an unclear height.
+/// Draws a clamp beside the middle of the first path, beside the path that follows it in projects, or beside the rapid move in between:
+/// just touching, in the way, lower or higher than the moves, or with an unclear height.
 fn clamp(text: &mut String, random: &mut Random) {
     let x = random.pick(&[15, 15, 52, 82]);
     let y = random.pick(&["1", "0.75"]);

@@ -164,7 +164,8 @@ impl ExpandedPath<'_> {
 }
 
 impl Place {
-    /// The placement that maps the first inner point to the first outer point, and the direction of the second accordingly.
+    /// The placement that maps the first inner point to the first outer point, and the direction to the second inner point to that to the
+    /// second outer point.
     fn from_to(inner: [Pair; 2], outer: [Pair; 2], raised: f64) -> Self {
         let turn = times(direction(outer), conjugate(direction(inner)));
         Self { origin: minus(outer[0], times(turn, inner[0])), turn, raised }

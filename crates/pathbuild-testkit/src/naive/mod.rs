@@ -212,7 +212,8 @@ impl Finding {
         Self { file: file.to_owned(), ..Self::of(diagnostic) }
     }
 
-    /// Removes the chain of a cycle: it is found on every way that leads to it, but counts once.
+    /// Removes the names of the paths in a cycle: each embedding that leads into the cycle finds it again, starting with another path, but
+    /// it counts once.
     fn without_chain(mut self) -> Self {
         if self.code == "PB509" {
             self.words.clear();
@@ -237,7 +238,7 @@ fn each_once(mut found: Vec<Finding>) -> Vec<Finding> {
     found
 }
 
-/// Findings that only one of both sides has.
+/// Findings of the model that the program does not report, and the reverse.
 pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
     let mut open: Vec<Finding> = model.iter().cloned().map(Finding::without_chain).collect();
     open = each_once(open);
