@@ -172,7 +172,7 @@ codes! {
     608 OldProgram "old-program" Error "a program to be adjusted that differs from its drawing";
     609 UnusedProbe "unused-probe" Error "a probe that no formula uses";
     610 UnusedWaiver "unused-waiver" Warning "a waiver that matches no finding any more";
-    612 UnreadableDescription "unreadable-description" Error "a description of a machine or of tools that cannot be read, or not be taken over";
+    612 UnreadableDescription "unreadable-description" Error "a description of a machine or of tools that cannot be read or imported";
     613 UnusableValue "unusable-value" Warning "a value of a description that the configuration cannot take";
     701 NotGCode "not-g-code" Error "a file without any G-code";
     702 UnknownCharacter "unknown-character" Error "a character that cannot begin a word";
@@ -247,7 +247,7 @@ codes! {
     779 UnnamedDialect "unnamed-dialect" Warning "a word on which dialects disagree, in a program whose dialect is not named";
     780 HeaderContradiction "header-contradiction" Warning "comments that describe a tool or the stock in two ways";
     781 RapidAtDepth "rapid-at-depth" Warning "a rapid move at cutting depth, where the surface of the material is unknown";
-    782 UnknownPosition "unknown-position" Warning "a cut that begins where the program has not stated X and Y";
+    782 UnknownPosition "unknown-position" Warning "a cut that begins before the program has stated X and Y";
 }
 
 impl Code {

@@ -284,7 +284,7 @@ messages! {
     /// A tool that comments list, and that the program never uses.
     TOOL_NEVER_SELECTED: Disagreement {
         en: "comments list T{number}, but the program never changes to it",
-        de: "Kommentare führen T{number} auf, aber das Programm wechselt nie dorthin",
+        de: "Kommentare führen T{number} auf, aber das Programm wechselt es nie ein",
         help_en: "check whether a tool change is missing",
         help_de: "prüfen, ob ein Werkzeugwechsel fehlt",
     }
@@ -325,10 +325,10 @@ messages! {
     }
     /// A cut before X and Y are known, as in a program that is incremental from its beginning.
     UNKNOWN_POSITION: UnknownPosition {
-        en: "this cut begins where the program has not stated X and Y: until it does, neither travel nor rapid moves are checked",
-        de: "dieser Schnitt beginnt, wo das Programm X und Y nicht angegeben hat: bis dahin werden weder Verfahrwege noch Eilgänge geprüft",
-        help_en: "go to a position in X and Y with G90 first; is G91 meant?",
-        help_de: "zuerst mit G90 eine Position in X und Y anfahren; ist G91 gemeint?",
+        en: "this cut begins before the program has stated X and Y: until it does, neither travel nor rapid moves are checked",
+        de: "dieser Schnitt beginnt, bevor das Programm X und Y angegeben hat: bis dahin werden weder Verfahrwege noch Eilgänge geprüft",
+        help_en: "go to a position in X and Y with G90 first, and check whether G91 is intended",
+        help_de: "zuerst mit G90 eine Position in X und Y anfahren und prüfen, ob G91 gemeint ist",
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {
