@@ -176,7 +176,7 @@ pub struct TextFault {
 /// Maximum length in bytes of a text that is kept in full.
 const LONGEST: usize = 4 * AROUND;
 
-/// Number of bytes of a longer text kept before a fault; twice as many are kept from its start.
+/// Number of bytes of a longer text kept before a fault; twice as many are kept from the start of the fault on.
 const AROUND: usize = 1000;
 
 impl TextFault {

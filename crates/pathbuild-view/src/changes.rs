@@ -170,7 +170,7 @@ pub struct Group {
     pub moves: usize,
     /// Their total length in mm.
     pub length: f64,
-    /// The end of the first one, in the coordinates of the program.
+    /// The end of the first of these moves, in the coordinates of the program.
     pub at: Option<Point>,
 }
 

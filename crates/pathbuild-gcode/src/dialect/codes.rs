@@ -223,7 +223,7 @@ pub(super) static MARLIN: Words = Words {
     lenient: false,
 };
 
-/// No coordinate systems and no cycles. M10 and M11 switch an output.
+/// The words of Estlcam, which has neither coordinate systems nor cycles. M10 and M11 switch an output.
 pub(super) static ESTLCAM: Words = Words {
     letters: Letters::new(b"FGIJKMNRSTXYZ"),
     g: &[0, 10, 20, 30, 170, 200, 210, 900, 910],

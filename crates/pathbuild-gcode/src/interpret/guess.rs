@@ -191,7 +191,7 @@ fn is_number(text: &[u8]) -> bool {
     !text.is_empty() && text.iter().all(u8::is_ascii_digit)
 }
 
-/// Subroutines and branches. A bare `O1234` is the program number of another control.
+/// Whether a line with an O word is part of a subroutine or a branch. A bare `O1234` is the program number of another control.
 fn ends_in_keyword(line: &[u8]) -> bool {
     const KEYWORDS: [&[u8]; 10] =
         [b"sub", b"endsub", b"call", b"if", b"else", b"endif", b"while", b"do", b"repeat", b"return"];

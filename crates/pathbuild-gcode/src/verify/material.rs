@@ -243,7 +243,7 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Half the diagonal of a cell plus the distance of chords from their arc.
+    /// Upper bound of half the diagonal of a cell plus the distance of chords from their arc.
     fn slack(&self) -> f64 {
         self.resolution
     }

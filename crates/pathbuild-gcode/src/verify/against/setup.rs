@@ -254,7 +254,7 @@ impl<'w> Setup<'w> {
     fn cutting_tool(&mut self, line: u32, problems: &mut Problems) {
         // If the post inserts its tool by M6, T alone only selects the next tool.
         let chosen = self.inserted.or(self.selected.filter(|_| !self.words.has('M', 60)));
-        // A layer is its tool. Elsewhere, a wrong tool has been reported where it was selected.
+        // On XpertMILL, the layer takes the place of the tool. On other controls, a wrong tool has been reported where it was selected.
         let fits = |chosen| {
             !self.dialect.rules().layers || self.expected.number.is_none_or(|number| number == chosen)
         };
