@@ -1,4 +1,5 @@
-//! The three variables of the HEADER section that matter: version, code page, units. (book: reference/dxf; book: reference/configuration, `units`)
+//! The three variables of the HEADER section that matter: version, code page, units. (book: reference/dxf; book: reference/configuration,
+//! `units`)
 
 use std::sync::LazyLock;
 

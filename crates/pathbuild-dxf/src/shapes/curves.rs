@@ -1,6 +1,6 @@
 //! ELLIPSE and SPLINE, approximated by lines and arcs within a tolerance: SPLINE is a B-spline, rational or not, open or closed. (book:
-//! reference/configuration, `approximate-curves`; DXF reference: ELLIPSE has its centre in 10, the end of the major axis relative to it in 11,
-//! the ratio in 40, parameters in 41 and 42; SPLINE has its degree in 71, knots in 40, control points in 10, weights in 41)
+//! reference/configuration, `approximate-curves`; DXF reference: ELLIPSE has its centre in 10, the end of the major axis relative to it in
+//! 11, the ratio in 40, parameters in 41 and 42; SPLINE has its degree in 71, knots in 40, control points in 10, weights in 41)
 //!
 //! A curve is divided into biarcs: two tangent arcs with given directions at both ends. Their joint is chosen so that both ends are equally
 //! far from the corner of their tangents.
