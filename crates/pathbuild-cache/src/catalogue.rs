@@ -37,8 +37,8 @@ pub struct DirectoryFact {
     pub path: Utf8PathBuf,
     /// The names of its drawings, sorted.
     pub names: Vec<Box<str>>,
-    /// Canonical paths of the directory and of the target of each symbolic link in it, relative to the configuration's directory if inside it.
-    /// They decide whether two files are the same.
+    /// Canonical paths of the directory and of the target of each symbolic link in it, relative to the configuration's directory if inside
+    /// it. They decide whether two files are the same.
     pub canonical: Box<str>,
     /// Whether lookups in this directory are always repeated: names may be missing, or the directory changed while it was read.
     pub is_doubtful: bool,

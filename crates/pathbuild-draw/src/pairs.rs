@@ -1,8 +1,9 @@
 //! Pairs of DXF as the crate `dxf` writes them, and the correction of its errors and omissions.
 //!
 //! The crate knows which groups an entity has. But it duplicates handles; omits the handles of tables, the owners, and model and paper
-//! space; writes an empty group 430; drops alignment points at the origin; does not know frozen layers; escapes carets and umlauts; and puts
-//! the time and a random number into each file. Strings are therefore passed as tickets and restored here, and handles are assigned anew.
+//! space; writes an empty group 430; drops alignment points at the origin; does not know frozen layers; escapes carets and umlauts; and
+//! puts the time and a random number into each file. Strings are therefore passed as tickets and restored here, and handles are assigned
+//! anew.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -141,8 +141,8 @@ const FRAME: &str = include_str!("frame.txt");
 /// The handle of the first entity.
 const FIRST_HANDLE: u64 = 0x100;
 
-/// The number in [`FRAME`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space, which
-/// comes after the layers.
+/// The number in [`FRAME`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space,
+/// which comes after the layers.
 const FIRST_LAYER: u64 = 31;
 const PLOT_STYLE: u64 = 10;
 const LAYER_TABLE: u64 = 30;

@@ -13,8 +13,8 @@ use pathbuild_diagnostic::reasons::LEADS_OUT;
 use super::{Entry, FileKind, FileLink, Listing, ReadError, Stamp, System, WriteOutcome, clean};
 
 /// Wraps another system and refuses to read or write through links that lead from inside one of the given directories to outside of it. A
-/// path that is spelt outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so such a
-/// path was given by the user.
+/// path that is spelt outside of them is allowed: names from the repository itself are checked with [`ConfinedSystem::holds`] first, so
+/// such a path was given by the user.
 #[derive(Clone, Debug)]
 pub struct ConfinedSystem {
     below: Arc<dyn System>,

@@ -32,8 +32,8 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 /// Reading, listing and writing files.
 pub trait System: Debug + Send + Sync {
-    /// Reads a file into a buffer, whose old content is overwritten, and returns the file's stamp. The stamp is unknown if it differs before
-    /// and after reading, or if the system has none: then the file must be read again to find out whether it has changed.
+    /// Reads a file into a buffer, whose old content is overwritten, and returns the file's stamp. The stamp is unknown if it differs
+    /// before and after reading, or if the system has none: then the file must be read again to find out whether it has changed.
     ///
     /// # Errors
     /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`. The content of the buffer is then undefined.
