@@ -551,7 +551,7 @@ fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
     diagnostic
 }
 
-/// Names that a note lists at most.
+/// Maximum number of names in a note.
 const MOST: usize = 5;
 
 /// Adds a note to a finding about a path that none of the searched drawings defines: the names of which `name` may be a misspelling, else

@@ -307,7 +307,7 @@ impl Arc {
         if squared == 0.0 {
             return false;
         }
-        // The position of the radical line on the way between the centres, as a fraction of the way.
+        // Where the line through the crossings of both circles meets the line between the centres, as a fraction of their distance.
         let along = (squared + self.radius * self.radius - other.radius * other.radius) / (2.0 * squared);
         let half = self.radius * self.radius / squared - along * along;
         if half < 0.0 {

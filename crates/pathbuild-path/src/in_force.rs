@@ -38,7 +38,8 @@ pub struct Parameter {
     pub from: Provider,
 }
 
-/// Returns the effective parameters of a path's start, of its elements in their order, and of its probes. Errors in them are not reported here.
+/// Returns the effective parameters of a path's start, of its elements in their order, and of its probes. Errors in them are not reported
+/// here.
 pub fn parameters_in_force(
     raw: &RawPath,
     bindings: &Bindings,

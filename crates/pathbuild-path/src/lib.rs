@@ -1,8 +1,8 @@
 //! The drawing language: path names, parameters, variables, the walk, chains.
 //!
-//! [`raw_file`] finds the paths of a drawing; [`bind()`] binds the variables of a raw path and checks every parameter; [`walk()`] orders its
-//! segments from the start to the end and groups them into milling chains. This crate knows neither salsa nor files nor
-//! G-code. (book: language/layers-and-names to language/q-projects)
+//! [`raw_file`] finds the paths of a drawing; [`bind()`] binds the variables of a raw path and checks every parameter; [`walk()`] orders
+//! its segments from the start to the end and groups them into milling chains. This crate knows neither salsa nor files nor G-code. (book:
+//! language/layers-and-names to language/q-projects)
 
 pub mod approx;
 mod bind;

@@ -365,7 +365,7 @@ fn differing_variables(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> 
     differences
 }
 
-/// A value as it is shown where there may be none.
+/// A value in quotation marks, or a hyphen if there is none.
 fn or_dash(value: Option<&str>) -> Value {
     Value::quoted(value.unwrap_or("-"))
 }

@@ -122,7 +122,7 @@ impl Binder<'_> {
                         .with("tool", tool);
                     self.report(scope.at, problem);
                 }
-                // Even so, it needs its depth, and it is a point of the walk.
+                // Continue as if it were a hole: its depth is still checked, and the walk passes through it.
                 let class =
                     if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole };
                 let hole = self.hole(&Scope { class, ..scope }, cut);

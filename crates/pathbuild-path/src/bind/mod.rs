@@ -109,7 +109,8 @@ impl<'a> Binder<'a> {
             Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
         let mut values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
         let has_text = raw.parameters.is_some() && !raw.faults.has_second_start;
-        // Letters that are missing only from the path's own text are known to be missing; those that may be in a faulty text are not.
+        // Letters that the path's own text lacks may be in a text without an element. If that text itself is missing or uncertain, any
+        // letter may be given.
         let hidden =
             if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
         values.unread = values.unread.and(hidden);

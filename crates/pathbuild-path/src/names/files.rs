@@ -127,8 +127,8 @@ fn is_integer(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// The name ranges of many files, ordered by the first group of their first name. Integers and texts have no common order, so each lookup
-/// searches either the integers or the texts, and scans all ranges from one to the other.
+/// The name ranges of many files, ordered by the first group of their first name. Integers and texts have no common order, so ranges from
+/// one to the other are kept apart and scanned by each lookup.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RangeTable {
     sorted: Vec<Entry>,
@@ -219,7 +219,7 @@ impl RangeTable {
         let group = path.0.first();
         match group.and_then(|group| FirstGroup::new(group)).zip(group) {
             Some((first, group)) => {
-                // A text is compared with integers as text, for which they are not ordered.
+                // A text is compared with integers as texts, and they are not sorted as texts: scan all of them.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }

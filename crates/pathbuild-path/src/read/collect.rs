@@ -556,7 +556,8 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// The only circle to mill that has the diameter of an end marker, in a path whose start has lost its line type. PB102 is reported there.
+    /// The only circle to mill that has the diameter of an end marker, in a path whose start has lost its line type. PB102 is reported
+    /// there.
     fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let is_like_end = |element: &Element| {
             element.role == Role::Cut(Cut::Mill)

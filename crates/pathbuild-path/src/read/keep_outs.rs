@@ -182,7 +182,7 @@ impl Reading<'_> {
     /// The height of each outline, from the one text inside or overlapping it. PB117 if there is none, if there are several, or if the text
     /// gives no height.
     fn heights(&mut self, entities: &[usize], outlines: &[ClosedOutline]) -> Vec<Option<f64>> {
-        // Texts count as being below any height.
+        // Texts are searched like moves at Z 0, so give every outline the height 1.
         let map = KeepOutMap::new(outlines.iter().map(|closed| (1.0, &*closed.outline)));
         let mut texts = vec![OutlineTexts::default(); outlines.len()];
         for number in entities {

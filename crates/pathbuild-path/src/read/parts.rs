@@ -215,7 +215,7 @@ struct Graph {
     curves: Vec<Curve>,
     /// The node at which each half-edge begins.
     tails: Vec<usize>,
-    /// The curves that count.
+    /// Indices of the curves that have not been dropped.
     numbers: Vec<usize>,
 }
 
@@ -246,7 +246,7 @@ impl Graph {
         graph
     }
 
-    /// Drops curves that are drawn twice: a curve is known by its nodes and its middle.
+    /// Drops curves that are drawn twice: curves are equal if their nodes and their middles are.
     fn drop_duplicates(&mut self) {
         let middle = |curve: &Curve| curve.section(0.0, curve.length() / 2.0).end();
         let mut known: BTreeMap<(usize, usize), Vec<Xy>> = BTreeMap::new();
@@ -267,7 +267,7 @@ impl Graph {
         if half_edge.is_multiple_of(2) { curve.start() } else { curve.end() }
     }
 
-    /// Pairs of ends that meet nothing, and almost each other: the curve and the place of one, and the place of the other.
+    /// Pairs of loose ends that almost meet: the curve and the position of one end, and the position of the other.
     fn near_misses(&self) -> Vec<((usize, Xy), Xy)> {
         let mut degrees = vec![0; self.tails.len()];
         let ends = || self.numbers.iter().flat_map(|number| [2 * number, 2 * number + 1]);
