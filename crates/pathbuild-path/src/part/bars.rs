@@ -23,7 +23,7 @@ pub struct LostBar {
     pub by: usize,
     /// Index into [`PathCuts::elements`] of that path.
     pub element: u32,
-    /// How much of the bar goes, in mm.
+    /// The length in mm that is cut away.
     pub lost: f64,
     /// The length of the bar in mm.
     pub length: f64,
@@ -67,7 +67,7 @@ struct BarLoss<'b> {
 }
 
 impl BarLoss<'_> {
-    /// What each element of each path takes of the bar, in mm, if it is too much.
+    /// The elements that cut too much of the bar away, by path and element, each with the length in mm.
     fn elements(&self) -> Vec<((usize, u32), f64)> {
         let mut gone: BTreeMap<(usize, u32), Vec<Stretch>> = BTreeMap::new();
         for number in self.cuts.near(around(self.middle, 0.0)) {

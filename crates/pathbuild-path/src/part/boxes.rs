@@ -9,7 +9,7 @@ type Boxed = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
 /// Boxes, which are numbered from 0.
 pub(crate) enum BoxIndex {
-    /// So few that comparing all of them takes less time than building a tree and asking it.
+    /// So few that comparing all of them takes less time than building and searching a tree.
     Few(Vec<AABB<[f64; 2]>>),
     Many(RTree<Boxed>),
 }
@@ -28,7 +28,7 @@ impl BoxIndex {
         Self::Many(RTree::bulk_load(boxed.collect()))
     }
 
-    /// The numbers of the boxes that meet another one, in ascending order, so that no result depends on the shape of the tree.
+    /// The numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
     pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
         match self {
             Self::Few(boxes) => {

@@ -32,8 +32,8 @@ pub struct PartFindings {
 /// Depth in mm up to which a cut into a part is a warning.
 const SHALLOW: f64 = 0.1;
 
-/// Checks the cuts of all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known; otherwise what
-/// is not cut is not reported.
+/// Checks the cuts of all paths of a drawing against its parts. `is_complete`: whether the cuts of all its paths are known; otherwise
+/// missing cuts are not reported.
 pub fn check_parts(
     parts: &[Part],
     paths: &[&PathCuts],
@@ -100,7 +100,7 @@ struct PartCheck<'s> {
     owners: Vec<bool>,
     /// For each path, whether it cuts the part out.
     contours: Vec<bool>,
-    /// Cuts of the owners by number.
+    /// The cuts of the owners, by number.
     judged: BTreeMap<usize, JudgedCut<'s>>,
 }
 
@@ -126,7 +126,7 @@ impl<'s> PartCheck<'s> {
         (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_near(*ring))
     }
 
-    /// The findings about the owners, each with its path. What is not cut is judged on the cuts of all of them together.
+    /// The findings about the owners, each with the index of its path. Whether material is left depends on the cuts of all owners together.
     fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut found: Vec<_> = self.gouged().collect();
         found.extend(self.left_over(leftovers));
@@ -171,7 +171,7 @@ impl<'s> PartCheck<'s> {
         found
     }
 
-    /// PB217 if the part is cut out all round, in the first of its paths.
+    /// PB217 if the part is cut out all round, reported in the first of its paths.
     fn loose(&self) -> Option<(usize, Diagnostic)> {
         if self.settings.is_held_otherwise {
             return None;
@@ -226,7 +226,7 @@ fn gouge_problem(gouge: &Gouge) -> Diagnostic {
     problem
 }
 
-/// PB215 for what an element leaves, with the longest stretch. `None` without any.
+/// PB215 for the material left beside an element, at the longest of these stretches. `None` if there are none.
 fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
     let left = stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
     let problem = match left.height {

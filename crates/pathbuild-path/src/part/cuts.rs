@@ -56,7 +56,7 @@ pub struct CutElement {
 /// A move in the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartCut {
-    /// The way of the tool tip.
+    /// The path of the tool tip.
     pub way: Way,
     /// Index into [`PathCuts::elements`].
     pub element: u32,
@@ -65,15 +65,15 @@ pub struct PartCut {
 /// A support bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StandingBar {
-    /// Its middle line, as far as the cuts beside it do not reach; `None` if they leave nothing of a half bar.
+    /// The section of its middle line that the cuts beside it leave; `None` if they leave nothing of it.
     pub middle: Option<Curve>,
-    /// The way along which the tool stays above the plate because of the bar.
+    /// The section of the segment along which the bar and its slopes keep the tool above B.
     pub foot: Curve,
     /// Z of its top.
     pub top: f64,
 }
 
-/// Height in mm above the plate below which a cut counts as going through it: one that ends at Z0.001 still does.
+/// Z in mm up to which a cut counts as going through the plate: one that ends at Z0.001 still does.
 pub const THROUGH: f64 = 0.001 + 1e-6;
 
 impl PathCuts {
@@ -82,7 +82,7 @@ impl PathCuts {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }
 
-    /// Whether it cuts parts out: a cut goes through the plate, and not that of a slot cutter.
+    /// Whether it cuts parts out: one of its cuts goes through the plate, and it is not milled with a slot cutter.
     fn is_contour(&self) -> bool {
         !self.is_slot && self.elements.iter().any(|element| element.lowest <= THROUGH)
     }

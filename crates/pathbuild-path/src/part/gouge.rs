@@ -10,7 +10,7 @@ use crate::geometry::{Curve, Xy};
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct JudgedCut<'c> {
     pub(super) cut: IndexedCut<'c>,
-    /// Its section through the plate; of a cut that ends above the plate, all of it.
+    /// The section that goes through the plate, or the whole curve if the cut ends above the plate.
     pub(super) curve: Curve,
     /// Where its middle lies.
     pub(super) side: Side,
@@ -25,7 +25,7 @@ pub(super) struct Gouge {
     pub(super) at: Xy,
     /// How deep, in mm.
     pub(super) depth: f64,
-    /// Over what length, in mm along the way of the cutter.
+    /// The length in mm, along the path of the cutter, on which it goes into the part.
     pub(super) length: f64,
 }
 
@@ -73,7 +73,8 @@ pub(super) fn gouges<'j>(
 }
 
 impl Gouge {
-    /// Whether another place is deeper. Of places that are equally deep, the leftmost counts, so that the order of the cuts does not matter.
+    /// Whether another place is deeper. Of places that are equally deep, the leftmost counts, so that the order of the cuts does not
+    /// matter.
     fn is_exceeded_by(&self, at: Xy, depth: f64) -> bool {
         let is_left = || (at.x, at.y) < (self.at.x, self.at.y);
         depth > self.depth + GAP || (depth >= self.depth - GAP && is_left())

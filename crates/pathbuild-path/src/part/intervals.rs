@@ -59,7 +59,7 @@ impl Candidates {
         }
     }
 
-    /// Those on the curve, in order.
+    /// The places that lie on the curve, in order.
     fn sorted(&mut self, length: f64) -> &[f64] {
         let mut kept = 0;
         for number in 0..self.count {
@@ -97,7 +97,7 @@ pub(crate) fn joined(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
     stretches
 }
 
-/// What joined stretches leave of a range.
+/// The stretches of a range between joined stretches.
 pub(crate) fn rest(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
     let mut at = start;
     let mut left = Vec::new();
@@ -114,7 +114,7 @@ pub(crate) fn rest(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch>
     left
 }
 
-/// What is in both of two sequences of joined stretches.
+/// The intersection of two sequences of joined stretches.
 pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     let mut all = Vec::new();
     let (mut a, mut b) = (one.iter().peekable(), other.iter().peekable());
@@ -132,7 +132,7 @@ pub(crate) fn common(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     all
 }
 
-/// What is in the first of two sequences of joined stretches, but not in the second.
+/// The difference of two sequences of joined stretches: what is in the first but not in the second.
 pub(crate) fn without(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
     one.iter().flat_map(|stretch| rest(other, *stretch)).collect()
 }
@@ -169,7 +169,7 @@ pub(crate) fn beside(curve: &Curve, distance: f64) -> Option<Curve> {
     }
 }
 
-/// Where an arc has the point of its circle in that direction from its centre, in mm along it.
+/// The position, in mm along an arc, of its point in a direction from the centre; `None` if it has no point there.
 fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
     if !arc.spans(out) {
         return None;

@@ -43,7 +43,7 @@ pub(super) struct Leftover {
 pub struct LeftMaterial {
     /// The stretch of the outline.
     pub outline: Vec<Curve>,
-    /// How far in mm it reaches from there.
+    /// How far in mm the material reaches from the outline.
     pub reach: f64,
 }
 
@@ -56,7 +56,7 @@ impl Leftover {
     }
 }
 
-/// The outline that no cutter of this diameter reaches.
+/// The stretches of outlines that the cutters beside them cannot reach without entering the part elsewhere.
 #[derive(Clone, Debug)]
 pub(super) struct UnreachableOutline {
     /// The middle of the longest stretch.
@@ -68,7 +68,7 @@ pub(super) struct UnreachableOutline {
     pub(super) element: u32,
 }
 
-/// What is left of a part.
+/// The material left at the outlines of a part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Leftovers {
     pub(super) stretches: Vec<Leftover>,
@@ -88,12 +88,12 @@ pub(super) struct LeftoverSearch<'s> {
     grooves: BTreeSet<(usize, u32)>,
 }
 
-/// A ring, as stretches in mm along it.
+/// Stretches of a ring that through cuts do not reach, in mm along it.
 #[derive(Default)]
 struct RingStretches {
     /// Where material is left.
     left: Vec<Stretch>,
-    /// What no cut comes near.
+    /// Where no cut comes near.
     never: Vec<Stretch>,
     unreachable: Vec<Stretch>,
     length: f64,
@@ -103,7 +103,7 @@ struct RingStretches {
 struct RingCurve<'r> {
     ring: usize,
     curve: &'r Curve,
-    /// By number.
+    /// The numbers of these cuts.
     near: Vec<usize>,
 }
 
@@ -121,7 +121,7 @@ impl<'s> LeftoverSearch<'s> {
         Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
     }
 
-    /// What is left of all rings. Of rings in the same nest, one must be cut.
+    /// The material left at all rings. Of the rings of a nest, only the one with the least material left counts.
     pub(super) fn leftovers(&self) -> Leftovers {
         let mut nests: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (ring, drawn) in self.part.part.rings.iter().enumerate() {
@@ -165,7 +165,8 @@ impl<'s> LeftoverSearch<'s> {
         is_near.then_some(all)
     }
 
-    /// Adds what through cuts leave of a curve, which begins at the end of the stretches so far.
+    /// Adds the gaps that through cuts leave on a curve: those where material is left to `uncut`, the others to the stretches of the ring.
+    /// The curve begins at `all.length` along the ring.
     fn add_gaps(
         &self,
         curve: &RingCurve<'_>,
@@ -176,7 +177,7 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
-        // First, since most gaps are the feet of bars.
+        // The feet of bars go first, since most gaps are nothing else.
         let gaps = without(gaps, &self.feet(curve));
         if gaps.is_empty() {
             return;
@@ -211,7 +212,7 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// What is cut through the plate within the tolerance.
+    /// The stretches of a curve that through cuts reach within the tolerance.
     fn covered(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for judged in curve.near.iter().filter_map(|number| self.judged.get(number)) {
@@ -222,7 +223,7 @@ impl<'s> LeftoverSearch<'s> {
         joined(found, GAP)
     }
 
-    /// What a cut beside the part comes near: one that goes through the plate within O, another where it should.
+    /// The stretches of a curve near a cut beside the part: within O of a cut that goes through the plate, or reached by one that does not.
     fn close(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for judged in self.beside(curve) {
@@ -265,7 +266,7 @@ impl<'s> LeftoverSearch<'s> {
         joined(feet.collect(), GAP)
     }
 
-    /// What is cut down to the top of a bar, but not all through the plate.
+    /// The stretches of a curve that cuts reach below the top of a bar without going through the plate all along.
     fn low(&self, curve: &RingCurve<'_>, top: f64) -> Vec<Stretch> {
         let mut found = Vec::new();
         for cut in self.own(&curve.near).filter(|cut| cut.through != Some(cut.cut.way.curve)) {
@@ -287,8 +288,8 @@ impl<'s> LeftoverSearch<'s> {
         numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
     }
 
-    /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: from there
-    /// on the edge of the plate is the edge of the part.
+    /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: from
+    /// there on the edge of the plate is the edge of the part.
     fn leftover(&self, ring: usize, (from, to): Stretch, stretches: &RingStretches) -> Option<Leftover> {
         let whole = stretches.length;
         let place = |along: f64| self.ring_point(ring, along, whole);
@@ -302,7 +303,7 @@ impl<'s> LeftoverSearch<'s> {
         if length <= 2.0 * nearest.cut.radius && (is_end(from) || is_end(to)) {
             return None;
         }
-        // Not at the ends, which may lie beside the end of the cut, where its edge is as far away as it can be.
+        // Take no samples at the ends: they may lie beside the end of the cut, where its edge is farthest away.
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
         let is_through = nearest.cut.through.is_some();
@@ -342,7 +343,7 @@ impl<'s> LeftoverSearch<'s> {
         }
     }
 
-    /// The distance in mm from a point of an outline to the edge of the nearest cut, however deep: above a bar too.
+    /// The distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
     fn distance(&self, at: Xy) -> f64 {
         let near = self.cuts.near(square(at, 0.0));
         let distances = self.own(&near).map(|cut| cut.cut.way.curve.distance_to(at) - cut.radius);

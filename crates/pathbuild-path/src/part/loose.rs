@@ -29,7 +29,7 @@ pub(super) fn is_cut_out<'b>(
 ) -> bool {
     let beside = bars.flat_map(|(bar, radius)| beside_bar(bar, radius));
     let beside: Vec<(Xy, Xy)> = beside.filter(|(at, _)| part.is_material(*at)).collect();
-    // Most bars hold the part as one sees at once: straight across, nothing is cut.
+    // For most bars a cheap test suffices: a straight line across the bar meets no cut.
     if beside.iter().any(|(at, bar)| leads_straight_out(*at, *bar, cuts)) {
         return false;
     }
@@ -52,10 +52,10 @@ fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> 
     })
 }
 
-/// How far beside a bar the part is, in cutter radii: just behind the edge of the cut that the bar interrupts.
+/// How far beside a bar the part is, in cutter radii: just beyond the edge of the cut that the bar interrupts.
 const BESIDE_BAR: f64 = 1.01;
 
-/// Whether the straight way from a point beside a bar across its middle meets no cut.
+/// Whether the straight line from a point beside a bar across the bar's middle meets no cut.
 fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
     let Some(direction) = (bar - at).try_normalize(0.0) else { return false };
     let farthest = |curve: &Curve| (curve.start() - at).norm() + curve.length();
@@ -64,7 +64,7 @@ fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
     cuts.iter().all(|(curve, radius)| curve.distance(&way) > *radius)
 }
 
-/// Whether a straight way leads from a point to the border of the plate without meeting a cut.
+/// Whether a straight line leads from a point to the border of the plate without meeting a cut.
 fn has_way_out(at: Xy, sweeps: &[Sweep]) -> bool {
     let Some(mut hidden) = sweeps.iter().map(|sweep| sweep.seen_from(at)).collect::<Option<Vec<_>>>() else {
         return false;

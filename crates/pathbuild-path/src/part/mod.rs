@@ -39,14 +39,15 @@ pub struct PartSettings {
     pub slots: SlotPaths,
 }
 
-/// Tells by the name and O in mm of a path whether a slot cutter mills it, which cuts beside the shape that the outline shows.
+/// Predicate that tells by the name of a path and its O in mm whether a slot cutter mills it. Slot cutters cut slots that the outlines of
+/// parts do not show.
 #[derive(Clone)]
 pub struct SlotPaths(Arc<IsSlot>);
 
 type IsSlot = dyn Fn(&str, f64) -> bool + Send + Sync;
 
 impl SlotPaths {
-    /// Asks a function.
+    /// Wraps a predicate on the name and O in mm of a path.
     pub fn new(is_slot: impl Fn(&str, f64) -> bool + Send + Sync + 'static) -> Self {
         Self(Arc::new(is_slot))
     }
@@ -58,7 +59,7 @@ impl SlotPaths {
 }
 
 impl Default for SlotPaths {
-    /// None.
+    /// No path.
     fn default() -> Self {
         Self::new(|_, _| false)
     }
@@ -86,8 +87,8 @@ pub struct Part {
 pub struct PartRing {
     /// Its curves.
     pub curves: Vec<Curve>,
-    /// Index among the rings of the opening that contains it; of an opening in no other, its own. Rings of the same nest are alternatives: a
-    /// circle for the thread round a hole.
+    /// Index of the outermost opening that contains this ring, or of the ring itself if none does. Rings of the same nest are alternatives,
+    /// of which only one must be cut: for example, a hole and the circle around it that shows its thread.
     pub nest: usize,
 }
 
@@ -103,8 +104,8 @@ pub struct DrawnParts {
 }
 
 impl Part {
-    /// Whether a path may cut the part: by default any path, otherwise the one captured by the pattern, with letters after its name at
-    /// most.
+    /// Whether a path may cut the part: any path if the pattern captures no name, otherwise those whose names are the captured one,
+    /// possibly followed by letters.
     pub fn may_belong_to(&self, path: &PathName) -> bool {
         let Some(name) = &self.paths else { return true };
         let path = path.folded();

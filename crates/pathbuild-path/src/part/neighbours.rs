@@ -40,12 +40,12 @@ pub struct NeighbourGouge {
     pub depth: f64,
 }
 
-/// What a path takes from another one.
+/// The cuts of a path into the parts and support bars of another one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NeighbourCuts {
-    /// Cuts into its parts.
+    /// Cuts into the other path's parts.
     pub gouges: Vec<NeighbourGouge>,
-    /// Its bars that are cut away.
+    /// The other path's bars that are cut away.
     pub bars: Vec<LostBar>,
 }
 
@@ -61,7 +61,7 @@ impl<'c> PlacedCuts<'c> {
         Self { cuts, parts, placement, raised, swept: swept.map(placed), kept: kept.map(placed) }
     }
 
-    /// What another path takes from this one.
+    /// The cuts of another path into the parts and bars of this one.
     pub fn taken_by(&self, other: &Self, tolerance: f64) -> NeighbourCuts {
         let is_near = self.kept.zip(other.swept).is_some_and(|(kept, swept)| kept.intersects(&swept));
         if !is_near {

@@ -25,11 +25,11 @@ struct PreparedRing {
     outline: OnceCell<Outline>,
 }
 
-/// A way of a cutter beside a part or into it.
+/// How a cutter moves past a part or into it.
 pub(crate) struct Passage {
-    /// Where the middle of the way lies.
+    /// Where the middle of the cutter's way lies.
     pub(crate) side: Side,
-    /// Whether the cutter touches no ring, so that all of the way lies there.
+    /// Whether the cutter touches no ring, so that its whole way lies on that side.
     pub(crate) is_clear: bool,
     /// The stretches on which the cutter goes into the part.
     pub(crate) entered: Vec<Stretch>,
