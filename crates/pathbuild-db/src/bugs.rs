@@ -12,8 +12,8 @@ use salsa::Cancelled;
 /// Panic payload of work that exceeded this time limit.
 pub(crate) struct TimeoutPanic(pub(crate) Duration);
 
-/// Runs work, usually without queries of its own. If a drawing changes meanwhile, the unwinding query counts as a bug here. Cancellation is
-/// passed on.
+/// Runs work that usually makes no queries. If it makes one that unwinds because its drawing has changed, that counts as a bug here.
+/// Cancellation is passed on.
 ///
 /// # Errors
 /// PB006 if it panicked, PB005 if it exceeded its time limit; both without a place.

@@ -1,6 +1,6 @@
 //! The database: its interface for queries, the results of all queries, the system, the inputs that stand for files, directories that are
-//! listed ahead of their queries, and the scratch buffers for drawings. Work on one target is guarded by a time limit and a panic handler, so
-//! that one target cannot stop the others.
+//! listed ahead of their queries, and the scratch buffers for drawings. Work on one target is guarded by a time limit and a panic handler,
+//! so that one target cannot stop the others.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -135,8 +135,8 @@ impl Database {
         directory.set_revision(self).to(next);
     }
 
-    /// Starts a new revision for drawings that no longer match their indexes. Returns whether there were any; if so, the results
-    /// since must be queried again.
+    /// Starts a new revision for drawings that no longer match their indexes. Returns whether there were any; if so, earlier results must
+    /// be queried again.
     pub fn apply_noted_changes(&mut self) -> bool {
         let changed = std::mem::take(&mut *lock(&self.shared.changed));
         let has_changes = !changed.is_empty();
@@ -320,7 +320,7 @@ const MOST_BYTES: usize = 1 << 20;
 const MOST_ENTITIES: usize = 1 << 12;
 
 impl ScratchPool {
-    /// Calls `work` with a scratch buffer, which holds the content of the previous drawing.
+    /// Calls `work` with a scratch buffer, which still holds the content of an earlier drawing.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&mut Scratch) -> R) -> R {
         let mut scratch = self.free().pop().unwrap_or_default();
         let result = work(&mut scratch);

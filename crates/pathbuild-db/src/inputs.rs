@@ -85,7 +85,7 @@ pub struct Settings {
 /// How drawings are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// The unit that $INSUNITS stands for.
+    /// How $INSUNITS is treated.
     pub units: Units,
     /// Tolerance in mm for approximating ELLIPSE and SPLINE; 0 ignores them.
     pub approximate_curves: f64,

@@ -133,7 +133,7 @@ impl Closure<'_> {
         self.root.is_none() || self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// Whether its moves are unknown. Those that harm a part are known.
+    /// Whether errors leave its moves unknown. Cuts into a part or through a support bar are errors too, but leave the moves known.
     pub fn has_unknown_moves(&self) -> bool {
         let is_harm = |problem: &Diagnostic| matches!(problem.code(), Code::GougedPart | Code::BarCutAway);
         let is_other = |problem: &Diagnostic| problem.is_error() && !is_harm(problem);

@@ -1,5 +1,5 @@
-//! Paths with bound variables, and what each embeds directly: every subpath segment with the path that it names, checked against each other.
-//! (book: language/embedding; the order of errors: book: reference/diagnostics)
+//! Paths with bound variables, and what each embeds directly: every subpath segment with the path that it names, checked against each
+//! other. (book: language/embedding; the order of errors: book: reference/diagnostics)
 
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{

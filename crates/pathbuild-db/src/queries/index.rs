@@ -192,7 +192,7 @@ impl FileIndex {
         let names: Vec<PathName> = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
         let is_checked = Settings::get(db).language(db).part.is_some();
         let has_parts = parts.as_ref().is_some_and(|drawn| !drawn.parts.is_empty());
-        // What a path beside no part cuts matters only in projects, which ask for it.
+        // Without parts in its drawing, the cuts of a path matter only to projects, which query them when needed.
         let is_needed = |walked: &WalkedPath| {
             has_parts || walked.items.iter().any(|item| matches!(item, Item::Subpath(_)))
         };
@@ -214,7 +214,7 @@ impl FileIndex {
         let is_complete = cuts.len() == paths.len();
         let parts = (has_parts || !cuts.is_empty())
             .then(|| Arc::new(FileParts { parts, cuts: in_order(cuts), is_complete }));
-        // A collected list would occupy the memory of the one it is made of, fifty times what it needs.
+        // `collect` would reuse the allocation of `paths`, which is fifty times as large as needed.
         let mut shared = Vec::with_capacity(paths.len());
         shared.extend(paths.into_iter().map(Arc::new));
         let paths = shared;
@@ -473,7 +473,7 @@ impl FileParts {
     }
 }
 
-/// The cuts of a sound path. A panic was reported by the index already if the path gives no program either.
+/// The cuts of a sound path; `None` after a panic, which is not reported here.
 pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
     let settings = Settings::get(db);
     let is_compatible = settings.reading(db).compatible;
@@ -482,7 +482,7 @@ pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<P
     catch_bugs(|| part_cuts(path, walked, is_slot, is_compatible)).ok()
 }
 
-/// In compatible mode everything about parts is a warning.
+/// Turns errors about parts into warnings in compatible mode.
 pub(super) fn soften<'p>(db: &dyn Db, problems: impl IntoIterator<Item = &'p mut Diagnostic>) {
     if Settings::get(db).reading(db).compatible {
         for problem in problems {

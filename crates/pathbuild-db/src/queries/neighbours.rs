@@ -103,7 +103,7 @@ impl<'db> PlacedProgram<'db> {
         self.paths.iter().any(is_same)
     }
 
-    /// Whether a path lies where the drawing of another one lies.
+    /// Whether the drawings of two paths have the same place in the program.
     fn is_at(&self, other: &PlacedPath<'_>, instance: Instance<'db>, placement: &Placement) -> bool {
         let corners = [Xy::new(0.0, 0.0), Xy::new(1000.0, 0.0)];
         let is_near = |at| (other.cuts.placement.place(at) - placement.place(at)).norm() <= SAME_PLACE;

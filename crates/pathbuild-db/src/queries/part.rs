@@ -122,7 +122,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
         let Some(place) = found.place(&cutting.path.name) else { continue };
         all.extend(findings.parts[place].iter().enumerate().map(|(number, part)| PlacedPart {
             drawn: &found.parts[*part],
-            // What a path leaves belongs to all its parts together.
+            // The material left is known by path, not by part: list it with the first part only.
             left: if number == 0 { &findings.left[place] } else { &[] },
             placement: occurrence.placement,
             top: occurrence.raised + cutting.path.thickness,

@@ -1,5 +1,5 @@
 //! Queries for displays: programs with the origins of their moves, the places in them where findings about two of their paths are reported,
-//! the drawn paths, and the rest of a drawing.
+//! the drawn paths, and the layers of a drawing without paths or clamps.
 
 use std::sync::Arc;
 
@@ -22,7 +22,8 @@ use crate::queries::raw::{raw_file, read_layers};
 /// A program with the origin of each step.
 #[derive(Debug)]
 pub struct TracedProgram {
-    /// The same program as that of [`program`](crate::queries::program) for emitted targets. Checked targets use the sweep height of a check.
+    /// The same program as that of [`program`](crate::queries::program) for emitted targets. Checked targets use the sweep height of a
+    /// check.
     pub program: Program,
     /// Its paths are indices into [`TracedProgram::parts`].
     pub trace: Trace<usize>,

@@ -34,7 +34,7 @@ pub(super) fn read_layers(db: &dyn Db, file: SourceFile, keep_layer: &dyn Fn(&st
     read_layers_as(db, file, Settings::get(db).reading(db), keep_layer)
 }
 
-/// The same with another reading than that of the settings.
+/// Like [`read_layers`], but with reading options other than those of the settings.
 pub(super) fn read_layers_as(
     db: &dyn Db,
     file: SourceFile,

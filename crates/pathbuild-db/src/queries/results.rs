@@ -1,4 +1,4 @@
-//! What is reported and written of a target: its program, its findings, and Q-projects. (book: language/q-projects)
+//! The results for clients: the program and the findings of a target, and Q-projects. (book: language/q-projects)
 
 use std::sync::Arc;
 
