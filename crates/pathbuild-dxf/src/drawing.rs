@@ -200,7 +200,7 @@ pub struct Text {
 /// A text of several lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MText {
-    /// Plain text as `docs/en/src/reference/dxf.md` defines it, with line breaks as `\n`; `%%c` and similar codes are not replaced yet.
+    /// The text without its formatting, with line breaks as `\n`; `%%c` and similar codes are not replaced yet. (book: reference/dxf)
     pub plain: SmolStr,
     /// Insertion point.
     pub anchor: Point3,

@@ -210,7 +210,7 @@ fn iso_8859(part: u32) -> CodePage {
     })
 }
 
-/// Replaces an escape that is no character.
+/// Replacement for an escape that does not denote a character.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;
 
 /// Decodes all escapes. The flag tells whether all of them were characters; the others become U+FFFD.
@@ -234,7 +234,7 @@ fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     (Cow::Owned(decoded), all_known)
 }
 
-/// The character and the length of the escape at the start of `text`. The inner `None` is an escape that is no character.
+/// The character and the length of the escape at the start of `text`. The inner `None` is an escape that does not denote a character.
 fn escape(text: &str) -> Option<(Option<char>, usize)> {
     unicode(text).or_else(|| multibyte(text))
 }
