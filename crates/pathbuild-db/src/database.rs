@@ -164,7 +164,7 @@ impl Database {
         self.shared.listings.put(self.directory(path), names);
     }
 
-    /// The system, for code that works beside the queries.
+    /// The system, for code that runs outside of queries.
     pub fn shared_system(&self) -> Arc<dyn System> {
         Arc::clone(&self.shared.system)
     }

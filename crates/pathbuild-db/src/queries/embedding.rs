@@ -150,7 +150,7 @@ pub struct Instance<'db> {
     pub bindings: Bindings,
 }
 
-/// The summary of a path. For example values it is part of the drawing's index.
+/// The summary of a path. The summary with example values is part of the drawing's index.
 pub fn summary<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db PathSummary {
     match path_index(db, instance.file(db), instance.name(db)) {
         Some(index) if index.examples == *instance.bindings(db) => &index.summary,

@@ -460,7 +460,7 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
 pub(super) struct FileParts {
     /// The finished parts.
     pub(super) parts: Vec<Part>,
-    /// The cuts of the sound paths for example values, in order of name. Without parts, only those of paths that embed others.
+    /// The cuts of the sound paths with example values, in order of name. Without parts, only those of paths that embed others.
     pub(super) cuts: Vec<PathCuts>,
     /// Whether the cuts of all its paths are known.
     pub(super) is_complete: bool,

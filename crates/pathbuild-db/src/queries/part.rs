@@ -1,4 +1,4 @@
-//! Findings about the cuts of a drawing's paths beside and into its parts. (book: language/part)
+//! Findings about cuts into the parts of a drawing, and about material that the cuts leave at them. (book: language/part)
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ fn indexed_parts(db: &dyn Db, file: SourceFile) -> Option<Arc<FileParts>> {
     file_index(db, file).parts.clone()
 }
 
-/// What the check of a drawing's parts finds for example values. `None` if it has no parts.
+/// The result of checking a drawing's parts, with example values for the variables of its paths. `None` if it has no parts.
 pub(super) fn part_findings(db: &dyn Db, file: SourceFile) -> Option<&PartFindings> {
     let has_parts = file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
     has_parts.then(|| checked_parts(db, file))
@@ -45,7 +45,7 @@ fn checked_parts(db: &dyn Db, file: SourceFile) -> PartFindings {
     findings
 }
 
-/// Findings about a path beside and in the parts of its drawing.
+/// Findings about the cuts of a path into the parts of its drawing, and about the material that it leaves at them.
 pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Diagnostic] {
     let file = instance.file(db);
     let Some(findings) = part_findings(db, file) else { return &[] };
