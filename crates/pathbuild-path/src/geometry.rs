@@ -247,7 +247,8 @@ impl Line {
         self.start + along * (along.dot(&(point - self.start)) / squared).clamp(0.0, 1.0)
     }
 
-    /// Whether each curve has ends on both sides of the other. Lines that only touch have an end on the other line.
+    /// Whether two lines cross, so that each has its ends on both sides of the other. Lines that only touch do not cross, but an end of one
+    /// lies on the other.
     fn crosses(&self, other: &Self) -> bool {
         let divides = |one: &Self, other: &Self| {
             let along = one.end - one.start;

@@ -45,7 +45,7 @@ impl FilePattern {
         Ok(Self(pattern))
     }
 
-    /// The names and ranges in the stem of a file name, in the order of the specification: first ranges, then single names.
+    /// The names and ranges in the stem of a file name: first all ranges, then all names, including those at the ends of ranges.
     pub fn ranges(&self, stem: &str) -> Vec<NameRange> {
         let mut found = Vec::new();
         self.each_range(stem, |range| found.push(range));

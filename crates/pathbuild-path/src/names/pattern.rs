@@ -113,7 +113,7 @@ impl Pattern {
         }
     }
 
-    /// Calls `take` with both ends of each range in a text: two names separated by nothing but a hyphen.
+    /// Calls `take` with both ends of each range in a text: two names separated by a hyphen or an en dash.
     pub(crate) fn each_range(&self, text: &str, mut take: impl FnMut(Groups, Groups)) {
         match self {
             Self::Default(pattern) => {

@@ -16,7 +16,7 @@ use crate::element::shown;
 use crate::geometry::Curve;
 use crate::keep_out::around;
 
-/// What the check of a drawing's parts found.
+/// The result of checking a drawing's parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartFindings {
     /// The outlines that no path comes near: indices of their part, and of the ring in it.

@@ -12,7 +12,7 @@ pub(super) struct JudgedCut<'c> {
     pub(super) cut: IndexedCut<'c>,
     /// The section that goes through the plate, or the whole curve if the cut ends above the plate.
     pub(super) curve: Curve,
-    /// Where its middle lies.
+    /// The side of the part on which the middle of the curve lies.
     pub(super) side: Side,
     /// The stretches of the curve on which it goes into the part.
     pub(super) entered: Vec<Stretch>,
@@ -23,7 +23,7 @@ pub(super) struct JudgedCut<'c> {
 pub(super) struct Gouge {
     /// The centre of the cutter where it goes deepest into the part.
     pub(super) at: Xy,
-    /// How deep, in mm.
+    /// The depth there, in mm.
     pub(super) depth: f64,
     /// The length in mm, along the path of the cutter, on which it goes into the part.
     pub(super) length: f64,

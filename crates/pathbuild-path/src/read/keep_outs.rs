@@ -367,7 +367,7 @@ impl<'p> RingBuilder<'p> {
             Some(next) if next == start => return Ring::Closed(ring),
             _ => {}
         }
-        // Follow the other direction as well, since all of it is a single problem.
+        // Follow the curves in the other direction as well, so that the whole open sequence is reported once.
         let (_, other) = self.follow(start);
         let several = [last, other].into_iter().find(|end| self.meets[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);

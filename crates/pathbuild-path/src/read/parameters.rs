@@ -136,7 +136,7 @@ fn referenced<'s>(
     Ok((name, start))
 }
 
-/// Length in mm below which a line is no move, and two circles are one: programs have three decimals.
+/// Length in mm below which a line is not a move, and distance below which circles coincide: programs have three decimals.
 const SHORTEST: f64 = 0.0005;
 
 /// A raw path being checked.

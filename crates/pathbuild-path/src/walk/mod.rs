@@ -21,7 +21,7 @@ pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
     walk_watched(path, join_tolerance, &|| {})
 }
 
-/// Like [`walk`], and calls `checkpoint` regularly, from where callers can unwind if the result is no longer needed.
+/// Like [`walk`], but calls `checkpoint` regularly, which may unwind if the result is no longer needed.
 pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> WalkedPath {
     let mut walk = Walker::new(path, join_tolerance, checkpoint);
     let result = walk.run();
@@ -243,7 +243,7 @@ impl<'a> Walker<'a> {
         self.turns.act(self.path, self.at)
     }
 
-    /// Retraces the way until `is_found` succeeds; an error if the way is used up. (book: language/order-and-turns)
+    /// Retraces the way until `is_found` succeeds; an error if it reaches the start first. (book: language/order-and-turns)
     fn go_back(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;
