@@ -81,7 +81,7 @@ pub fn replace(directory: &Utf8Path, name: &str, bytes: &[u8]) -> io::Result<()>
     replace::write(&directory.join(name), bytes, true)
 }
 
-/// Removes a file. A file that is already gone is no error.
+/// Removes a file. It is not an error if the file is already gone.
 ///
 /// # Errors
 /// If it cannot be removed.

@@ -1,6 +1,6 @@
 //! A straightforward model of checking a library: every file is read, every name is examined, and each path is visited as often as it is
 //! embedded, without a database, an index or caching. Reading, binding and walking are shared with the program; finding files, checking
-//! embeddings and clamps are reimplemented here from the specification, so that the program is not compared with itself.
+//! embeddings and clamps are reimplemented here from the book, so that the program is not compared with itself.
 //! (book: language/layers-and-names, book: language/variables, book: language/chains-and-passes, book: language/keep-outs,
 //! book: reference/diagnostics)
 
