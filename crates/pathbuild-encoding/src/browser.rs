@@ -92,7 +92,7 @@ pub fn decode_latin1(bytes: &[u8]) -> Cow<'_, str> {
 }
 
 /// Decodes through the browser. Also returns whether the input was well-formed.
-#[expect(unsafe_code, reason = "what the browser is handed are addresses")]
+#[expect(unsafe_code, reason = "the browser is handed addresses")]
 fn decoded(label: &str, bytes: &[u8]) -> (String, bool) {
     #[link(wasm_import_module = "browser")]
     unsafe extern "C" {

@@ -442,7 +442,7 @@ fn places(probes: &[Xy]) -> Vec<ProbedPoint> {
     places
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "saturates: nobody mills so far out")]
+#[expect(clippy::cast_possible_truncation, reason = "saturates: no program reaches so far")]
 fn micrometres(millimetres: f64) -> i64 {
     (millimetres * 1000.0).round_ties_even() as i64
 }
