@@ -10,7 +10,7 @@ pub(crate) type Stretch = (f64, f64);
 /// Gap in mm below which two stretches are one.
 pub(crate) const GAP: f64 = 1e-9;
 
-/// Gap in mm between stretches of neighbouring curves.
+/// Gap in mm below which stretches of neighbouring curves are one.
 pub(crate) const BETWEEN_CURVES: f64 = 1e-6;
 
 /// Adds the stretches of `along` that are nearer to `other` than `reach` mm.

@@ -71,7 +71,7 @@ fn has_way_out(at: Xy, sweeps: &[Sweep]) -> bool {
     };
     hidden.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
     let Some((first, _)) = hidden.first().copied() else { return true };
-    // Directions from -pi to pi; ranges may reach beyond pi, where the first ones begin again.
+    // Directions are from -pi to pi. A range may reach beyond pi and then covers the first directions again.
     let mut end = f64::NEG_INFINITY;
     for (from, to) in &hidden {
         if *from > end && end > f64::NEG_INFINITY {

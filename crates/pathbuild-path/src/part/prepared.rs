@@ -35,7 +35,7 @@ pub(crate) struct Passage {
     pub(crate) entered: Vec<Stretch>,
 }
 
-/// Where a point lies.
+/// Where a point lies with respect to a part.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Side {
     Outside,

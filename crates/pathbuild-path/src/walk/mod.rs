@@ -39,7 +39,7 @@ type Failure = Option<Box<Diagnostic>>;
 const CROWDED: usize = 16;
 
 /// Number of segments between calls of the checkpoint.
-const STRETCH: usize = 256;
+const SEGMENTS_PER_CHECKPOINT: usize = 256;
 
 struct Walker<'a> {
     path: &'a Path,
@@ -121,7 +121,7 @@ impl<'a> Walker<'a> {
             return Err(self.unless_unclear(Self::empty));
         }
         while self.left > 0 {
-            if self.left.is_multiple_of(STRETCH) {
+            if self.left.is_multiple_of(SEGMENTS_PER_CHECKPOINT) {
                 (self.checkpoint)();
             }
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
