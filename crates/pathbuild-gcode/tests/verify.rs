@@ -239,7 +239,7 @@ fn the_spindle_turns_while_cutting() {
 fn cuts_are_made_where_the_program_has_stated_x_and_y() {
     let wrong = |program| wrong(program, &Checks::default());
     assert_eq!(wrong("G91\nG0 Z5\nG0 X9 Y9\nG1 Z-6\nX20\nX9"), ["5 unknown-position"]);
-    assert_eq!(wrong("G0 Z5\nX9\nG1 Z-6"), ["4 unknown-position"]);
+    assert_eq!(wrong("G0 Z5\nX9\nG1 Z-6"), FINE, "a rotary axis may have taken the place of the other");
     assert_eq!(wrong("G0 Z5\nX0 Y0\nG91\nX9 Y9\nG1 Z-6\nX20"), FINE);
     assert_eq!(wrong("G1 Z5\nG0 X0 Y0\nG1 Z-6"), FINE);
 }
@@ -491,6 +491,12 @@ fn the_spindle_has_a_speed_while_cutting() {
     assert_eq!(with("M3"), ["4 spindle-off"]);
     assert_eq!(with("M3\nS1"), FINE);
     assert_eq!(with("M3 S5\nS0"), ["5 spindle-off"]);
+}
+
+#[test]
+fn moves_above_the_material_need_no_spindle() {
+    assert_eq!(on_stock("M3 S9\nG0 X0 Y0 Z9\nG1 Z4\nZ5\nM5\nX9\nZ9"), FINE);
+    assert_eq!(on_stock("M3 S9\nG0 X0 Y0 Z9\nG1 Z4\nZ4.9\nM5\nX9\nZ9"), ["7 spindle-off"]);
 }
 
 #[test]

@@ -179,6 +179,9 @@ impl<'c> Rules<'c> {
         }
         self.has_cut = true;
         self.position(line, movement);
+        if self.is_above_stock(line, movement) {
+            return;
+        }
         let message = match self.spindle.turning {
             Turning::Unstated => {
                 self.cut_before_spindle.get_or_insert(line);
@@ -195,10 +198,18 @@ impl<'c> Rules<'c> {
         }
     }
 
+    /// Whether a move stays above the material, as far as that is known.
+    fn is_above_stock(&self, line: u32, movement: &Move) -> bool {
+        let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+        let surface = self.stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
+        is_known && surface.is_some_and(|surface| movement.from.z().min(movement.to.z()) >= surface)
+    }
+
     /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves.
     fn position(&mut self, line: u32, movement: &Move) {
-        let is_known = movement.from.known.and(movement.to.known).has(Axes::XY) || movement.named.is_some();
-        if !is_known && !std::mem::replace(&mut self.position_said, true) {
+        // Programs for a rotary axis have only one of both.
+        let is_unknown = movement.from.known.and(movement.to.known).and(Axes::XY).is_empty();
+        if is_unknown && movement.named.is_none() && !std::mem::replace(&mut self.position_said, true) {
             self.problems.add_at_line(&say::UNKNOWN_POSITION, line, |d| d);
         }
     }
