@@ -167,7 +167,7 @@ fn state(
 
 /// Difference between a directory and what is cached of it.
 enum DirectoryChange {
-    /// Same names, no links.
+    /// The names and the targets of links are the same.
     None,
     /// Names that were added or removed.
     Names(Vec<Box<str>>),
