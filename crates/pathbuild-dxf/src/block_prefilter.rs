@@ -6,8 +6,9 @@ use crate::encoding::Decoder;
 use crate::layers::Layers;
 use crate::pairs::{Pairs, line_length, without_cr};
 
-/// Whether these blocks may contain anything on a wanted layer, apart from the layers they are inserted on. `false` is definitive, however
-/// codes are padded and however broken the section is, because every line after a possible code 8 counts as a layer name.
+/// Whether any entity in these blocks may name a wanted layer as its own; the layers on which the blocks are inserted are not considered.
+/// `false` is definitive, however codes are padded and however broken the section is, because every line after a possible code 8 counts as
+/// a layer name.
 pub(crate) fn may_hold_wanted<'a>(
     blocks: &Pairs<'a>,
     layers: &mut Layers<'a, '_>,

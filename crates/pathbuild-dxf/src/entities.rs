@@ -313,7 +313,7 @@ pub(crate) enum RecordKind {
     Ellipse,
     Spline,
     Insert,
-    /// Nothing that a path consists of.
+    /// A type that no path consists of.
     Foreign(EntityKind),
 }
 

@@ -130,7 +130,8 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Handles one group. Returns the end of the entity if this group leads there.
+    /// Handles a group with a special role. If the group ends the entity or skips the rest of it, returns the `0` of the next entity, and
+    /// whether this one is kept.
     #[inline]
     fn special(
         &mut self,
