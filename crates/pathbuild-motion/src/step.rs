@@ -36,7 +36,7 @@ impl Step {
 /// What the machine does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// The tool moves, or would if it were not there already.
+    /// The tool moves to a position, unless it is there already.
     Move(Move),
     /// O: the number by which the control knows the program.
     ProgramNumber(u32),
@@ -281,7 +281,7 @@ pub enum Pace {
     Rapid,
     /// Cutting, with the feed in mm/min; 0 if the program does not specify it, which is reported.
     Feed(f64),
-    /// Until the probe makes contact, at most to the end.
+    /// Probing: the tool moves until the probe makes contact, at most to the end of the move.
     Probe {
         /// In mm/min.
         feed: f64,

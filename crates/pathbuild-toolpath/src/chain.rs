@@ -19,7 +19,7 @@ pub(crate) struct Strand<'a> {
     comment: Option<&'a str>,
     pub(crate) curve: Curve,
     depths: Vec<f64>,
-    /// Depth of the segment: h + B, or h + D for a mark.
+    /// Depth of the segment: h + B, or h + D for a mark, where h is the height by which the path is raised.
     bottom: f64,
     /// For segments with bars, h + D and the positions of the bars. The plan is `None` if nothing is milled below D.
     bars: Option<(f64, Option<BarPlan>)>,

@@ -243,7 +243,7 @@ impl<'a, P: Parts> Fold<'a, P> {
     }
 
     /// Adds an embedded path, which begins exactly at the start of the segment. The next element begins at the end of the segment, even if
-    /// the embedded path ended up to 0.001 mm beside it.
+    /// the embedded path ended up to 0.001 mm away from it.
     fn subpath(&mut self, outer: &PlacedPath<'a>, id: P::Id, subpath: &PlacedSubpath) {
         let Some(embedded) = self.parts.embedded(id, subpath.segment) else { return };
         let SegmentKind::Subpath(parameters) = &outer.path.segments[subpath.segment].kind else { return };
