@@ -486,7 +486,7 @@ pub struct Edge<'db> {
 pub enum Destination<'db> {
     /// A path with its values.
     Path(Instance<'db>),
-    /// None; only the first reason is kept.
+    /// No path; only the first reason for that is kept.
     Nowhere {
         /// The name it refers to, if any.
         name: Option<PathName>,

@@ -14,7 +14,7 @@ use crate::keep_out::around;
 /// Share of a bar that may be cut away.
 const BAR_LOSS: f64 = 0.05;
 
-/// A support bar that an element takes away.
+/// A support bar that the cuts of an element take away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostBar {
     /// The number of the bar's path.
