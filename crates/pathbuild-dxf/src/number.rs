@@ -62,7 +62,7 @@ fn is_with_comma(text: &str) -> bool {
 /// digit.
 #[inline]
 fn plain_decimal(value: &[u8]) -> Option<f64> {
-    // By far the most frequent number, as heights and normals.
+    // By far the most frequent number: most heights and components of normals are 0.
     if value == b"0.0" {
         return Some(0.0);
     }

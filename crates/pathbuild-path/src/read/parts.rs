@@ -69,7 +69,7 @@ struct OutlineLayers<'d> {
     drawing: &'d Drawing,
     /// The layers with parts.
     layers: Vec<bool>,
-    /// By the captured name of paths.
+    /// The curves, by the name that the pattern captures in that of their layer.
     curves: BTreeMap<Option<SmolStr>, Vec<OutlineCurve>>,
 }
 
