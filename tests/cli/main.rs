@@ -27,6 +27,7 @@ mod emit_check_kept;
 mod example;
 mod explain_examples;
 mod faults;
+mod gate;
 mod gcode;
 mod german;
 mod german_messages;

@@ -256,3 +256,50 @@ fn kept_results_do_not_depend_on_the_date() {
     let before = run("2031-12-31");
     assert!(before.stderr.contains("2 / 2") && !before.stderr.contains(CODE), "{before}");
 }
+
+const PROGRAM: &str = "G21 G90 G94 G17\nT1 M6\nS12000 M3\nG0 Z15\nG0 X0 Y0\nG1 Z-2 F200\nG1 X40 F600\nG0 Y20\nG1 X0\nG0 Z15\nM5\nM30\n";
+
+#[test]
+fn findings_of_programs_are_accepted_in_the_same_way() {
+    let place = place().file("a.nc", PROGRAM);
+    let run = place.run("verify a.nc --cutter 6 --surface 0");
+    assert!(run.status == Some(1) && run.stderr.contains("PB740"), "{run}");
+    let arguments = [
+        "verify",
+        "a.nc",
+        "--cutter",
+        "6",
+        "--surface",
+        "0",
+        "--accept",
+        "PB740",
+        "--reason",
+        "a slot is there",
+    ];
+    assert_eq!(place.run_with(&[&arguments[..], &["--until", "2031-12-31"]].concat()).status, Some(0));
+    let verify = |date: &str| place.run(&format!("verify a.nc --cutter 6 --surface 0 --date {date}"));
+    let (last, after) = (verify("2031-12-31"), verify("2032-01-01"));
+    assert_eq!([last.status, after.status], [Some(0), Some(1)]);
+    assert!(last.stderr.contains("errors: 0, warnings: 0, known: 1"), "{last}");
+    assert!(
+        last.stderr.contains("2031-12-31 (--date)")
+            && after.stderr.contains("the reason was: a slot is there")
+    );
+    let update = place.run("check --baseline pathbuild-baseline.txt --update-baseline");
+    assert_eq!(update.status, Some(0), "{update}");
+    assert_eq!(verify("2031-12-31").status, Some(0), "another command keeps the entry");
+    assert!(!place.run("check").stderr.contains("PB610"), "`check` does not look at programs");
+    let place = place.file("a.nc", PROGRAM.replace("G0 Y20", "G0 Z15\nG0 Y20\nG1 Z-2"));
+    let mended = place.run("verify a.nc --cutter 6 --surface 0");
+    assert!(mended.status == Some(0) && mended.stderr.contains("PB610"), "{mended}");
+}
+
+#[test]
+fn tables_of_the_configuration_hold_for_programs() {
+    let entry =
+        "[[severity-in]]\nfiles = [\"*.nc\"]\nPB781 = \"ignore\"\nreason = \"why\"\nuntil = 2031-12-31\n";
+    let place = Place::new().file("pathbuild.toml", entry).file("a.nc", PROGRAM);
+    let is_told =
+        |date: &str| place.run(&format!("verify a.nc --cutter 6 --date {date}")).stderr.contains("PB781");
+    assert_eq!([is_told("2031-12-31"), is_told("2032-01-01")], [false, true]);
+}

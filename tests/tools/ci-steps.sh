@@ -106,6 +106,20 @@ case $(cat "$place/where") in "$repository"*) fail "Install runs in the checkout
 if install='false; true' github Install > /dev/null 2>&1; then fail "an installation that fails is passed over"; fi
 rm rust-toolchain.toml
 
+# Programs of any origin.
+mkdir programs programs/b
+printf '%s\n' '(T1 D=6 CR=0 - ZMIN=-2 - flat end mill)' G21 G90 G94 G17 'T1 M6' 'S12000 M3' 'G0 Z15' 'G0 X0 Y0' 'G1 Z-2 F200' 'G1 X40 F600' 'G0 Z15' M5 M30 > programs/sound.nc
+grep -v S12000 programs/sound.nc > "programs/b/spindle off.nc"
+directory=programs VERIFY='*.nc' REQUIRE='' github Verify > "$place/annotations" 2> "$place/log" || fail "a sound program is refused: $(cat "$place/log")"
+if directory=programs VERIFY='**/*.nc' REQUIRE='' github Verify > "$place/annotations" 2> "$place/log"; then fail "a program with the spindle off passes"; fi
+grep -q '^::error file=programs/b/spindle off.nc,' "$place/annotations" || fail "no annotation: $(cat "$place/annotations")"
+if directory=programs VERIFY='*.nc' REQUIRE=envelope github Verify > /dev/null 2>&1; then fail "an unmade check passes"; fi
+if directory=programs VERIFY='*.tap' REQUIRE='' github Verify > /dev/null 2>&1; then fail "no program at all passes"; fi
+program_hook() { eval "$(step "$root/.pre-commit-hooks.yaml" 2 entry) \"\$1\""; }
+program_hook programs/sound.nc > /dev/null 2>&1 || fail "the hook refuses a sound program"
+if program_hook "programs/b/spindle off.nc" > /dev/null 2>&1; then fail "the hook passes a program with the spindle off"; fi
+rm -r programs
+
 # A pull request that breaks nothing.
 git checkout -qb harmless
 echo "A note." > library/NOTES.txt

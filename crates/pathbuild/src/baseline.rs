@@ -64,15 +64,21 @@ impl Baseline {
         Ok((baseline, faults))
     }
 
-    /// The text of a baseline that contains all these findings. Entries that still match keep their reasons and dates.
-    pub(crate) fn rewritten(&self, findings: &[Diagnostic], view: &View) -> String {
+    /// The text of a baseline that contains all these findings. Entries that still match keep their reasons and dates, and those of files
+    /// that the run did not cover stay as they are.
+    pub(crate) fn rewritten(&self, findings: &[Diagnostic], run: &Run<'_>, view: &View) -> String {
         let mut text = HEAD.to_owned();
+        let mut found = BTreeSet::new();
         for (diagnostic, fingerprint) in findings.iter().zip(Fingerprint::of(findings)) {
             let fingerprint = fingerprint.to_string();
             let none = Waiver::default();
             let waiver = self.entries.get(&fingerprint).map_or(&none, |entry| &entry.waiver);
             text.push_str(&line(&fingerprint, waiver, diagnostic, view));
+            found.insert(fingerprint);
         }
+        let others =
+            self.entries.iter().filter(|(known, entry)| !found.contains(*known) && !run.covers(self, entry));
+        text.extend(others.flat_map(|(_, entry)| [&*entry.line, "\n"]));
         shown::lines(&text).into_owned()
     }
 
@@ -119,24 +125,10 @@ impl Baseline {
     }
 
     /// Warnings about the entries that match none of these findings, among those of files that the run covered. (PB610)
-    pub(crate) fn unused(
-        &self,
-        findings: &[Diagnostic],
-        coverage: &Coverage,
-        system: &dyn System,
-        working_directory: &Utf8Path,
-    ) -> Vec<Diagnostic> {
+    pub(crate) fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
         let found: BTreeSet<String> = Fingerprint::of(findings).iter().map(ToString::to_string).collect();
-        let checked: BTreeSet<Utf8PathBuf> =
-            coverage.files.iter().map(|file| clean(&working_directory.join(file))).collect();
-        let bases = [working_directory, self.file.parent().unwrap_or(working_directory)];
-        let is_covered = |entry: &Entry| {
-            let Some(files) = entry.possible_files(bases) else { return false };
-            files.iter().any(|file| checked.contains(file))
-                || coverage.has_directories && files.iter().all(|file| system.kind(file) == FileKind::Missing)
-        };
         let unused =
-            self.entries.iter().filter(|(known, entry)| !found.contains(*known) && is_covered(entry));
+            self.entries.iter().filter(|(known, entry)| !found.contains(*known) && run.covers(self, entry));
         let unused = unused.map(|(_, entry)| {
             let text = TextFault::new(&entry.line, 0..entry.line.len());
             Diagnostic { notes: Vec::new(), ..entry.waiver.unused(&self.file) }.with_text(text)
@@ -160,6 +152,30 @@ impl Baseline {
             }
         }
         faults
+    }
+}
+
+/// What a run looked at.
+pub(crate) struct Run<'a> {
+    system: &'a dyn System,
+    working_directory: &'a Utf8Path,
+    checked: BTreeSet<Utf8PathBuf>,
+    has_directories: bool,
+}
+
+impl<'a> Run<'a> {
+    /// A run in a directory that covered these files.
+    pub(crate) fn new(system: &'a dyn System, working_directory: &'a Utf8Path, coverage: &Coverage) -> Self {
+        let checked = coverage.files.iter().map(|file| clean(&working_directory.join(file))).collect();
+        Self { system, working_directory, checked, has_directories: coverage.has_directories }
+    }
+
+    /// Whether an entry would have matched if its finding still occurred.
+    fn covers(&self, baseline: &Baseline, entry: &Entry) -> bool {
+        let bases = [self.working_directory, baseline.file.parent().unwrap_or(self.working_directory)];
+        let Some(files) = entry.possible_files(bases) else { return false };
+        files.iter().any(|file| self.checked.contains(file))
+            || self.has_directories && files.iter().all(|file| self.system.kind(file) == FileKind::Missing)
     }
 }
 

@@ -10,7 +10,7 @@ use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::waivers::{Coverage, RunDate, Waiver};
 
 use crate::args::WaiverArgs;
-use crate::baseline::{Baseline, FILE_NAME};
+use crate::baseline::{Baseline, FILE_NAME, Run};
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::counted;
@@ -29,7 +29,8 @@ pub(crate) fn settle(
 ) -> Result<Findings, ExitStatus> {
     let file = baseline_file(context, args);
     if args.update_baseline {
-        return Err(update(context, &file, &findings.diagnostics));
+        let run = Run::new(&*context.system, &context.working_directory, &coverage(&findings));
+        return Err(update(context, &file, &findings.diagnostics, &run));
     }
     if let Some((code, waiver)) = acceptance(args) {
         return Err(accept(context, &file, code, &waiver, &findings.diagnostics));
@@ -46,8 +47,8 @@ pub(crate) fn settle(
         if !faults.is_empty() {
             return Err(context.refuse(faults));
         }
-        let base = &context.working_directory;
-        unused.extend(baseline.unused(&findings.diagnostics, &coverage, &*context.system, base));
+        let run = Run::new(&*context.system, &context.working_directory, &coverage);
+        unused.extend(baseline.unused(&findings.diagnostics, &run));
         findings = baseline.apply(findings, context.settings.date);
     }
     if !unused.is_empty() {
@@ -93,7 +94,7 @@ fn read_or_new(context: &Context, file: &Utf8Path) -> Result<(Baseline, Vec<Diag
 }
 
 /// Rewrites the baseline. Lines without a fingerprint are dropped, but no reason or date that cannot be read.
-fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic]) -> ExitStatus {
+fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], run: &Run<'_>) -> ExitStatus {
     let (baseline, mut faults) =
         read_or_new(context, file).unwrap_or_else(|_| (Baseline::new(file), Vec::new()));
     faults.retain(|fault| fault.message.key != messages::BASELINE_LINE.key);
@@ -104,7 +105,7 @@ fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic]) -> ExitSt
         Lang::En => counted(findings.len(), Lang::En, ["known finding", "known findings"]),
         Lang::De => counted(findings.len(), Lang::De, ["bekannte Meldung", "bekannte Meldungen"]),
     };
-    write(context, file, &baseline.rewritten(findings, &view(context)), &known)
+    write(context, file, &baseline.rewritten(findings, run, &view(context)), &known)
 }
 
 /// Adds waivers of all findings with a code to the baseline.

@@ -242,6 +242,9 @@ pub struct VerifyArgs {
     /// Post-processor that wrote the programs: sets the known words and the dialect
     #[arg(long, value_name = "POST", add = completion::posts())]
     pub post: Option<String>,
+    /// What is accepted.
+    #[command(flatten)]
+    pub waivers: WaiverArgs,
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadingArgs,

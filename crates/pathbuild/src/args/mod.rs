@@ -117,6 +117,7 @@ impl Command {
     pub fn date(&self) -> Option<Date> {
         match self {
             Self::Check(args) => args.waivers.date,
+            Self::Verify(args) => args.waivers.date,
             Self::Emit(args) => args.date.as_deref()?.parse().ok(),
             Self::Post(args) => args.date.as_deref()?.parse().ok(),
             _ => None,

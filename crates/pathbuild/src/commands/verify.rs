@@ -3,17 +3,20 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{number, positive};
+use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::program;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::verify::{
     CheckRecord, Failure, MoveComparison, Outcome, VerifiedProgram, Verifier, VerifyOptions, summary,
 };
+use pathbuild_workspace::waivers::Coverage;
 use serde_json::{Value, json};
 
 use crate::args::VerifyArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::numbers::count;
+use crate::waivers;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
@@ -31,7 +34,9 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     let verifier = match verifier {
         Ok(verifier) => verifier,
         Err(Failure::Usage(reason)) => return context.usage(&reason),
-        Err(Failure::Drawing(found) | Failure::Post(found)) => return conclude(context, &session, found),
+        Err(Failure::Drawing(found) | Failure::Post(found)) => {
+            return conclude(context, args, &session, found);
+        }
     };
     let mut report = CheckReport::default();
     let mut diagnostics = Vec::new();
@@ -45,7 +50,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
             Err(problem) => diagnostics.push(*problem),
         }
     }
-    let status = conclude(context, &session, diagnostics);
+    let status = conclude(context, args, &session, diagnostics);
     report.finish(context);
     status
 }
@@ -61,13 +66,31 @@ fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
     })
 }
 
-fn conclude(context: &Context, session: &Session<'_>, diagnostics: Vec<Diagnostic>) -> ExitStatus {
+fn conclude(
+    context: &Context,
+    args: &VerifyArgs,
+    session: &Session<'_>,
+    diagnostics: Vec<Diagnostic>,
+) -> ExitStatus {
     let findings = context.findings(session.with_hints(diagnostics));
+    let coverage = |_: &Findings| Coverage { files: args.files.clone(), ..Coverage::default() };
+    let findings = match waivers::settle(context, &args.waivers, findings, coverage) {
+        Ok(findings) => findings,
+        Err(status) => return status,
+    };
     context.show(&findings);
+    if let Some(line) = waivers::date_line(context, &findings) {
+        context.printer.status(line);
+    }
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
+    let known = match findings.waived.len() {
+        0 => String::new(),
+        known => format!(", {}: {}", phrase("known", "bekannt"), count(known, context.lang())),
+    };
+    context.output.figure("known", findings.waived.len());
     context.printer.status(format_args!(
-        "{}: {errors}, {}: {warnings}",
+        "{}: {errors}, {}: {warnings}{known}",
         phrase("errors", "Fehler"),
         phrase("warnings", "Warnungen")
     ));

@@ -1,0 +1,28 @@
+@echo off
+rem Lets only those G-code programs through in which `pathbuild verify` finds no error: gate.cmd PROGRAM...
+rem Programs can also be dropped on it. A program is renamed to PROGRAM.rejected before it is checked, so that it cannot be run meanwhile,
+rem and gets its name back if it passes. Otherwise the findings are in PROGRAM.rejected.txt, and the exit status is 1; so they are if
+rem pathbuild is missing. PATHBUILD_GATE has options of `verify`: set PATHBUILD_GATE=--surface 0 --require rapids=assumed
+setlocal
+set status=0
+:next
+if "%~1"=="" goto end
+set "held=%~f1.rejected"
+move /y "%~f1" "%held%" >nul
+if not "%errorlevel%"=="0" goto failed
+pathbuild verify %PATHBUILD_GATE% -- "%held%" >"%held%.txt" 2>&1
+if not "%errorlevel%"=="0" goto rejected
+move /y "%held%" "%~f1" >nul
+if not "%errorlevel%"=="0" goto rejected
+del "%held%.txt"
+shift
+goto next
+:rejected
+type "%held%.txt" 1>&2
+echo gate: "%~f1" is now "%held%" 1>&2
+:failed
+set status=1
+shift
+goto next
+:end
+exit /b %status%

@@ -1,0 +1,109 @@
+//! Runs the scripts of examples/gate as CAM systems do: a program with errors is kept out of the way. (book: howto/any-program)
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use pathbuild_testkit::skip;
+
+use crate::support::Place;
+
+const SOUND: &str = "(T1 D=6 CR=0 - ZMIN=-2 - flat end mill)\nG21 G90 G94 G17\nT1 M6\nS12000 M3\nG0 Z15\nG0 X0 Y0\nG1 Z-2 F200\nG1 X40 F600\nG0 Z15\nM5\nM30\n";
+
+fn wrong() -> String {
+    SOUND.replace("S12000 M3\n", "")
+}
+
+fn example(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/gate").join(name)
+}
+
+/// A command that finds pathbuild, in the place.
+fn command(place: &Place, name: &str) -> Command {
+    let program = Path::new(env!("CARGO_BIN_EXE_pathbuild")).parent().unwrap();
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let path = [program.to_owned()].into_iter().chain(std::env::split_paths(&others));
+    let mut command = Command::new(name);
+    command.current_dir(place.path()).env("PATH", std::env::join_paths(path).unwrap());
+    command.env("XDG_CACHE_HOME", place.caches()).env("XDG_CONFIG_HOME", place.configurations());
+    command.env("LC_ALL", "C").env_remove("PATHBUILD_GATE").env_remove("PATHBUILD_LANG");
+    command
+}
+
+fn gate(place: &Place, arguments: &[&str], options: &str) -> Output {
+    let script = example(if cfg!(windows) { "gate.cmd" } else { "gate.sh" });
+    let mut command = if cfg!(windows) {
+        let mut command = command(place, "cmd");
+        command.arg("/c").arg(script);
+        command
+    } else {
+        let mut command = command(place, "sh");
+        command.arg(script);
+        command
+    };
+    command.args(arguments).env("PATHBUILD_GATE", options).output().unwrap()
+}
+
+fn has(place: &Place, name: &str) -> bool {
+    place.path().join(name).exists()
+}
+
+#[test]
+fn a_program_passes_or_is_kept_out_of_the_way() {
+    let place = Place::new().file("a sound (1).nc", SOUND).file("a wrong & (2).nc", wrong());
+    let run = gate(&place, &["a sound (1).nc", "a wrong & (2).nc"], "");
+    assert_eq!(run.status.code(), Some(1), "{run:?}");
+    assert_eq!(place.read("a sound (1).nc"), SOUND);
+    assert!(!has(&place, "a sound (1).nc.rejected") && !has(&place, "a sound (1).nc.rejected.txt"));
+    assert!(!has(&place, "a wrong & (2).nc"));
+    assert_eq!(place.read("a wrong & (2).nc.rejected"), wrong());
+    assert!(place.read("a wrong & (2).nc.rejected.txt").contains("PB"), "{run:?}");
+    // The CAM writes it once more, without the mistake.
+    let place = place.file("a wrong & (2).nc", SOUND);
+    let run = gate(&place, &["a wrong & (2).nc"], "");
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+    assert!(has(&place, "a wrong & (2).nc") && !has(&place, "a wrong & (2).nc.rejected"));
+}
+
+#[test]
+fn options_reach_verify_and_what_was_not_checked_is_kept_out_of_the_way() {
+    let place = Place::new().file("a.nc", SOUND);
+    assert_eq!(gate(&place, &["a.nc"], "--surface 0 --require rapids=assumed").status.code(), Some(0));
+    assert_eq!(gate(&place, &["a.nc"], "--require rapids").status.code(), Some(1));
+    assert!(place.read("a.nc.rejected.txt").contains("PB523"));
+}
+
+#[test]
+fn a_program_that_nothing_checks_does_not_pass() {
+    let place = Place::new().file("a.nc", SOUND);
+    assert_eq!(gate(&place, &["none.nc"], "").status.code(), Some(1));
+    assert_eq!(gate(&place, &["a.nc"], "--no-such-option").status.code(), Some(1));
+    assert!(!has(&place, "a.nc") && has(&place, "a.nc.rejected"));
+}
+
+/// The post for FreeCAD, with a stand-in for FreeCAD's own post.
+#[test]
+fn the_post_for_freecad_writes_only_what_passes() {
+    let name = if cfg!(windows) { "python" } else { "python3" };
+    if !Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()) {
+        return skip("python3", "the post for FreeCAD is not tried");
+    }
+    let stand_in = "TOOLTIP = ''\nTOOLTIP_ARGS = ''\ndef export(objects, filename, arguments):\n    assert filename == '-'\n    return objects\n";
+    let post = std::fs::read_to_string(example("pathbuild_gate_post.py")).unwrap();
+    let run = "import sys, pathbuild_gate_post\npathbuild_gate_post.export(open(sys.argv[1]).read(), sys.argv[2], '')\n";
+    let place = Place::new()
+        .file("Path/Post/scripts/grbl_post.py", stand_in)
+        .file(
+            "pathbuild_gate_post.py",
+            post.replace("[\"--require\", \"rapids=assumed\"]", "[\"--surface\", \"0\"]"),
+        )
+        .file("run.py", run)
+        .file("sound", SOUND)
+        .file("wrong", wrong());
+    let export = |gcode: &str| command(&place, name).args(["run.py", gcode, "out.nc"]).output().unwrap();
+    let refused = export("wrong");
+    assert!(!refused.status.success() && !has(&place, "out.nc"), "{refused:?}");
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("the program was not written"));
+    let written = export("sound");
+    assert!(written.status.success(), "{written:?}");
+    assert_eq!(place.read("out.nc"), SOUND);
+}
