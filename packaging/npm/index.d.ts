@@ -98,8 +98,12 @@ export interface Finding {
   is_error: boolean;
   message: { en: string; de: string };
   help: { en: string; de: string };
+  /** Facts that explain it, if there are any. */
+  notes?: { en: string; de: string }[];
   file: string | null;
   path: string | null;
+  /** Line of the file, counted from 1. */
+  line: number | null;
   at: [number, number] | null;
 }
 

@@ -119,14 +119,16 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   const options = isFirefox ? {} : { colorScheme: "dark", locale: "de", hasTouch: true };
   const { page, faults } = await open("", { viewport: { width: 390, height: 800 }, isGerman: !isFirefox, ...options });
   await shot(page, "program-empty-390");
+  const tapped = () =>
+    page.evaluate(() => {
+      const all = [...document.querySelectorAll("button:not(.finding), select, input, summary, .row, a")].filter((node) => node.offsetParent !== null);
+      return all.map((node) => [node.id || node.className || node.tagName, node.getBoundingClientRect()]).filter(([, { width, height }]) => width < 43.9 || height < 43.9).map(([name, { width, height }]) => `${name} ${width}x${height}`);
+    });
+  assert.deepEqual(await tapped(), []);
   await page.locator("#drop .example").click();
   await shows(page, "example.nc");
+  assert.deepEqual(await tapped(), []);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
-  const small = await page.evaluate(() => {
-    const all = [...document.querySelectorAll("button:not(.finding), select, input, summary, .row")].filter((node) => node.offsetParent !== null);
-    return all.map((node) => [node.id || node.className || node.tagName, node.getBoundingClientRect()]).filter(([, { width, height }]) => width < 44 || height < 44).map(([name, { width, height }]) => `${name} ${width}x${height}`);
-  });
-  assert.deepEqual(small, []);
   await shot(page, "program-390");
   assert.deepEqual(faults, []);
   await page.close();

@@ -34,7 +34,12 @@ impl Page {
     }
 
     fn ask(&mut self, question: &Value) -> (Value, Vec<u8>) {
-        let answer = self.0.answer(question.to_string().as_bytes());
+        self.ask_with(question, b"")
+    }
+
+    fn ask_with(&mut self, question: &Value, bytes: &[u8]) -> (Value, Vec<u8>) {
+        let message = [question.to_string().as_bytes(), b"\n", bytes].concat();
+        let answer = self.0.answer(&message);
         let end = answer.iter().position(|byte| *byte == b'\n').unwrap();
         (serde_json::from_slice(&answer[..end]).unwrap(), answer[end + 1..].to_vec())
     }
@@ -296,4 +301,67 @@ fn what_cannot_be_understood_is_said() {
         let answer = page.0.answer(message);
         assert!(answer.starts_with(b"{\"wrong\":"), "{}", String::from_utf8_lossy(&answer));
     }
+}
+
+/// The scene of a program with these assumptions.
+fn program(page: &mut Page, text: &str, assumptions: &Value) -> Value {
+    let mut question = json!({ "ask": "program", "name": "dir/a.nc" });
+    question.as_object_mut().unwrap().extend(assumptions.as_object().unwrap().clone());
+    let (head, scene) = page.ask_with(&question, text.as_bytes());
+    assert_eq!(head["seen"], true);
+    serde_json::from_slice(&scene).unwrap()
+}
+
+fn codes(scene: &Value) -> Vec<&str> {
+    scene["findings"].as_array().unwrap().iter().map(|finding| finding["code"].as_str().unwrap()).collect()
+}
+
+const TWO_TOOLS: &str = "(TOOL/MILL, 6, 0, 20, 0)
+G21 G90 G94 G17
+T1 M6
+S9000 M3
+G0 Z5
+G0 X0 Y0
+G1 Z-2 F100
+G1 X20
+G0 X40
+G1 X60
+G0 Z5
+(TOOL/MILL, 3, 0, 20, 0)
+T2 M6
+S9000 M3
+G0 X0 Y20
+G1 Z-1 F100
+G1 X20
+G0 Z5
+M30
+";
+
+#[test]
+fn a_program_is_verified_with_what_is_assumed() {
+    let mut page = Page::default();
+    page.open(&json!({}));
+    let scene = program(&mut page, TWO_TOOLS, &json!({}));
+    assert_eq!(codes(&scene), ["PB781"]);
+    assert_eq!(scene["findings"][0]["line"], 9);
+    assert_eq!(scene["title"], "a.nc");
+    let known = &scene["program"];
+    assert_eq!(known["surface"], Value::Null);
+    assert_eq!(known["checks"][0]["outcome"], "not-made");
+    assert!(known["dialects"].as_array().unwrap().contains(&json!("grbl")));
+    // Each cutter is shown from its line on.
+    assert_eq!(scene["paths"][0]["tools"][1]["diameter"], 3.0);
+    assert_eq!(scene["paths"][0]["tool"], Value::Null);
+
+    let scene = program(&mut page, TWO_TOOLS, &json!({ "surface": "0", "cutter": "4" }));
+    assert!(codes(&scene).contains(&"PB740"), "{:?}", codes(&scene));
+    assert_eq!(scene["program"]["checks"][0]["outcome"], "made");
+    assert_eq!(scene["paths"][0]["tool"], 4.0);
+    let scene = program(&mut page, TWO_TOOLS, &json!({ "surface": "-2.5" }));
+    assert!(!codes(&scene).contains(&"PB740"), "{:?}", codes(&scene));
+    let scene = program(&mut page, TWO_TOOLS, &json!({ "dialect": "grbl" }));
+    assert_eq!(scene["program"]["dialect"], "grbl");
+    // What is typed in wrongly is a finding, and an unknown dialect is guessed.
+    let scene = program(&mut page, TWO_TOOLS, &json!({ "cutter": "wide", "dialect": "none" }));
+    assert!(codes(&scene).contains(&"PB003"), "{:?}", codes(&scene));
 }

@@ -1,10 +1,9 @@
 // The scene as data: the form is that of pathbuild-view's src/scene.rs, version 1.
 
 import type { ProgramRecord } from "./programs.js";
-import type { Finding as Told } from "../../../../packaging/npm/index.js";
+import type { Finding } from "../../../../packaging/npm/index.js";
 
-/** A finding; `line` is that of the file. */
-export type Finding = Told & { line?: number | null; notes?: { en: string; de: string }[] };
+export type { Finding };
 export type Point = [number, number];
 export type Place = [number | null, number | null, number | null];
 
