@@ -14,7 +14,9 @@ fn wrong() -> String {
 }
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/gate").join(name)
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/gate").join(name);
+    // The shell of Windows takes a slash for the beginning of an option.
+    file.components().collect()
 }
 
 /// A command that finds pathbuild, in the place.
