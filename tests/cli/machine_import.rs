@@ -9,6 +9,12 @@ const GRBLHAL: &str = include_str!("machine_import/grblhal.txt");
 const FLUIDNC: &str = include_str!("machine_import/fluidnc.yaml");
 const INCH: &str = include_str!("machine_import/inch.ini");
 
+const TABLE: &str = include_str!("machine_import/tool.tbl");
+const FUSION: &str = include_str!("machine_import/fusion.json");
+const LIBRARY: &str = include_str!("machine_import/Library/Default.fctl");
+const ENDMILL: &str = include_str!("machine_import/Bit/5mm_Endmill.fctb");
+const BULLNOSE: &str = include_str!("machine_import/Bit/6mm_Bullnose.fctb");
+
 const CONFIGURED: &str = "# The workshop's router.
 feed = 150
 
@@ -112,7 +118,8 @@ fn hostile_descriptions_are_refused_with_a_reason() {
         format!("{text}a{}: &a{} [*a{level}, *a{level}]\n", level + 1, level + 1)
     });
     let deep = format!("axes:\n  x: {}1{}\n", "[".repeat(5000), "]".repeat(5000));
-    let hostile: [(&[u8], &str); 9] = [
+    let nested = format!("{{\"data\": {}{}}}", "[".repeat(100_000), "]".repeat(100_000));
+    let hostile: [(&[u8], &str); 13] = [
         (b"", "PB612"),
         (b"\0\x01\x02$110=5", "PB612"),
         (b"$110=\xff\xfe\n", "PB612"),
@@ -121,6 +128,10 @@ fn hostile_descriptions_are_refused_with_a_reason() {
         (b"axes:\n\t- : : {\n", "PB612"),
         (b"[TRAJ\nLINEAR_UNITS = mm\n[EMC]\n", "PB612"),
         (deep.as_bytes(), "PB612"),
+        (nested.as_bytes(), "PB612"),
+        (b"{\"data\": [{\"geometry\": {\"DC\": 1e999}}]}", "PB612"),
+        (b"{\"tools\": 5}", "PB612"),
+        (b"T1 P1 D0.125\n", "PB612"),
         (&vec![b'$'; (4 << 20) + 1], "PB612"),
     ];
     for (content, code) in hostile {
@@ -130,4 +141,41 @@ fn hostile_descriptions_are_refused_with_a_reason() {
     }
     let run = findings(format!("{bomb}\naxes:\n  x:\n    max_travel_mm: 1\n"));
     assert_eq!(run.status, Some(0), "{run}");
+}
+
+/// A configuration with tools, one of which a library knows under another name.
+const TOOLS: &str = "[tool.\"my 6\"]
+diameter = 6.0 # worn to 5.9
+number = 3
+
+[tool.small]
+diameter = 1
+spindle = 9000
+";
+
+#[test]
+fn tool_libraries_become_tools() {
+    let place = Place::new()
+        .file("pathbuild.toml", TOOLS)
+        .file("tool.tbl", TABLE)
+        .file("mill.ini", "[EMC]\n[TRAJ]\nLINEAR_UNITS = inch\n")
+        .file("fusion.json", FUSION)
+        .file("lib/Library/Default.fctl", LIBRARY)
+        .file("lib/Bit/5mm_Endmill.fctb", ENDMILL)
+        .file("lib/Bit/6mm_Bullnose.fctb", BULLNOSE)
+        .file("secret.fctb", ENDMILL);
+    let lines = [
+        "machine import tool.tbl",
+        "machine import tool.tbl --units inch",
+        "machine import tool.tbl mill.ini",
+        "machine import fusion.json --format concise",
+        "machine import lib/Library/Default.fctl --format concise",
+        "machine import lib/Bit/6mm_Bullnose.fctb --format concise",
+    ];
+    assert_snapshot!(runs(&place, lines));
+    place.run("machine import fusion.json --write");
+    assert_snapshot!(place.read("pathbuild.toml"));
+    let again = place.run("machine import fusion.json");
+    assert!(again.stderr.contains("nothing differs"), "{again}");
+    assert_eq!(place.run("config show").status, Some(0));
 }

@@ -11,6 +11,7 @@ mod book;
 mod build_systems;
 mod cache;
 mod check;
+mod chip_loads;
 mod compat;
 mod config;
 mod conformance;

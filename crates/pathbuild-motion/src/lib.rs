@@ -3,9 +3,11 @@
 //! All parts of pathbuild use these [`Step`]s to describe the effects of a program: writers, reader, `verify`, posts, pictures and
 //! statistics. Everything is absolute and in millimetres. This crate knows neither drawings nor texts.
 
+mod chip_load;
 mod geometry;
 mod step;
 
+pub use chip_load::ChipLoad;
 pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_same_direction, turn, widest_chord};
 pub use step::{
     Action, Change, Coolant, Corners, Group, Move, MoveShape, Named, Pace, Spindle, StatedWord, Step,

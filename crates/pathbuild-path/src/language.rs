@@ -1,7 +1,12 @@
 //! Settings of the drawing language. (book: reference/configuration)
 
+use std::fmt;
+use std::sync::Arc;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
+
+use pathbuild_motion::ChipLoad;
 
 use crate::approx::above;
 use crate::line_type::LineTypeAliases;
@@ -25,6 +30,39 @@ pub struct Language {
     pub text_limit: usize,
     /// Thresholds beyond which something is doubtful.
     pub doubts: DoubtThresholds,
+    /// The chip loads that the user allows.
+    pub chip_loads: ChipLoads,
+}
+
+/// Finds the chip load allowed for the tool of a path by the path's name and its O in mm.
+#[derive(Clone)]
+pub struct ChipLoads(Arc<FindChipLoad>);
+
+type FindChipLoad = dyn Fn(&str, f64) -> Option<ChipLoad> + Send + Sync;
+
+impl ChipLoads {
+    /// Asks a function.
+    pub fn new(find: impl Fn(&str, f64) -> Option<ChipLoad> + Send + Sync + 'static) -> Self {
+        Self(Arc::new(find))
+    }
+
+    /// The chip load allowed for the tool of a path.
+    pub fn of(&self, path: &str, diameter: f64) -> Option<ChipLoad> {
+        (self.0)(path, diameter)
+    }
+}
+
+impl Default for ChipLoads {
+    /// None.
+    fn default() -> Self {
+        Self::new(|_, _| None)
+    }
+}
+
+impl fmt::Debug for ChipLoads {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("ChipLoads")
+    }
 }
 
 /// Thresholds beyond which something is doubtful.

@@ -36,7 +36,7 @@ pub use embedding::{PathHeader, PathSignature, ProbeTop, Restriction, SubpathCal
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use in_force::{ElementParameters, Parameter, parameters_in_force};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
-pub use language::{DoubtThresholds, Language};
+pub use language::{ChipLoads, DoubtThresholds, Language};
 pub use letter::Letter;
 pub use letter::{ElementClass, Use};
 pub use line_type::{LineType, LineTypeAliases};

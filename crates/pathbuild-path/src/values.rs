@@ -6,6 +6,8 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use crate::approx::above;
+use pathbuild_motion::ChipLoad;
+
 use crate::language::DoubtThresholds;
 use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::text::{
@@ -338,6 +340,7 @@ pub(crate) fn check_doubts(
     path: &Values<'_>,
     class: ElementClass,
     limits: &DoubtThresholds,
+    chip_load: Option<ChipLoad>,
 ) -> Vec<Diagnostic> {
     let value = |letter| {
         let has_effect = !matches!(class.use_of(letter), Use::Unknown | Use::Ignored | Use::PathOnly);
@@ -367,5 +370,10 @@ pub(crate) fn check_doubts(
         let problem = Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
         own.underline(Letter::F, problem.with("limit", maximum))
     });
-    [below, infeed, feed].into_iter().flatten().collect()
+    // A drill takes its chips along its axis.
+    let is_milled = !matches!(class, ElementClass::DrilledHole | ElementClass::DrilledMark);
+    let milling_feed = value(Letter::F).filter(|_| is_milled);
+    let chips = chip_load.zip(milling_feed).and_then(|(limits, feed)| limits.check(feed, None));
+    let chips = chips.map(|problem| own.underline(Letter::F, problem));
+    [below, infeed, feed, chips].into_iter().flatten().collect()
 }

@@ -288,9 +288,12 @@ impl<'db> Walk<'db> {
             return;
         }
         let Some(feed) = self.options.feed else { return self.miss(MissingOption::Feed) };
-        let doubt = Settings::get(self.db).language(self.db).doubts.fallback_feed(feed);
-        let doubt = doubt.map(|problem| problem.in_path(signature.name.as_str()));
-        self.report_all(instance, doubt.as_slice());
+        let language = Settings::get(self.db).language(self.db);
+        let limits = language.chip_loads.of(signature.name.as_str(), signature.tool);
+        let chips = limits.and_then(|limits| limits.check(feed, None));
+        let doubts = language.doubts.fallback_feed(feed).into_iter().chain(chips);
+        let doubts: Vec<_> = doubts.map(|problem| problem.in_path(signature.name.as_str())).collect();
+        self.report_all(instance, &doubts);
     }
 
     fn miss(&mut self, option: MissingOption) {

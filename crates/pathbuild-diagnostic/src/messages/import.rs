@@ -5,8 +5,8 @@ messages! {
     UNKNOWN_FORMAT: UnreadableDescription {
         en: "the file describes neither a machine nor tools in a known format",
         de: "die Datei beschreibt weder Maschine noch Werkzeuge in einem bekannten Format",
-        help_en: "known are GRBL's and grblHAL's answer to $$, FluidNC's YAML and LinuxCNC's ini file",
-        help_de: "bekannt sind die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML und die ini-Datei von LinuxCNC",
+        help_en: "known are the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 as JSON; unpack a .tools archive first",
+        help_de: "bekannt sind die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 als JSON; ein .tools-Archiv vorher entpacken",
     }
     /// The file cannot be read.
     DESCRIPTION_UNREADABLE: UnreadableDescription {
@@ -21,6 +21,13 @@ messages! {
         de: "die Datei ist hier fehlerhaft: {reason}",
         help_en: "correct the line, or export the settings again",
         help_de: "die Zeile berichtigen oder die Einstellungen noch einmal exportieren",
+    }
+    /// A tool table of LinuxCNC without the unit of its lengths.
+    TABLE_WITHOUT_UNIT: UnreadableDescription {
+        en: "the unit of the lengths in this tool table is not known",
+        de: "die Einheit der Längen in dieser Werkzeugtabelle ist unbekannt",
+        help_en: "name the machine's ini file as well, or give --units mm or --units inch",
+        help_de: "auch die ini-Datei der Maschine nennen, oder --units mm bzw. --units inch angeben",
     }
     /// The configuration cannot take the values.
     NOT_EDITABLE: UnreadableDescription {
@@ -77,5 +84,19 @@ messages! {
         de: "die Grenzen der Achsen ergeben keinen Verfahrweg; sie werden nicht übernommen",
         help_en: "set `travel` in pathbuild.toml by hand",
         help_de: "`travel` in pathbuild.toml von Hand setzen",
+    }
+    /// A tool without a diameter.
+    NO_DIAMETER: UnusableValue {
+        en: "the diameter of tool {number} ({name}) or its unit is not known; the tool is not taken",
+        de: "der Durchmesser von Werkzeug {number} ({name}) oder seine Einheit ist unbekannt; es wird nicht übernommen",
+        help_en: "set the diameter in the library, and export it again",
+        help_de: "den Durchmesser in der Bibliothek setzen und sie noch einmal exportieren",
+    }
+    /// A tool bit that a library names.
+    BIT_UNREADABLE: UnusableValue {
+        en: "the tool bit `{name}` cannot be read: {reason}",
+        de: "das Werkzeug `{name}` ist nicht lesbar: {reason}",
+        help_en: "tool bits are looked for beside the library, and in the directory Bit beside its directory",
+        help_de: "Werkzeuge werden neben der Bibliothek gesucht und im Verzeichnis Bit neben ihrem Verzeichnis",
     }
 }

@@ -176,6 +176,20 @@ messages! {
         help_en: "lower `feed` (--feed), write F into the path, or correct `maximum-feed` under [machine]",
         help_de: "`feed` (--feed) senken, F in den Pfad schreiben oder `maximum-feed` unter [machine] berichtigen",
     }
+    /// A chip load below the limits of the tool.
+    CHIP_LOAD_SMALL: DoubtfulChipLoad {
+        en: "a chip load of {load} mm per tooth is below {least}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
+        de: "{load} mm je Zahn liegen unter {least}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
+        help_en: "the tool rubs instead of cutting; raise F, lower the speed, or change `chip-load` of the tool ({least} to {most})",
+        help_de: "das Werkzeug reibt, statt zu schneiden; F erhöhen, die Drehzahl senken oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
+    }
+    /// A chip load above the limits of the tool.
+    CHIP_LOAD_LARGE: DoubtfulChipLoad {
+        en: "a chip load of {load} mm per tooth is above {most}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
+        de: "{load} mm je Zahn liegen über {most}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
+        help_en: "the tool may break; lower F, raise the speed, or change `chip-load` of the tool ({least} to {most})",
+        help_de: "das Werkzeug kann brechen; F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most})",
+    }
     /// A default sweep height that is too low.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} used for this path is not greater than T, which is {limit}",

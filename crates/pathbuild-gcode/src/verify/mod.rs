@@ -5,6 +5,7 @@
 //! than a missing warning.
 
 mod against;
+mod chip_load;
 mod compare;
 mod depth;
 mod height_map;
@@ -21,6 +22,7 @@ use pathbuild_motion::Step;
 pub use self::compare::same_move_lines;
 pub use self::rules::coarse_arcs;
 pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
+pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use depth::rapids_at_depth;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_motion::ChipLoad;
 use regex::Regex;
 use smol_str::SmolStr;
 
@@ -58,6 +59,8 @@ struct Binder<'a> {
     interpolation: Interpolation<'a>,
     /// The values in the path's own text.
     values: Values<'a>,
+    /// The chip load allowed for the path's tool.
+    chip_load: Option<ChipLoad>,
     segments: Vec<Segment>,
     cuts: Vec<CutParameters>,
     holes: Vec<Hole>,
@@ -119,6 +122,7 @@ impl<'a> Binder<'a> {
             language,
             interpolation,
             values,
+            chip_load: None,
             segments: Vec::new(),
             cuts: Vec::new(),
             holes: Vec::new(),
@@ -248,8 +252,14 @@ impl<'a> Binder<'a> {
             problems.push(self.values.underline(Letter::E, problem));
         }
         problems.extend(check_limits(&self.values, &self.values, ElementClass::PathStart));
+        self.chip_load = self
+            .values
+            .number(Letter::O)
+            .number()
+            .and_then(|diameter| self.language.chip_loads.of(self.raw.name.as_str(), diameter));
         let doubts = &self.language.doubts;
-        problems.extend(check_doubts(&self.values, &self.values, ElementClass::PathStart, doubts));
+        let class = ElementClass::PathStart;
+        problems.extend(check_doubts(&self.values, &self.values, class, doubts, self.chip_load));
         for problem in problems {
             self.report_at_start(problem);
         }
@@ -303,7 +313,8 @@ impl<'a> Binder<'a> {
         let mut values = Values::of(text, class, &self.interpolation);
         let mut problems = std::mem::take(&mut values.problems);
         problems.append(&mut check_limits(&values, &self.values, class));
-        problems.append(&mut check_doubts(&values, &self.values, class, &self.language.doubts));
+        let doubts = &self.language.doubts;
+        problems.append(&mut check_doubts(&values, &self.values, class, doubts, self.chip_load));
         for problem in problems {
             self.report(at, problem);
         }

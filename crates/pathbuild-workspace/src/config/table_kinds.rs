@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::kinds::{COUNT, POSITIVE, SWITCH};
+use super::kinds::{COUNT, EXTENT, NOT_NEGATIVE, POSITIVE, SWITCH};
 use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
 use crate::config::reader::{Table, TomlReader, ValueType};
 use crate::config::types::{CutterShape, FileSeverities, Level, LineTypeAlias, PostChoice, Tool};
@@ -133,6 +133,10 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
                 "spindle": (POSITIVE.schema)(),
                 "direction": choice_schema::<Turning>(),
                 "coolant": choice_schema::<Coolant>(),
+                "flutes": (COUNT.schema)(),
+                "chip-load": (EXTENT.schema)(),
+                "corner-radius": (NOT_NEGATIVE.schema)(),
+                "length": (POSITIVE.schema)(),
             },
         } })
     },
@@ -288,7 +292,24 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let spindle = table.take("spindle", &POSITIVE).and_then(|value| value.value);
     let direction = table.take("direction", &choice::<Turning>()).map(|value| value.value);
     let coolant = table.take("coolant", &choice::<Coolant>()).map(|value| value.value);
-    Some(Tool { name: name.into(), diameter: diameter?, paths, shape, number, spindle, direction, coolant })
+    let flutes = table.take("flutes", &COUNT).and_then(|value| u32::try_from(value.value).ok());
+    let chip_load = table.take("chip-load", &EXTENT).and_then(|value| value.value);
+    let corner_radius = table.take("corner-radius", &NOT_NEGATIVE).map_or(0.0, |value| value.value);
+    let length = table.take("length", &POSITIVE).and_then(|value| value.value);
+    Some(Tool {
+        name: name.into(),
+        diameter: diameter?,
+        paths,
+        shape,
+        number,
+        spindle,
+        direction,
+        coolant,
+        flutes,
+        chip_load,
+        corner_radius,
+        length,
+    })
 }
 
 fn shown_tool(tool: &Tool) -> Option<String> {
@@ -296,11 +317,18 @@ fn shown_tool(tool: &Tool) -> Option<String> {
     inline([
         ("diameter", number(Some(tool.diameter))),
         ("paths", tool.paths.as_deref().map(quoted)),
-        ("shape", (tool.shape == CutterShape::Slot).then(|| name_of(tool.shape)).flatten().map(quoted)),
+        ("shape", (tool.shape != CutterShape::EndMill).then(|| name_of(tool.shape)).flatten().map(quoted)),
         ("number", tool.number.map(|number| number.to_string())),
         ("spindle", number(tool.spindle)),
         ("direction", tool.direction.and_then(name_of).map(quoted)),
         ("coolant", tool.coolant.and_then(name_of).map(quoted)),
+        ("flutes", tool.flutes.map(|flutes| flutes.to_string())),
+        ("chip-load", (EXTENT.show)(&tool.chip_load)),
+        (
+            "corner-radius",
+            Some(tool.corner_radius).filter(|radius| *radius > 0.0).map(|radius| radius.to_string()),
+        ),
+        ("length", number(tool.length)),
     ])
 }
 

@@ -6,7 +6,8 @@ use pathbuild_diagnostic::limits::text_too_long;
 use pathbuild_diagnostic::{Code, Lang, Severity, Value};
 use pathbuild_dxf::Units;
 use pathbuild_gcode::dialect::Charset;
-use pathbuild_motion::{Coolant, Turning};
+use pathbuild_gcode::verify::Cutter;
+use pathbuild_motion::{ChipLoad, Coolant, Turning};
 use pathbuild_path::LineType;
 use pathbuild_toolpath::ZModel;
 use serde::{Deserialize, Serialize};
@@ -79,6 +80,8 @@ choice! {
         EndMill = "end-mill",
         /// A slot beside or below that shape: T-slot and side milling cutters.
         Slot = "slot",
+        /// A shape that depends on the depth: V-bits, drills, engravers.
+        Other = "other",
     }
 }
 
@@ -284,6 +287,32 @@ pub struct Tool {
     pub direction: Option<Turning>,
     /// Coolant; `None` leaves the choice to the operator.
     pub coolant: Option<Coolant>,
+    /// Number of cutting edges.
+    pub flutes: Option<u32>,
+    /// Limits of the chip load in mm per tooth.
+    pub chip_load: Option<Extent>,
+    /// Radius in mm of the corners of a bull nose or ball end mill.
+    pub corner_radius: f64,
+    /// Length in mm of the cutting edges.
+    pub length: Option<f64>,
+}
+
+impl Tool {
+    /// The limits of the chip load, if they and the number of flutes are known.
+    pub fn chip_load(&self) -> Option<ChipLoad> {
+        let Extent { from, to } = self.chip_load?;
+        Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
+    }
+
+    /// The widths for the check of rapid moves. A tip that is not flat counts as the centre line of the moves, both in removing material
+    /// and in hitting it: the tool fits into its own cut.
+    pub fn cutter(&self) -> Cutter {
+        let flat = match self.shape {
+            CutterShape::Other => 0.0,
+            CutterShape::EndMill | CutterShape::Slot => (self.diameter - 2.0 * self.corner_radius).max(0.0),
+        };
+        Cutter { diameter: self.diameter, removed: flat, colliding: flat }
+    }
 }
 
 /// The configured post-processor. (book: program/posts)

@@ -16,7 +16,7 @@ use pathbuild_post::ToolTable;
 use pathbuild_toolpath::{Correction, Program, Total};
 
 use super::outcome::Task;
-use crate::config::Settings;
+use crate::config::{Settings, types};
 use crate::posting::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
@@ -121,6 +121,8 @@ impl<'a> OutputSettings<'a> {
 pub(super) struct SheetSettings {
     pub(super) lang: Lang,
     pub(super) tools: ToolTable,
+    /// The tools of the configuration, in the order of `tools`.
+    pub(super) shapes: Vec<types::Tool>,
     pub(super) starts_spindle: bool,
 }
 
@@ -128,7 +130,8 @@ impl SheetSettings {
     /// Takes the settings from the configuration, for programs written natively or through a post-processor.
     pub(super) fn new(settings: &Settings, tools: ToolTable, post_processor: Option<&PostProcessor>) -> Self {
         let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
-        Self { lang: settings.comment_lang(), tools, starts_spindle }
+        let shapes = settings.tables.tools.value.clone();
+        Self { lang: settings.comment_lang(), tools, shapes, starts_spindle }
     }
 }
 

@@ -8,11 +8,10 @@ use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::statistics::cutting_box;
 use pathbuild_motion::Turning;
-use pathbuild_post::ToolTable;
 use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, SheetTool};
 
-use super::options::{OutputSettings, total};
+use super::options::{OutputSettings, SheetSettings, total};
 use super::outcome::cannot_write;
 use super::plan::Job;
 use crate::config::types::SheetFormat;
@@ -76,7 +75,7 @@ pub(super) fn sheet(
         values: names(|kind| kind == OutputKind::Values).next(),
         hashes: hashes(&provenance),
         head: [provenance.to_string(), job.title.clone()],
-        tools: tools(&programs, &settings.sheets.tools),
+        tools: tools(&programs, &settings.sheets),
         starts_spindle: settings.sheets.starts_spindle,
         cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], bounding_box),
         length: total.length,
@@ -140,10 +139,12 @@ fn bounding_box(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Opti
 }
 
 /// The tools, without duplicates.
-fn tools(programs: &[Arc<Program>], table: &ToolTable) -> Vec<SheetTool> {
+fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> Vec<SheetTool> {
     let mut tools: Vec<SheetTool> = Vec::new();
     for program in programs {
-        let entry = table.find(&program.path, program.tool);
+        let index = settings.tools.position(&program.path, program.tool);
+        let entry = index.map(|index| &settings.tools.entries[index]);
+        let shape = index.map(|index| &settings.shapes[index]);
         let tool = SheetTool {
             diameter: program.tool,
             number: entry.and_then(|entry| entry.index),
@@ -154,6 +155,9 @@ fn tools(programs: &[Arc<Program>], table: &ToolTable) -> Vec<SheetTool> {
                 Turning::CounterClockwise => Some(false),
                 Turning::Off | Turning::Unstated => None,
             }),
+            flutes: shape.and_then(|shape| shape.flutes),
+            corner_radius: shape.map_or(0.0, |shape| shape.corner_radius),
+            length: shape.and_then(|shape| shape.length),
             paths: Vec::new(),
         };
         let known =

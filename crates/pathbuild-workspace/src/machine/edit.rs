@@ -3,9 +3,9 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::import as say;
-use toml_edit::{Array, DocumentMut, Item, Table, Value};
+use toml_edit::{Array, DocumentMut, Item, Key, Table, TableLike, Value};
 
-use super::{DescribedValue, Quantity};
+use super::{DescribedValue, Quantity, Target};
 
 /// A value of a description beside that of the configuration.
 #[derive(Debug)]
@@ -36,14 +36,23 @@ pub fn edit(
     let fault = || Box::new(Diagnostic::new(&say::NOT_EDITABLE).in_file(file));
     let mut document: DocumentMut = text.parse().map_err(|_| fault())?;
     let mut changes = Vec::new();
+    // Tools for which there was no table before.
+    let mut added = Vec::new();
     for value in values {
-        let table = document.entry("machine").or_insert(Item::Table(Table::new()));
-        let table = table.as_table_like_mut().ok_or_else(fault)?;
+        let path = table_path(&document, &value.target);
+        let is_added = added.contains(&path);
+        if value.is_for_new_tools && !is_added && table(&document, &path).is_some() {
+            continue;
+        }
+        if !is_added && table(&document, &path).is_none() {
+            added.push(path.clone());
+        }
+        let table = table_mut(&mut document, &path).ok_or_else(fault)?;
         let new = toml(&value.value);
         let old = table.get(value.key).and_then(Item::as_value);
         let is_new = old.and_then(quantity).as_ref() != Some(&value.value);
         changes.push(Change {
-            table: "machine".to_owned(),
+            table: path.iter().map(|name| Key::new(name).to_string()).collect::<Vec<_>>().join("."),
             key: value.key,
             old: old.map(|old| old.clone().decorated("", "").to_string()),
             new: new.to_string(),
@@ -61,6 +70,34 @@ pub fn edit(
     Ok((with_line_ends(document.to_string(), text), changes))
 }
 
+/// The names of a table. A tool with a number is the one that the configuration has under this number, whatever its name is.
+fn table_path(document: &DocumentMut, target: &Target) -> Vec<String> {
+    let Target::Tool { number, name } = target else { return vec!["machine".to_owned()] };
+    let has_number = |item: &Item| {
+        let known = item.get("number").and_then(Item::as_integer);
+        known.is_some() && known == number.map(i64::from)
+    };
+    let tools = document.get("tool").and_then(Item::as_table_like);
+    let known = tools.and_then(|tools| tools.iter().find(|(_, tool)| has_number(tool)).map(|(name, _)| name));
+    vec!["tool".to_owned(), known.unwrap_or(name).to_owned()]
+}
+
+fn table<'d>(document: &'d DocumentMut, path: &[String]) -> Option<&'d Item> {
+    path.iter().try_fold(document.as_item(), |item, name| item.get(name))
+}
+
+/// The table of this path, which is added if there is none; `None` if something else has its name.
+fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d mut dyn TableLike> {
+    let mut table: &mut dyn TableLike = document.as_table_mut();
+    for (depth, name) in path.iter().enumerate() {
+        let is_last = depth + 1 == path.len();
+        let mut new = Table::new();
+        new.set_implicit(!is_last);
+        table = table.entry(name).or_insert(Item::Table(new)).as_table_like_mut()?;
+    }
+    Some(table)
+}
+
 /// A value with the spaces and comments around the one that it replaces.
 fn with_decor(mut new: Value, old: &Value) -> Value {
     *new.decor_mut() = old.decor().clone();
@@ -75,6 +112,7 @@ fn with_line_ends(text: String, old: &str) -> String {
 fn toml(value: &Quantity) -> Value {
     match value {
         Quantity::Number(number) => toml_number(*number),
+        Quantity::Text(text) => Value::from(text.as_str()),
         Quantity::Numbers(numbers) => {
             Value::Array(numbers.iter().map(|number| toml_number(*number)).collect::<Array>())
         }
@@ -94,6 +132,9 @@ fn toml_number(number: f64) -> Value {
 
 fn quantity(value: &Value) -> Option<Quantity> {
     let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|number| number as f64));
+    if let Some(text) = value.as_str() {
+        return Some(Quantity::Text(text.to_owned()));
+    }
     match value.as_array() {
         Some(array) => array.iter().map(number).collect::<Option<_>>().map(Quantity::Numbers),
         None => number(value).map(Quantity::Number),

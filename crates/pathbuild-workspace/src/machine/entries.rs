@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
 use rustc_hash::FxHashMap;
 
-use super::{DescribedValue, Description, Quantity};
+use super::{DescribedValue, Description, Quantity, Target};
 
 /// An entry of a description.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,15 +14,15 @@ pub struct Entry {
     pub name: String,
     /// The text of the value.
     pub value: String,
-    /// The line, counted from 1.
-    pub line: u32,
+    /// The line, counted from 1, if it is known.
+    pub line: Option<u32>,
 }
 
 /// A number and its place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) number: f64,
-    line: u32,
+    line: Option<u32>,
 }
 
 /// The entries of a description.
@@ -40,7 +40,7 @@ impl Entries {
     pub(super) fn add(&mut self, name: impl Into<String>, value: impl Into<String>, line: usize) {
         let name = name.into();
         self.by_name.insert(name.clone(), self.list.len());
-        let line = u32::try_from(line).unwrap_or(u32::MAX);
+        let line = u32::try_from(line).ok();
         self.list.push(Entry { name, value: value.into(), line });
         self.is_used.push(false);
     }
@@ -90,16 +90,30 @@ impl Entries {
     pub(super) fn not_taken(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));
-        self.problems.push(problem.at_line(entry.line, None));
+        self.report_at(problem, entry.line);
     }
 
     pub(super) fn report(&mut self, problem: Diagnostic) {
         self.problems.push(problem);
     }
 
+    /// Reports a problem at a line, if it is known.
+    pub(super) fn report_at(&mut self, problem: Diagnostic, line: Option<u32>) {
+        self.report(match line {
+            Some(line) => problem.at_line(line, None),
+            None => problem,
+        });
+    }
+
     /// Adds a value for a key.
     pub(super) fn set(&mut self, key: &'static str, value: Quantity, sources: &[&str]) {
-        self.values.push(DescribedValue { key, value, source: sources.join(", ") });
+        self.values.push(DescribedValue {
+            target: Target::Machine,
+            key,
+            value,
+            source: sources.join(", "),
+            is_for_new_tools: false,
+        });
     }
 
     /// Sets a key to the number of an entry, multiplied by `scale`.
@@ -121,7 +135,7 @@ impl Entries {
             && names.iter().any(|name| self.get(name).is_none())
         {
             let problem = Diagnostic::new(&say::AXES_INCOMPLETE).quoting("key", key);
-            self.report(problem.quoting("given", given.join(", ")).at_line(first.line, None));
+            self.report_at(problem.quoting("given", given.join(", ")), first.line);
         }
     }
 
@@ -134,12 +148,12 @@ impl Entries {
     }
 
     /// Sets `spindle-speeds`, or reports that the range is empty.
-    pub(super) fn set_range(&mut self, from: f64, to: f64, line: u32, sources: &[&str]) {
+    pub(super) fn set_range(&mut self, from: f64, to: f64, line: Option<u32>, sources: &[&str]) {
         if 0.0 <= from && from < to {
             self.set("spindle-speeds", Quantity::Numbers(vec![rounded(from), rounded(to)]), sources);
         } else {
             let problem = Diagnostic::new(&say::EMPTY_SPEEDS).with("from", from).with("to", to);
-            self.report(problem.at_line(line, None));
+            self.report_at(problem, line);
         }
     }
 

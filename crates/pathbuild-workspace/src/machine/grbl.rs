@@ -29,8 +29,8 @@ pub(super) fn read(text: &str) -> Description {
     // In laser mode these are the limits of the beam's power.
     if entries.get("$32").is_some_and(|mode| mode.value == "1") {
         let problem = Diagnostic::new(&say::LASER);
-        let line = entries.take("$32").map_or(1, |mode| mode.line);
-        entries.report(problem.at_line(line, None));
+        let line = entries.take("$32").and_then(|mode| mode.line);
+        entries.report_at(problem, line);
     } else {
         entries.set_speeds("$31", "$30");
     }

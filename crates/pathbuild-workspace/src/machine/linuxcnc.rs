@@ -48,21 +48,30 @@ const FORMAT: &str = "LinuxCNC";
 
 static UNIT: Text = Text { en: "mm or inch", de: "mm oder inch" };
 
+/// The unit of lengths, if the file names a known one.
+pub(super) fn length_unit(text: &str) -> Option<LengthUnit> {
+    named_unit(&entries(text).ok()?.take("TRAJ/LINEAR_UNITS")?.value)
+}
+
+fn named_unit(name: &str) -> Option<LengthUnit> {
+    match name.to_ascii_lowercase().as_str() {
+        "mm" | "metric" => Some(LengthUnit::Millimetre),
+        "in" | "inch" | "imperial" => Some(LengthUnit::Inch),
+        _ => None,
+    }
+}
+
 /// The unit of lengths in mm; reports that it is missing.
 fn unit(entries: &mut Entries) -> Option<f64> {
     let Some(entry) = entries.take("TRAJ/LINEAR_UNITS").cloned() else {
         entries.report(Diagnostic::new(&say::UNIT_MISSING));
         return None;
     };
-    match entry.value.to_ascii_lowercase().as_str() {
-        "mm" | "metric" => Some(LengthUnit::Millimetre.millimetres()),
-        "in" | "inch" | "imperial" => Some(LengthUnit::Inch.millimetres()),
-        "cm" => Some(10.0),
-        _ => {
-            entries.not_taken(&entry, &UNIT);
-            None
-        }
+    let unit = named_unit(&entry.value);
+    if unit.is_none() {
+        entries.not_taken(&entry, &UNIT);
     }
+    unit.map(LengthUnit::millimetres)
 }
 
 /// Sets `travel` to the distances between the limits, which are in machine coordinates.

@@ -5,6 +5,7 @@ mod entries;
 mod fluidnc;
 mod grbl;
 mod linuxcnc;
+mod tools;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::import as say;
@@ -52,12 +53,30 @@ pub struct Description {
 /// A value for the configuration.
 #[derive(Clone, Debug)]
 pub struct DescribedValue {
-    /// Key of `[machine]`.
+    /// The table that has the key.
+    pub target: Target,
+    /// Name of the key.
     pub key: &'static str,
     /// The value, in the configuration's units.
     pub value: Quantity,
     /// Names of the entries that the value was read from.
     pub source: String,
+    /// Whether the value does not concern a tool that the configuration has already.
+    pub is_for_new_tools: bool,
+}
+
+/// A table of the configuration.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// `[machine]`
+    Machine,
+    /// A table of `[tool]`: the one of this number, or else of this name.
+    Tool {
+        /// Its number in the machine.
+        number: Option<u32>,
+        /// Its name in the description.
+        name: String,
+    },
 }
 
 /// A value as the configuration takes it.
@@ -67,19 +86,36 @@ pub enum Quantity {
     Number(f64),
     /// A list of numbers.
     Numbers(Vec<f64>),
+    /// A name.
+    Text(String),
 }
 
-/// Reads a description. The format is recognized by the content.
+/// The unit of lengths that a text names for other files as well: that of an ini file of `LinuxCNC`.
+pub fn machine_unit(text: &str) -> Option<LengthUnit> {
+    if linuxcnc::is_ini(text) { linuxcnc::length_unit(text) } else { None }
+}
+
+/// Reads a description. The format is recognized by the content. `unit` is that of a tool table, and `bit` gives the text of a tool bit that
+/// a FreeCAD library names.
 ///
 /// # Errors
 /// The text is in none of the known formats, or is broken.
-pub fn read(file: &Utf8Path, text: &str) -> Result<Description, Box<Diagnostic>> {
-    let read = if grbl::is_listing(text) {
+pub fn read(
+    file: &Utf8Path,
+    text: &str,
+    unit: Option<LengthUnit>,
+    bit: &dyn Fn(&str) -> Result<String, Shown>,
+) -> Result<Description, Box<Diagnostic>> {
+    let read = if text.trim_start().starts_with('{') {
+        tools::read_json(text, bit)
+    } else if grbl::is_listing(text) {
         Ok(grbl::read(text))
     } else if linuxcnc::is_ini(text) {
         linuxcnc::read(text)
     } else if fluidnc::is_configuration(text) {
         fluidnc::read(text)
+    } else if tools::is_table(text) {
+        tools::read_table(text, unit)
     } else {
         Err(Box::new(Diagnostic::new(&say::UNKNOWN_FORMAT)))
     };

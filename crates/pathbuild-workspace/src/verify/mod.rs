@@ -17,8 +17,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, Checks, Machine, MachineRules, PastClamps, PostWords, StatedStatistics, WordRules, coarse_arcs,
-    verify_with,
+    Against, Checks, ChipLoadRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics,
+    WordRules, coarse_arcs, verify_with,
 };
 use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -326,7 +326,11 @@ impl<'v> Verification<'v> {
             clamps: against.and_then(|against| against.past_clamps(program.dialect)),
         };
         let checks = Checks { stock: self.sources.stock(), machine: None };
-        let mut found = verify_with(&program.drawn(), &checks, &mut |step| nominal.step(step));
+        let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
+        let mut found = verify_with(&program.drawn(), &checks, &mut |step| {
+            nominal.step(step);
+            chip_loads.step(step);
+        });
         found.extend(self.sources.doubtful_rapids(&found));
         for word in program.words_left_out() {
             nominal.left_out(word.line, &word.word);
@@ -335,6 +339,7 @@ impl<'v> Verification<'v> {
         found.extend(nominal.clamps.into_iter().flat_map(PastClamps::finish));
         found.extend(coarse_arcs(program.code(), program.dialect));
         found.extend(written.limits);
+        found.extend(chip_loads.finish());
         found.extend(self.sources.unknown_tools());
         if program.dialect == Dialect::Native {
             found.extend(native::unstated_heights(&program.text));

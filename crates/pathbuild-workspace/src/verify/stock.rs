@@ -5,10 +5,12 @@ use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapids_at_depth};
+use pathbuild_motion::ChipLoad;
 
 use super::against::ReferenceProgram;
 use super::checks::Origin;
 use super::{Verifier, VerifyOptions};
+use crate::config::types::Tool;
 use crate::program::Program;
 
 /// Everything that may say which cutter a program uses and how high its material is, and what was concluded.
@@ -24,7 +26,8 @@ pub(super) struct Sources<'s> {
 struct ToolDiameters {
     given: Option<f64>,
     drawn: Option<f64>,
-    table: Option<f64>,
+    /// Its widths by the configuration.
+    table: Option<Cutter>,
     /// Whether the number in the program is that of the tool in the spindle. A native program always selects T1, so its header decides.
     is_numbered: bool,
     header: Option<StatedCutter>,
@@ -33,18 +36,25 @@ struct ToolDiameters {
 impl ToolDiameters {
     fn origin(&self) -> Option<Origin> {
         let table = self.table.filter(|_| self.is_numbered);
+        let table = table.map(|table| table.diameter);
         let known = [(self.given, Origin::Option), (self.drawn, Origin::Drawing), (table, Origin::Table)];
         let first = known.into_iter().find_map(|(value, origin)| value.map(|_| origin));
         first.or(self.header.map(|_| Origin::Program))
     }
 
-    /// The widths by the first source; where another one disagrees, the smaller diameter removes material and the larger one hits it.
+    /// The widths by the first source; where another one disagrees, the smaller diameter removes material and the larger one hits it. Only
+    /// the configuration and the header know the shape.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
-        let mut known = [self.given, self.drawn, table].into_iter().flatten();
-        let Some(first) = known.next() else { return self.header.map(|header| header.widths()) };
+        let known = [self.given, self.drawn, table.map(|table| table.diameter)];
+        let Some(first) = known.into_iter().flatten().next() else {
+            return self.header.map(|header| header.widths());
+        };
+        let is_same = |diameter: f64| different(Some(first), Some(diameter)).is_none();
+        let cutter = table.filter(|table| is_same(table.diameter)).unwrap_or(Cutter::flat(first));
         let header = self.header.filter(|header| !header.has_diameter(first)).map(|header| header.diameter);
-        Some(known.chain(header).fold(Cutter::flat(first), Cutter::or_diameter))
+        let others = known.into_iter().flatten().filter(|diameter| !is_same(*diameter)).chain(header);
+        Some(others.fold(cutter, Cutter::or_diameter))
     }
 }
 
@@ -184,8 +194,7 @@ impl<'s> Sources<'s> {
 
     /// Warns about tools that are not in the table, unless the table has no numbers at all.
     pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
-        let table_numbers: Vec<u32> =
-            self.verifier.table.entries.iter().filter_map(|entry| entry.index).collect();
+        let table_numbers: Vec<u32> = self.tools().iter().filter_map(|tool| tool.number).collect();
         // Layers are not tools, and native programs always say T1.
         let is_no_tool = matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native);
         let mut unknown: Vec<(u32, u32)> = Vec::new();
@@ -201,6 +210,27 @@ impl<'s> Sources<'s> {
         unknown.into_iter().map(warning).collect()
     }
 
+    /// The configured tool of this number.
+    fn entry(&self, tool: &CuttingTool) -> Option<&'s Tool> {
+        self.tools().iter().find(|entry| entry.number.is_some() && entry.number == tool.number)
+    }
+
+    /// The chip loads allowed for the tools, each with the line from which it cuts. Layers are not tools, and native programs always say
+    /// T1. In a program with subprograms, the tool of a line depends on the caller.
+    pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
+        let is_numbered = !matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native);
+        if !is_numbered || self.header.has_calls && self.header.tools.len() > 1 {
+            return Vec::new();
+        }
+        let load = |tool: &CuttingTool| (tool.line, self.entry(tool).and_then(Tool::chip_load));
+        self.header.tools.iter().map(load).collect()
+    }
+
+    /// The configured tools.
+    fn tools(&self) -> &'s [Tool] {
+        &self.verifier.settings.tables.tools.value
+    }
+
     fn options(&self) -> &'s VerifyOptions {
         &self.verifier.options
     }
@@ -214,23 +244,19 @@ impl<'s> Sources<'s> {
     }
 
     fn diameters(&self, tool: &CuttingTool) -> ToolDiameters {
-        let entry = self
-            .verifier
-            .table
-            .entries
-            .iter()
-            .find(|entry| entry.index.is_some() && entry.index == tool.number);
+        let entry = self.entry(tool);
         let (given, drawn, header) = (self.options().cutter, self.drawn(), tool.cutter);
         // Layers are not tools, but may be numbered like them.
         let is_only_source = given.or(drawn).is_none() && header.is_none();
         let may_be_tool = |_: &f64| self.program.dialect != Dialect::Xpertmill || is_only_source;
-        let table = entry.map(|entry| entry.diameter).filter(may_be_tool);
+        let table = entry.map(Tool::cutter).filter(|cutter| may_be_tool(&cutter.diameter));
         ToolDiameters { given, drawn, table, header, is_numbered: self.program.dialect != Dialect::Native }
     }
 }
 
 fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagnostic> {
-    let ToolDiameters { given, drawn, table, header, is_numbered } = *diameters;
+    let ToolDiameters { given, drawn, header, is_numbered, .. } = *diameters;
+    let table = diameters.table.map(|table| table.diameter);
     let other_than_header = |value: Option<f64>| {
         let header = header.filter(|header| value.is_some_and(|value| !header.has_diameter(value)))?;
         Some((header.diameter, value?))

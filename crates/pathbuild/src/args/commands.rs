@@ -8,6 +8,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::UnitCodes;
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::config::types::Requirement;
+use pathbuild_workspace::machine::LengthUnit;
 use pathbuild_workspace::program::ReadingOptions;
 
 use super::shared::{Address, InputArgs, WaiverArgs};
@@ -198,6 +199,11 @@ pub enum UnitCodesArg {
     Din,
     /// The other way round.
     Table,
+}
+
+fn length_units() -> impl TypedValueParser<Value = LengthUnit> {
+    PossibleValuesParser::new(["mm", "inch"])
+        .map(|name| if name == "inch" { LengthUnit::Inch } else { LengthUnit::Millimetre })
 }
 
 fn requirements() -> impl TypedValueParser<Value = Requirement> {
@@ -449,11 +455,14 @@ pub struct MachineArgs {
 /// What can be done with a description of a machine.
 #[derive(Clone, Debug, Subcommand)]
 pub enum MachineCommand {
-    /// Compare descriptions of the machine with `[machine]`, and take them over with --write
+    /// Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write
     Import {
-        /// GRBL's and grblHAL's answer to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file
+        /// The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360
         #[arg(value_name = "FILE", required = true)]
         files: Vec<Utf8PathBuf>,
+        /// Unit of the lengths in a tool table of `LinuxCNC`, if its ini file is not among the files
+        #[arg(long, value_name = "UNIT", value_parser = length_units())]
+        units: Option<LengthUnit>,
         /// Write the values into pathbuild.toml
         #[arg(long)]
         write: bool,
@@ -493,12 +502,16 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
     ("Check every cached result for damage", "Prüft jedes gespeicherte Ergebnis auf Schäden"),
     ("Print the values in force", "Gibt die geltenden Werte aus"),
     (
-        "Compare descriptions of the machine with `[machine]`, and take them over with --write",
-        "Vergleicht Beschreibungen der Maschine mit `[machine]` und übernimmt sie mit --write",
+        "Compare descriptions of the machine with `[machine]` and `[tool]`, and take them over with --write",
+        "Vergleicht Beschreibungen der Maschine mit `[machine]` und `[tool]` und übernimmt sie mit --write",
     ),
     (
-        "GRBL's and grblHAL's answer to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file",
-        "die Antwort von GRBL und grblHAL auf $$, die YAML-Datei von `FluidNC`, die ini-Datei von `LinuxCNC`",
+        "The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360",
+        "Die Antwort von GRBL oder grblHAL auf $$, die YAML-Datei von `FluidNC`, ini-Datei oder Werkzeugtabelle von `LinuxCNC`, Werkzeuge von FreeCAD oder Fusion 360",
+    ),
+    (
+        "Unit of the lengths in a tool table of `LinuxCNC`, if its ini file is not among the files",
+        "Einheit der Längen in einer Werkzeugtabelle von `LinuxCNC`, wenn deren ini-Datei nicht mit angegeben ist",
     ),
     ("Write the values into pathbuild.toml", "Schreibt die Werte in die pathbuild.toml"),
     ("Print the JSON schema of pathbuild.toml", "Gibt das JSON-Schema von pathbuild.toml aus"),

@@ -5,10 +5,10 @@ use std::fmt::Write;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_workspace::config::{FILE_NAME, faults};
 use pathbuild_workspace::files;
-use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, Entry};
+use pathbuild_workspace::machine::{self, Change, DescribedValue, Entry};
 use serde_json::json;
 
 use crate::args::{MachineArgs, MachineCommand};
@@ -18,15 +18,23 @@ use crate::render::Format;
 
 /// Prints the differences, and writes them if requested. Nothing is written if a file cannot be read.
 pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
-    let MachineCommand::Import { files, write } = &args.command;
-    let (mut values, mut diagnostics) = (Vec::new(), Vec::new());
-    let mut unused = Vec::new();
+    let MachineCommand::Import { files, units, write } = &args.command;
+    let mut diagnostics = Vec::new();
+    let mut texts = Vec::new();
     for file in files {
-        match description(context, file) {
+        match text(context, &context.working_directory.join(file)) {
+            Ok(text) => texts.push((file.as_path(), text)),
+            Err(reason) => diagnostics.push(unreadable(file, reason)),
+        }
+    }
+    let unit = units.or_else(|| texts.iter().find_map(|(_, text)| machine::machine_unit(text)));
+    let (mut values, mut unused) = (Vec::new(), Vec::new());
+    for (file, text) in &texts {
+        match machine::read(file, text, unit, &|name| bit(context, file, name)) {
             Ok(description) => {
                 values.extend(description.values);
                 diagnostics.extend(description.problems);
-                unused.push((file.as_path(), description.format, description.unused));
+                unused.push((*file, description.format, description.unused));
             }
             Err(problem) => diagnostics.push(*problem),
         }
@@ -41,12 +49,23 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-fn description(context: &Context, file: &Utf8Path) -> Result<Description, Box<Diagnostic>> {
-    let place = context.working_directory.join(file);
-    let text = files::read(&*context.system, &place, machine::LARGEST).map_err(|reason| {
-        Box::new(Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(file))
-    })?;
-    machine::read(file, &text)
+fn text(context: &Context, file: &Utf8Path) -> Result<String, Value> {
+    files::read(&*context.system, file, machine::LARGEST)
+}
+
+fn unreadable(file: &Utf8Path, reason: Value) -> Diagnostic {
+    Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(file)
+}
+
+/// The text of a tool bit that a FreeCAD library names: a file beside the library, or in the directory Bit beside that of the library. Other
+/// directories are not read.
+fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Value> {
+    let name = Utf8Path::new(name).file_name().unwrap_or(name);
+    let library = context.working_directory.join(library);
+    let directory = library.parent().unwrap_or(Utf8Path::new(""));
+    let sibling = directory.parent().map(|parent| parent.join("Bit").join(name));
+    text(context, &directory.join(name))
+        .or_else(|reason| sibling.map_or(Err(reason), |file| text(context, &file)))
 }
 
 /// Entries without a key: the file, its format, and the entries.
@@ -62,9 +81,7 @@ fn compare(
     let file = configuration(context);
     let is_there = files::is_named(&file);
     let old = if is_there {
-        files::read(&*context.system, &file, machine::LARGEST).map_err(|reason| {
-            vec![Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(&file)]
-        })?
+        text(context, &file).map_err(|reason| vec![unreadable(&file, reason)])?
     } else {
         String::new()
     };
@@ -116,7 +133,13 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[Unused
         change_lines(&mut text, change);
     }
     for (file, format, entries) in unused.iter().filter(|(_, _, entries)| !entries.is_empty()) {
-        let names: Vec<&str> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        // Each tool of a library has the same ones.
+        let mut names: Vec<&str> = Vec::new();
+        for entry in entries {
+            if !names.contains(&entry.name.as_str()) {
+                names.push(&entry.name);
+            }
+        }
         let no_key = context.choose("no key for", "kein Schlüssel für");
         let file = shown::line(file.as_str());
         _ = writeln!(text, "{file} ({format}): {no_key} {}", shown::line(&names.join(", ")));

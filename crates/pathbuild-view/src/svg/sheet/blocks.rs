@@ -287,7 +287,20 @@ fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
     let name = tool.name.as_ref().map(|name| format!(" ({name})"));
     let what =
         format!("{}Ø {} mm{}", number.unwrap_or_default(), mm(tool.diameter), name.unwrap_or_default());
-    std::iter::once(what).chain(spindle(tool, words)).collect()
+    std::iter::once(what).chain(edges(tool, words)).chain(spindle(tool, words)).collect()
+}
+
+/// The cutting edges of a cutter: corner radius, number and length.
+fn edges(tool: &SheetTool, words: Words) -> Option<String> {
+    let radius =
+        Some(tool.corner_radius).filter(|radius| *radius > 0.0).map(|radius| format!("R {}", mm(radius)));
+    let flutes =
+        tool.flutes.map(|flutes| words.either(format!("{flutes} flutes"), format!("{flutes} Schneiden")));
+    let length = tool.length.map(|length| {
+        words.either(format!("cuts {} mm deep", mm(length)), format!("schneidet {} mm tief", mm(length)))
+    });
+    let texts: Vec<String> = radius.into_iter().chain(flutes).chain(length).collect();
+    (!texts.is_empty()).then(|| texts.join(", "))
 }
 
 fn spindle(tool: &SheetTool, words: Words) -> Option<String> {

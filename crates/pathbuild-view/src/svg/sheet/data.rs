@@ -60,6 +60,12 @@ pub struct SheetTool {
     pub speed: Option<f64>,
     /// Whether the spindle turns clockwise.
     pub clockwise: Option<bool>,
+    /// Number of cutting edges.
+    pub flutes: Option<u32>,
+    /// Radius of its corners in mm; 0 if they are sharp.
+    pub corner_radius: f64,
+    /// Length of its cutting edges in mm.
+    pub length: Option<f64>,
     /// The paths milled with it.
     pub paths: Vec<String>,
 }

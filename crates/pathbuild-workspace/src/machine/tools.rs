@@ -1,0 +1,352 @@
+//! Tool tables and libraries: `LinuxCNC`'s `tool.tbl`, Fusion 360's JSON, FreeCAD's tool bits and libraries.
+//!
+//! Sources: "Tool Table" of the `LinuxCNC` documentation, exported libraries of Fusion 360 (`.json`, also within a `.tools` archive), and
+//! `Path_ToolBit` of the FreeCAD documentation.
+
+use pathbuild_diagnostic::messages::configuration::COUNT;
+use pathbuild_diagnostic::messages::import as say;
+use pathbuild_diagnostic::{Diagnostic, Value as Shown};
+use serde_json::{Map, Value};
+
+use super::entries::rounded;
+use super::{DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
+
+/// Gives the text of a tool bit that a FreeCAD library names.
+pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
+
+/// Whether every line of the text is a tool of `LinuxCNC` or a comment.
+pub(super) fn is_table(text: &str) -> bool {
+    let is_tool = |line: &str| {
+        let mut words = line.split_whitespace();
+        words.next().is_some_and(|word| number_after(word, 'T').is_some())
+    };
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with(';'));
+    lines.clone().next().is_some() && lines.all(is_tool)
+}
+
+/// Reads a `tool.tbl`. Its lengths are in the unit of the machine, which only the ini file names.
+pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Description, Box<Diagnostic>> {
+    let Some(unit) = unit else { return Err(Box::new(Diagnostic::new(&say::TABLE_WITHOUT_UNIT))) };
+    let mut tools = Tools::new("LinuxCNC");
+    for (index, line) in text.lines().enumerate() {
+        let (words, comment) = line.split_once(';').unwrap_or((line, ""));
+        if words.trim().is_empty() {
+            continue;
+        }
+        let place = u32::try_from(index + 1).ok();
+        let find = |letter| words.split_whitespace().find_map(|word| number_after(word, letter));
+        let mut tool = Described::new(comment.trim(), place);
+        tool.number =
+            tools.tool_number("T", words.split_whitespace().find_map(|word| word.strip_prefix('T')), place);
+        match find('D').filter(|diameter| *diameter > 0.0) {
+            Some(diameter) => tool.length("diameter", diameter, unit, "D"),
+            None => tools.without_diameter(&tool),
+        }
+        // The table does not tell the shape of the tip.
+        tool.shape(None);
+        let others = words.split_whitespace().filter(|word| !word.starts_with(['T', 'D']));
+        tools.unused.extend(others.map(|word| {
+            let (name, value) = word.split_at(word.chars().next().map_or(0, char::len_utf8));
+            Entry { name: name.to_owned(), value: value.to_owned(), line: place }
+        }));
+        tools.add(tool);
+    }
+    Ok(tools.finish())
+}
+
+fn number_after(word: &str, letter: char) -> Option<f64> {
+    word.strip_prefix(letter)?.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// Reads a library of Fusion 360, or a tool bit or library of FreeCAD.
+pub(super) fn read_json(text: &str, bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
+    let root: Value = serde_json::from_str(text).map_err(|error| broken(&error.to_string(), error.line()))?;
+    if let Some(library) = root.get("data").and_then(Value::as_array) {
+        Ok(fusion(library))
+    } else if let Some(list) = root.get("tools").and_then(Value::as_array) {
+        freecad_library(list, bit)
+    } else if root.get("parameter").is_some_and(Value::is_object) {
+        let mut tools = Tools::new("FreeCAD");
+        freecad_bit(&root, None, &mut tools);
+        Ok(tools.finish())
+    } else {
+        Err(Box::new(Diagnostic::new(&say::UNKNOWN_FORMAT)))
+    }
+}
+
+fn fusion(library: &[Value]) -> Description {
+    let mut tools = Tools::new("Fusion 360");
+    for entry in library {
+        let mut fields = Fields::new(entry);
+        let kind = fields.text("type").unwrap_or_default();
+        if matches!(&*kind, "holder" | "probe") {
+            tools.unused.extend(fields.unused());
+            continue;
+        }
+        let mut tool = Described::new(&fields.text("description").unwrap_or_default(), None);
+        let number = fields.take("post-process/number").map(|number| shown(&number));
+        tool.number = tools.tool_number("post-process/number", number.as_deref(), None);
+        let unit = match fields.text("unit").as_deref() {
+            Some("inches") => Some(LengthUnit::Inch),
+            Some("millimeters") => Some(LengthUnit::Millimetre),
+            _ => None,
+        };
+        let diameter = fields.number("geometry/DC").filter(|diameter| *diameter > 0.0);
+        match diameter.zip(unit) {
+            Some((diameter, unit)) => {
+                tool.length("diameter", diameter, unit, "geometry/DC");
+                tool.length("length", fields.number("geometry/LCF").unwrap_or(0.0), unit, "geometry/LCF");
+                let radius = fields.number("geometry/RE");
+                let radius = match &*kind {
+                    "flat end mill" | "face mill" | "slot mill" => Some(radius.unwrap_or(0.0)),
+                    "bull nose end mill" => radius,
+                    "ball end mill" => Some(diameter / 2.0),
+                    _ => None,
+                };
+                tool.shape(radius.map(|radius| (radius, unit)));
+            }
+            None => tools.without_diameter(&tool),
+        }
+        tool.flutes(fields.number("geometry/NOF"), "geometry/NOF");
+        tools.unused.extend(fields.unused());
+        tools.add(tool);
+    }
+    tools.finish()
+}
+
+fn freecad_library(list: &[Value], bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
+    let mut tools = Tools::new("FreeCAD");
+    for entry in list {
+        let mut fields = Fields::new(entry);
+        let number = fields.take("nr").map(|number| shown(&number));
+        let number = tools.tool_number("nr", number.as_deref(), None);
+        let Some(name) = fields.text("path") else {
+            tools.unused.extend(fields.unused());
+            continue;
+        };
+        let unreadable = |reason: Shown| {
+            let problem = Diagnostic::new(&say::BIT_UNREADABLE).quoting("name", name.as_str());
+            problem.with("reason", reason)
+        };
+        match bit(&name) {
+            Ok(text) => {
+                let bit: Value = serde_json::from_str(&text)
+                    .map_err(|error| Box::new(unreadable(Shown::foreign(&error.to_string()))))?;
+                freecad_bit(&bit, number, &mut tools);
+            }
+            Err(reason) => tools.problems.push(unreadable(reason)),
+        }
+        tools.unused.extend(fields.unused());
+    }
+    Ok(tools.finish())
+}
+
+fn freecad_bit(bit: &Value, number: Option<u32>, tools: &mut Tools) {
+    let mut fields = Fields::new(bit);
+    let mut tool = Described { number, ..Described::new(&fields.text("name").unwrap_or_default(), None) };
+    let shape = fields.text("shape-type").or_else(|| fields.text("shape")).unwrap_or_default();
+    let shape = shape.to_ascii_lowercase();
+    let shape = shape.strip_suffix(".fcstd").unwrap_or(&shape);
+    let length = |fields: &mut Fields, name: &str| measured(&fields.text(&format!("parameter/{name}"))?);
+    let diameter = length(&mut fields, "Diameter").filter(|(diameter, _)| *diameter > 0.0);
+    if let Some((diameter, unit)) = diameter {
+        tool.length("diameter", diameter, unit, "parameter/Diameter");
+        let radius = match shape {
+            "endmill" => Some((0.0, unit)),
+            "ballend" => Some((diameter / 2.0, unit)),
+            // The meaning of the older FlatRadius differs between versions.
+            "bullnose" => length(&mut fields, "CornerRadius"),
+            _ => None,
+        };
+        tool.shape(radius);
+    } else {
+        tools.without_diameter(&tool);
+    }
+    if let Some((height, unit)) = length(&mut fields, "CuttingEdgeHeight") {
+        tool.length("length", height, unit, "parameter/CuttingEdgeHeight");
+    }
+    for name in ["attribute/Flutes", "parameter/Flutes"] {
+        tool.flutes(fields.number(name), name);
+    }
+    tools.unused.extend(fields.unused());
+    tools.add(tool);
+}
+
+/// Reads a length with its unit, such as `5.0000 mm` or `0.25 in`.
+fn measured(text: &str) -> Option<(f64, LengthUnit)> {
+    let text = text.trim();
+    let digits =
+        text.find(|c: char| !c.is_ascii_digit() && !matches!(c, '.' | '-' | '+')).unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = match unit.trim() {
+        "mm" => LengthUnit::Millimetre,
+        "in" | "\"" => LengthUnit::Inch,
+        _ => return None,
+    };
+    number.parse().ok().filter(|number: &f64| number.is_finite()).map(|number| (number, unit))
+}
+
+/// The values of a JSON object by their paths, such as `geometry/DC`.
+struct Fields {
+    values: Map<String, Value>,
+}
+
+impl Fields {
+    fn new(object: &Value) -> Self {
+        let mut values = Map::new();
+        flatten("", object, &mut values);
+        Self { values }
+    }
+
+    fn take(&mut self, name: &str) -> Option<Value> {
+        self.values.remove(name)
+    }
+
+    fn text(&mut self, name: &str) -> Option<String> {
+        Some(shown(&self.take(name)?))
+    }
+
+    /// A number, which FreeCAD also writes as a text.
+    fn number(&mut self, name: &str) -> Option<f64> {
+        shown(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
+    }
+
+    /// The values that nobody has taken.
+    fn unused(self) -> impl Iterator<Item = Entry> {
+        self.values.into_iter().map(|(name, value)| Entry { name, value: shown(&value), line: None })
+    }
+}
+
+fn flatten(prefix: &str, value: &Value, values: &mut Map<String, Value>) {
+    match value {
+        Value::Object(object) => {
+            for (name, value) in object {
+                let name = if prefix.is_empty() { name.clone() } else { format!("{prefix}/{name}") };
+                flatten(&name, value, values);
+            }
+        }
+        value => _ = values.insert(prefix.to_owned(), value.clone()),
+    }
+}
+
+fn shown(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// A tool that is being read.
+#[derive(Debug, Default)]
+struct Described {
+    name: String,
+    number: Option<u32>,
+    line: Option<u32>,
+    values: Vec<(&'static str, Quantity, String)>,
+    /// The value of `shape` for a tool that the configuration does not have yet.
+    shape: Option<Quantity>,
+}
+
+impl Described {
+    fn new(name: &str, line: Option<u32>) -> Self {
+        Self { name: name.trim().to_owned(), line, ..Self::default() }
+    }
+
+    /// Sets a length, unless it is 0.
+    fn length(&mut self, key: &'static str, length: f64, unit: LengthUnit, source: &str) {
+        if length > 0.0 {
+            let millimetres = rounded(length * unit.millimetres());
+            self.values.push((key, Quantity::Number(millimetres), source.to_owned()));
+        }
+    }
+
+    fn flutes(&mut self, flutes: Option<f64>, source: &str) {
+        if let Some(flutes) = flutes.filter(|flutes| *flutes > 0.0 && flutes.fract() == 0.0) {
+            self.values.push(("flutes", Quantity::Number(flutes), source.to_owned()));
+        }
+    }
+
+    /// Sets the corner radius; `None` if the tip is neither flat nor round, or not known.
+    fn shape(&mut self, radius: Option<(f64, LengthUnit)>) {
+        match radius {
+            Some((radius, unit)) => self.length("corner-radius", radius, unit, "type"),
+            None => self.shape = Some(Quantity::Text("other".to_owned())),
+        }
+    }
+}
+
+/// The tools of a description.
+struct Tools {
+    format: &'static str,
+    values: Vec<DescribedValue>,
+    unused: Vec<Entry>,
+    problems: Vec<Diagnostic>,
+    names: Vec<String>,
+}
+
+impl Tools {
+    fn new(format: &'static str) -> Self {
+        Self { format, values: Vec::new(), unused: Vec::new(), problems: Vec::new(), names: Vec::new() }
+    }
+
+    /// Reads the number of a tool. 0 stands for none.
+    fn tool_number(&mut self, name: &str, text: Option<&str>, line: Option<u32>) -> Option<u32> {
+        let text = text?;
+        match text.parse() {
+            Ok(0) => None,
+            Ok(number) => Some(number),
+            Err(_) => {
+                let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", name);
+                let problem = problem.quoting("value", text).with("expected", Shown::Prose(&COUNT));
+                self.problems.push(at(problem, line));
+                None
+            }
+        }
+    }
+
+    /// Reports a tool whose diameter, or its unit, is not known.
+    fn without_diameter(&mut self, tool: &Described) {
+        let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
+        let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
+        self.problems.push(at(problem, tool.line));
+    }
+
+    /// Adds a tool, unless it has no diameter, without which the configuration takes none.
+    fn add(&mut self, tool: Described) {
+        if tool.values.iter().all(|(key, ..)| *key != "diameter") {
+            return;
+        }
+        let number = tool.number.map(|number| format!("T{number}"));
+        let name = Some(tool.name).filter(|name| !name.is_empty()).or(number.clone());
+        let mut name = name.unwrap_or_else(|| "tool".to_owned());
+        if self.names.contains(&name) {
+            let suffix = number.unwrap_or_else(|| self.names.len().to_string());
+            name = format!("{name} ({suffix})");
+        }
+        self.names.push(name.clone());
+        let target = Target::Tool { number: tool.number, name };
+        let value = |key, value, source, is_for_new_tools| DescribedValue {
+            target: target.clone(),
+            key,
+            value,
+            source,
+            is_for_new_tools,
+        };
+        let number = tool
+            .number
+            .map(|number| value("number", Quantity::Number(f64::from(number)), "T".to_owned(), false));
+        let shape = tool.shape.map(|shape| value("shape", shape, "type".to_owned(), true));
+        let values =
+            tool.values.into_iter().map(|(key, quantity, source)| value(key, quantity, source, false));
+        self.values.extend(values.chain(number).chain(shape));
+    }
+
+    fn finish(self) -> Description {
+        let Self { format, values, unused, problems, .. } = self;
+        Description { format, values, unused, problems }
+    }
+}
+
+fn at(problem: Diagnostic, line: Option<u32>) -> Diagnostic {
+    match line {
+        Some(line) => problem.at_line(line, None),
+        None => problem,
+    }
+}

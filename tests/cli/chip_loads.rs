@@ -1,0 +1,78 @@
+//! Chip loads outside the limits of `[tool]` (PB790), in drawings and programs; and the shape of a tool in `verify`.
+
+use crate::support::{Place, Run};
+use pathbuild_testkit::sheet;
+
+const TOOL: &str = "[tool.mill]\ndiameter = 2\nnumber = 4\nspindle = 10000\nflutes = 2\n";
+
+/// `check` of a path with F on its start and on a line, with limits of 0.01 to 0.03 mm per tooth: F200 to F600.
+fn check(start: &str, line: &str, options: &str) -> String {
+    let drawing =
+        format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 {start}\"\nmill 0,0 40,0{line}\nend 40,0\n");
+    let place = Place::new()
+        .file("pathbuild.toml", format!("rapid = 1000\nsweep-height = 8\n{TOOL}chip-load = [0.01, 0.03]\n"))
+        .file("1234.1P.dxf", sheet(&drawing));
+    let run = place.run(&format!("{options} 1234.1P.dxf --format concise"));
+    assert_eq!(run.status, Some(0), "{run}");
+    run.stdout.lines().chain(run.stderr.lines()).filter(|line| line.contains("PB790")).collect()
+}
+
+#[test]
+fn f_of_a_drawing_is_compared_with_the_limits_of_the_tool() {
+    assert_eq!([check("F200", "", "check"), check("F600", "", "check")], ["", ""]);
+    assert!(check("F199", "", "check").contains("is below 0.01: feed 199 mm/min, 10000 1/min, 2 flutes"));
+    assert!(check("F601", "", "check").contains("is above 0.03: feed 601 mm/min, 10000 1/min, 2 flutes"));
+    assert!(check("F300", " \"F700\"", "check").contains("0.035 mm per tooth is above 0.03"));
+    assert!(check("", "", "emit --feed 700").contains("0.035 mm per tooth is above 0.03"));
+    assert_eq!(check("", "", "emit --feed 600"), "");
+}
+
+/// The findings about a program in concise form.
+fn verify(configuration: &str, program: &str, options: &str) -> Run {
+    let place = Place::new().file("pathbuild.toml", configuration).file("a.nc", program);
+    place.run(&format!("verify a.nc --dialect linuxcnc --format concise {options}"))
+}
+
+/// The lines with a chip load outside the limits.
+fn loads(feed: &str, speed: &str, limits: &str) -> Vec<String> {
+    let program = format!(
+        "G17 G21 G90 G94\nT4 M6\nM3 {speed}\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F20\nG1 X10 {feed}\nG1 X20\nG0 Z5\nM5\nM30\n"
+    );
+    let run = verify(&format!("{TOOL}{limits}"), &program, "");
+    run.stderr
+        .lines()
+        .chain(run.stdout.lines())
+        .filter(|line| line.contains("PB790"))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn feeds_of_a_program_are_compared_by_its_own_speed() {
+    const LIMITS: &str = "chip-load = [0.01, 0.03]\n";
+    assert_eq!(loads("F1200", "S20000", LIMITS), [""; 0]);
+    let found = loads("F1201", "S20000", LIMITS);
+    assert!(found.len() == 1 && found[0].starts_with("a.nc:7:"), "{found:?}");
+    assert_eq!(loads("F400", "S20000", LIMITS), [""; 0]);
+    assert_eq!(loads("F399", "S20000", LIMITS).len(), 1);
+    assert_eq!(loads("F9999", "S20000", ""), [""; 0]);
+}
+
+/// Two parallel cuts, 3 mm apart; then a rapid move in the second one, `offset` mm beside its centre line, at the depth of the cut.
+fn rapid_beside_a_cut(tool: &str, offset: f64) -> bool {
+    let program = format!(
+        "G17 G21 G90 G94\nT4 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG1 Y{offset}\nG0 X10\nG0 Z5\nM5\nM30\n"
+    );
+    let run = verify(tool, &program, "--surface 0");
+    run.stderr.contains("PB740") || run.stdout.contains("PB740") || run.status == Some(1)
+}
+
+#[test]
+fn a_rounded_corner_clears_less() {
+    let tool = |more: &str| format!("[tool.mill]\ndiameter = 6\nnumber = 4\n{more}");
+    assert!(!rapid_beside_a_cut(&tool(""), 0.0));
+    assert!(rapid_beside_a_cut(&tool(""), 3.0));
+    assert!(!rapid_beside_a_cut(&tool("corner-radius = 2\n"), 0.0));
+    assert!(rapid_beside_a_cut(&tool("corner-radius = 2\n"), 1.5));
+    assert!(!rapid_beside_a_cut(&tool("shape = \"other\"\n"), 0.0));
+}
