@@ -8,10 +8,10 @@ const TOOL: &str = "[tool.mill]\ndiameter = 2\nnumber = 4\nspindle = 10000\nflut
 /// `check` of a path with F on its start and on a line, with limits of 0.01 to 0.03 mm per tooth: F200 to F600.
 fn check(start: &str, line: &str, options: &str) -> String {
     let drawing =
-        format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 {start}\"\nmill 0,0 40,0{line}\nend 40,0\n");
+        format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 MX {start}\"\nmill 0,0 40,0{line}\nend 40,0\n");
     let place = Place::new()
         .file("pathbuild.toml", format!("rapid = 1000\nsweep-height = 8\n{TOOL}chip-load = [0.01, 0.03]\n"))
-        .file("1234.1P.dxf", sheet(&drawing));
+        .file("1234.1P.dxf", sheet(&drawing).unwrap().to_dxf());
     let run = place.run(&format!("{options} 1234.1P.dxf --format concise"));
     assert_eq!(run.status, Some(0), "{run}");
     run.stdout.lines().chain(run.stderr.lines()).filter(|line| line.contains("PB790")).collect()

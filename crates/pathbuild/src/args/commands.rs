@@ -509,6 +509,7 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
         "The answer of GRBL or grblHAL to $$, `FluidNC`'s YAML, `LinuxCNC`'s ini file or tool table, tools of FreeCAD or Fusion 360",
         "Die Antwort von GRBL oder grblHAL auf $$, die YAML-Datei von `FluidNC`, ini-Datei oder Werkzeugtabelle von `LinuxCNC`, Werkzeuge von FreeCAD oder Fusion 360",
     ),
+    ("UNIT", "EINHEIT"),
     (
         "Unit of the lengths in a tool table of `LinuxCNC`, if its ini file is not among the files",
         "Einheit der Längen in einer Werkzeugtabelle von `LinuxCNC`, wenn deren ini-Datei nicht mit angegeben ist",
