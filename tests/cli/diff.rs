@@ -176,8 +176,8 @@ fn json_markdown_and_a_page() {
     let markdown = read("d.md");
     assert!(markdown.contains("| ` 1001.1P ` | ` parts/1001.1P.dxf ` | 0.5 mm deeper&#58; "), "{markdown}");
     let page = read("d.html");
-    // Once with the changes, with old and new side by side, and overlaid.
-    assert_eq!(page.matches("<svg").count(), 5);
+    // Once with the changes, with old and new side by side, overlaid, and what is removed from the stock.
+    assert_eq!(page.matches("<svg").count(), 6);
     assert!(!page.contains("{{") && page.contains("0.5 mm deeper"));
     assert!(
         !page.contains("http://")
@@ -200,6 +200,20 @@ fn changes_are_seen() {
     let page = place.read("d.html");
     let pictures = page.split("<svg").skip(1).take(3).map(|text| text.split_once("</svg>").unwrap().0);
     assert_snapshot!(pictures.collect::<Vec<_>>().join("\n\n"));
+}
+
+/// A deeper cut removes more, a higher one leaves more, and another feed does neither.
+#[test]
+fn the_stock_shows_what_a_change_removes_or_leaves() {
+    let stock = |[old, new]: [(&str, &str); 2]| {
+        let place = two(dxf("1001.1P", old.0, old.1), dxf("1001.1P", new.0, new.1));
+        told(&place.run("diff old new -o d.html"), 0, &[]);
+        let page = place.read("d.html");
+        ["removed now, not before", "left now, removed before"].map(|text| page.contains(text))
+    };
+    assert_eq!(stock([("1", LINE), ("0.5", LINE)]), [true, false]);
+    assert_eq!(stock([("0.5", LINE), ("1", LINE)]), [false, true]);
+    assert_eq!(stock([("1", LINE), ("1", "mill 0,0 40,0 \"F130\"")]), [false, false]);
 }
 
 #[test]

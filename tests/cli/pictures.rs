@@ -166,3 +166,29 @@ fn pages_are_files_for_people_in_their_language() {
     place.run("emit . --report html=emitted.html");
     assert!(place.read("emitted.html").contains("PB401"));
 }
+
+/// A finding about a part shows the stock, with the region that is wrong filled; one just inside of the tolerance is no finding.
+#[test]
+fn regions_of_findings_about_a_part_are_filled() {
+    let drawn = |name: &str, elements: &str, outline: &str| {
+        let text = format!(
+            "layer {name}\nstart 0,0 \"T2 O2 I1 B0 S5 F100\"\n{elements}\nend 30,0\nlayer Part\n{outline}\n"
+        );
+        dxf(&text)
+    };
+    let plate = |low: f64| format!("polyline 0,{low} 30,{low} 30,20 0,20 closed");
+    let place = Place::new()
+        .file("pathbuild.toml", "part = 'Part'\nrapid = 900\npart-held = \"otherwise\"\n")
+        .file("1001.1P.dxf", drawn("1001.1P", "mill 0,0 30,0", &plate(0.5)))
+        .file("1002.1P.dxf", drawn("1002.1P", "mill 0,0 30,0", &plate(1.4)))
+        .file("1003.1P.dxf", drawn("1003.1P", "mill 0,0 30,0", &plate(0.985)))
+        .file("1004.1P.dxf", drawn("1004.1P", "mill 0,0 30,0", &plate(1.015)));
+    place.run("check . --pictures seen --no-cache");
+    let seen = pictures(&place, "seen");
+    let colours = |code: &str| {
+        let (_, picture) = seen.iter().find(|(name, _)| name.contains(code)).unwrap();
+        ["#e50d1a", "#9628c8"].map(|colour| picture.contains(&format!("stroke=\"{colour}\"")))
+    };
+    assert_eq!((colours("PB213"), colours("PB215")), ([true, false], [false, true]));
+    assert_eq!(seen.keys().filter(|name| name.contains("-PB21")).count(), 2, "{:?}", seen.keys());
+}

@@ -129,7 +129,7 @@ fn a_pdf_has_all_pages_with_letters_and_the_same_bytes_each_time() {
     });
     assert!(made[0] == made[1], "not the same bytes");
     let text = String::from_utf8_lossy(&made[0]);
-    assert_eq!(text.matches("/MediaBox [0 0 595.27563 841.8898]").count(), 2, "pages");
+    assert_eq!(text.matches("/MediaBox [0 0 595.27563 841.8898]").count(), 3, "pages");
     assert_eq!(text.matches("/FontFile2").count(), 1, "fonts");
     assert!(text.contains("DejaVuSans") && text.contains("/ToUnicode"));
     assert!(text.contains("\nPath 8003.1P, drawing 8003.1P.dxf\n"));

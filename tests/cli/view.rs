@@ -408,6 +408,80 @@ fn pictures_are_the_same_bytes_on_every_run() {
     assert!(place.read("a.svg").contains("Stützsteg"));
 }
 
+const RAPID_THROUGH_MATERIAL: &str = "rapid move through material";
+
+#[test]
+fn the_stock_is_the_same_bytes_on_every_run() {
+    let place = library();
+    for file in ["a.svg", "b.svg"] {
+        let run = place.run(&format!("view 8001.1P --stock -o {file}"));
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+    let picture = place.read("a.svg");
+    assert_eq!(picture, place.read("b.svg"));
+    assert!(picture.contains("cut through") && !picture.contains(RAPID_THROUGH_MATERIAL), "{picture}");
+}
+
+/// Horizontal moves of a picture, by the colour of their stroke: left and right end, and width of the stroke.
+fn swept(svg: &str, color: &str) -> Vec<[f64; 3]> {
+    let document = roxmltree::Document::parse(svg).unwrap();
+    let strokes = document.descendants().filter(|node| node.attribute("stroke") == Some(color));
+    let lines = strokes.flat_map(|node| {
+        let width: f64 = node.attribute("stroke-width").unwrap().parse().unwrap();
+        node.attribute("d").unwrap().split('M').skip(1).map(move |data| {
+            let numbers = data.split(['L', ' ']).map(|number| number.parse().unwrap()).collect::<Vec<f64>>();
+            [numbers[0].min(numbers[2]), numbers[0].max(numbers[2]), width]
+        })
+    });
+    lines.collect()
+}
+
+/// The cutter stays above a bar for P and O together, so that P is left of it.
+#[test]
+fn bars_have_their_true_width() {
+    let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 S9 F100 P3 U12 D3\"\nbars 0,0 40,0\nend 40,0";
+    let place = Place::new().file("1234.1P.dxf", sheet(drawn).unwrap().to_dxf());
+    let run = place.run("view 1234.1P.dxf --stock -o a.svg --rapid 900");
+    let picture = place.read("a.svg");
+    let scale = swept(&picture, "#ccd6e0")[0][2] / 2.0;
+    let on_bar = swept(&picture, "#9f7848").into_iter().map(|[from, to, _]| (to - from) / scale);
+    assert!(on_bar.into_iter().any(|length| (length - 5.0).abs() < 0.01), "{run}\n{picture}");
+}
+
+#[test]
+fn rapid_moves_through_material_are_red() {
+    let program = |z: &str| {
+        format!("G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 Z{z}\nG0 X0 Y10\nG0 Z5\nM30\n")
+    };
+    let place = Place::new().file("deep.nc", program("-0.01")).file("high.nc", program("0"));
+    for (file, is_through) in [("deep", true), ("high", false)] {
+        let run = place.run(&format!("view {file}.nc --stock --cutter 2 --surface 0 -o {file}.svg"));
+        assert_eq!(run.status, Some(0), "{run}");
+        assert_eq!(place.read(&format!("{file}.svg")).contains(RAPID_THROUGH_MATERIAL), is_through, "{file}");
+    }
+    // A rapid move back along a cut runs through no material.
+    let along = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 X0\nG0 Z5\nM30\n";
+    let place = Place::new().file("a.nc", along);
+    place.run("view a.nc --stock --cutter 2 --surface 0 -o a.svg");
+    assert!(!place.read("a.svg").contains(RAPID_THROUGH_MATERIAL));
+}
+
+#[test]
+fn without_cutter_or_surface_there_is_no_stock() {
+    let program = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 Z5\nM30\n";
+    let place = Place::new().file("a.nc", program);
+    for (line, said) in [
+        ("view a.nc --stock --surface 0 -o a.svg", "give --cutter and --surface"),
+        ("view a.nc --stock --cutter 2 -o a.svg", "give --cutter and --surface"),
+        ("view a.nc --stock --cutter 0 --surface 0 -o a.svg", "PB"),
+        ("view a.nc --stock --cutter 2 --surface 0 -o a.json", "the name must end in .svg, .png or .pdf"),
+        ("view a.nc --stock", "--output"),
+    ] {
+        let run = place.run(line);
+        assert!(run.status != Some(0) && run.stderr.contains(said), "{run}");
+    }
+}
+
 /// A name from a drawing is never interpreted as markup.
 #[test]
 fn hostile_names_are_escaped() {

@@ -15,8 +15,8 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, EmittedText, GcodeSource, ProgramSource, drawn_path, findings, finished_part, gcode_path,
-    keep_out, other_layers, program_path,
+    DrawnSource, EmittedText, GcodeSource, PartSource, ProgramSource, drawn_path, findings, finished_part,
+    gcode_path, keep_out, other_layers, program_path,
 };
 pub use changes::{Change, ChangeKind, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]
@@ -31,6 +31,6 @@ pub use scene::{
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;
 pub use svg::{
-    Picture, Sheet, SheetProbe, SheetTool, Spot, VisibleParts, changes_svg, cutout_svg, escaped, sheet_html,
-    sheet_pages, sheet_svg, svg,
+    Picture, Sheet, SheetProbe, SheetTool, Spot, StockChange, VisibleParts, changes_svg, cutout_svg, escaped,
+    has_stock, sheet_html, sheet_pages, sheet_svg, stock_change_svg, stock_cutout_svg, svg,
 };

@@ -103,6 +103,9 @@ pub struct ToolSpan {
     pub line: u32,
     /// Its diameter in mm.
     pub diameter: f64,
+    /// The upper face of the material under it; `None` where that of the path applies.
+    #[serde(skip)]
+    pub surface: Option<f64>,
 }
 
 /// The native text of a program.
@@ -281,6 +284,21 @@ pub struct FinishedPart {
     pub tolerance: f64,
     /// Material that the path leaves at its parts.
     pub left: Vec<LeftMaterial>,
+    /// For each ring, the index of the opening that it lies in; of one in no other, its own.
+    #[serde(skip)]
+    pub nests: Vec<usize>,
+    /// The stretches of cuts that go into it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gouges: Vec<Shape>,
+    /// The middle lines of support bars that are cut away.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lost_bars: Vec<Shape>,
+    /// Half the diameter of the cutter, by which cuts and bars reach to either side of these lines.
+    #[serde(skip)]
+    pub radius: f64,
+    /// Whether nothing holds it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_loose: bool,
 }
 
 /// Material that is left at an outline.

@@ -6,7 +6,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{SourceFile, check_file};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::PathName;
-use pathbuild_view::{Group, Picture, ScenePath, Totals, changes_svg, compare, groups};
+use pathbuild_view::{
+    Group, Picture, ScenePath, StockChange, Totals, changes_svg, compare, groups, stock_change_svg,
+};
 
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
@@ -102,6 +104,8 @@ pub struct PictureSet {
     pub old: String,
     /// New moves only.
     pub new: String,
+    /// What the change removes from the stock, and what it leaves of it.
+    pub stock: Vec<String>,
 }
 
 /// Compares the moves of two programs.
@@ -116,6 +120,10 @@ pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Pictures>) ->
             changes: picture(Picture::Changes, pictures),
             old: picture(Picture::Old, pictures),
             new: picture(Picture::New, pictures),
+            stock: [StockChange::Removed, StockChange::Left]
+                .into_iter()
+                .filter_map(|change| stock_change_svg(old, new, change, pictures.lang))
+                .collect(),
         }),
     }
 }

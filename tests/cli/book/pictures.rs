@@ -1,6 +1,6 @@
 //! Pictures: `pictures/FOLDER-PATH.svg` is the output of `view PATH` in a copy of the folder's drawings, or of `view NAME.dxf` if a drawing
-//! has that name. `pictures/sheet-FOLDER-PATH.svg` is the output of `sheet PATH`. `pictures/drawn-NAME.svg` is drawn by hand and shows what
-//! `view` cannot.
+//! has that name. `pictures/sheet-FOLDER-PATH.svg` is the output of `sheet PATH`, `pictures/stock-FOLDER-PATH.svg` that of
+//! `view PATH --stock`. `pictures/drawn-NAME.svg` is drawn by hand and shows what `view` cannot.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -44,13 +44,19 @@ fn wrong(file: &str) -> Option<String> {
     let (Some(lang), Some((folder, path))) = (lang, name.and_then(|name| name.rsplit_once('-'))) else {
         return Some(format!("{file}: not named pictures/FOLDER-PATH.svg"));
     };
-    let (command, folder) = folder.strip_prefix("sheet-").map_or(("view", folder), |rest| ("sheet", rest));
+    let (command, folder, options): (_, _, &[&str]) = match folder.split_once('-') {
+        Some(("sheet", folder)) => ("sheet", folder, &[]),
+        Some(("stock", folder)) => ("view", folder, &["--stock"]),
+        _ => ("view", folder, &[]),
+    };
     let place = scratch::place(folder, lang);
     let directory = if folder == "fixtures" { "fixtures/library" } else { "." };
     let picture = place.path().join("picture.svg");
     let drawing = format!("{path}.dxf");
     let what = if place.path().join(&drawing).exists() { &drawing } else { path };
-    let run = place.run_in(directory, &[command, what, "-o", &picture.to_string_lossy()]);
+    let picture_name = picture.to_string_lossy();
+    let arguments = [&[command, what, "-o", &*picture_name], options].concat();
+    let run = place.run_in(directory, &arguments);
     match fs::read(&picture) {
         Ok(drawn) => kept(&project().join(file), &drawn),
         Err(_) => Some(format!("{file}: nothing to see\n{run}")),

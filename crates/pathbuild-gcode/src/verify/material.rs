@@ -31,9 +31,35 @@ const CENTRE_LINE: f64 = 0.75;
 /// Number of visits of a cell within O of a cut: when the material is added, when half of it is cut, and for each row.
 const VISITS: f64 = 3.0;
 
-/// Applies the moves to the stock and reports rapid moves that hit material. The program is processed three times: to find the size of
-/// the map, to find where there is material, and to remove it.
+/// Applies the moves to the stock and reports rapid moves that hit material.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
+    follow(program, stock, problems, &mut |bench, line, movement, problems| {
+        bench.dips(line, movement, problems);
+        if movement.pace == Pace::Rapid {
+            bench.pass(line, movement, problems);
+        }
+    });
+}
+
+/// The lines of the rapid moves that hit material, in ascending order. Those of programs that are too large for the map are unknown.
+pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
+    let mut lines = Vec::new();
+    follow(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
+        if movement.pace == Pace::Rapid && bench.hit(line, movement).is_some() {
+            lines.push(line);
+        }
+    });
+    lines
+}
+
+/// Applies the moves to the stock. Each move is passed on before it cuts. The program is processed three times: to find the size of the
+/// map, to find where there is material, and to remove it.
+fn follow(
+    program: &(impl Program + ?Sized),
+    stock: &Stock,
+    problems: &mut Problems,
+    look: &mut dyn FnMut(&mut Bench<'_>, u32, &Move, &mut Problems),
+) {
     let mut extent = Extent::default();
     each_known_move(program, &mut |line, movement| extent.add(line, movement, stock));
     if extent.pieces > stock.most_pieces {
@@ -55,10 +81,9 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
     };
     each(&mut |bench, line, movement| bench.lay(line, movement));
     each(&mut |bench, line, movement| {
-        bench.dips(line, movement, problems);
-        match movement.pace {
-            Pace::Rapid => bench.pass(line, movement, problems),
-            Pace::Feed(_) | Pace::Probe { .. } => bench.mill(line, movement),
+        look(bench, line, movement, problems);
+        if movement.pace != Pace::Rapid {
+            bench.mill(line, movement);
         }
     });
     if bench.map.is_exhausted() {
@@ -211,36 +236,36 @@ impl<'s> Bench<'s> {
         }
     }
 
-    /// Reports material along a rapid move. Cells that are only touched do not count.
+    /// Reports material along a rapid move.
     fn pass(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let Some(piece) = self.stock.at(line) else { return };
-        if !is_low_rapid(movement, self.stock) {
-            return;
-        }
+        let Some(Hit { message, z, height, at: [x, y] }) = self.hit(line, movement) else { return };
+        let resolution = self.resolution;
+        problems.add_at_line(message, line, |diagnostic| {
+            diagnostic
+                .with("z", z)
+                .with("height", height)
+                .with("point", Point::new(x, y))
+                .with("resolution", resolution)
+                .at_point(Point::new(x, y))
+        });
+    }
+
+    /// The first material along a rapid move. Cells that are only touched do not count.
+    fn hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
+        let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
         let is_plunge = movement.from.at[..2] == movement.to.at[..2];
-        let met = self.parts(movement).find_map(|part| {
+        let message = match is_plunge {
+            _ if piece.surface == f64::INFINITY => &say::RAPID_AT_DEPTH,
+            true => &say::RAPID_PLUNGE,
+            false => &say::RAPID_IN_MATERIAL,
+        };
+        self.parts(movement).find_map(|part| {
             let z = if is_plunge { part.lowest() } else { part.highest() };
             // The centre line touches at least one cell, and less than what a cut along it removes.
             let least = CENTRE_LINE * self.slack();
             let cutter = capsule(&part, (piece.cutter.colliding / 2.0 - self.slack()).max(least));
-            self.map.highest_above(&cutter, z + RESIDUE).map(|(height, place)| (z, height, place))
-        });
-        if let Some((z, height, [x, y])) = met {
-            let message: &'static Message = match is_plunge {
-                _ if piece.surface == f64::INFINITY => &say::RAPID_AT_DEPTH,
-                true => &say::RAPID_PLUNGE,
-                false => &say::RAPID_IN_MATERIAL,
-            };
-            let resolution = self.resolution;
-            problems.add_at_line(message, line, |diagnostic| {
-                diagnostic
-                    .with("z", z)
-                    .with("height", height)
-                    .with("point", Point::new(x, y))
-                    .with("resolution", resolution)
-                    .at_point(Point::new(x, y))
-            });
-        }
+            self.map.highest_above(&cutter, z + RESIDUE).map(|(height, at)| Hit { message, z, height, at })
+        })
     }
 
     /// Upper bound of half the diagonal of a cell plus the distance of chords from their arc.
@@ -251,6 +276,15 @@ impl<'s> Bench<'s> {
     fn parts(&self, movement: &Move) -> impl Iterator<Item = MovePiece> + use<> {
         pieces(movement, self.resolution / CHORDS)
     }
+}
+
+/// Material that a rapid move hits.
+struct Hit {
+    message: &'static Message,
+    /// Height of the cutter, and of the material.
+    z: f64,
+    height: f64,
+    at: [f64; 2],
 }
 
 fn capsule(part: &MovePiece, radius: f64) -> Capsule {
@@ -463,6 +497,11 @@ impl Stock {
         });
         pieces.extend(section.piece(cutter));
         (!pieces.is_empty()).then(|| Self::of_pieces(pieces))
+    }
+
+    /// The pieces, in the order of their lines.
+    pub fn spans(&self) -> &[StockSpan] {
+        &self.pieces
     }
 
     /// The height of the surface in mm, if it is the same everywhere.

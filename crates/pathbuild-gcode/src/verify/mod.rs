@@ -27,7 +27,7 @@ pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use depth::rapids_at_depth;
 pub use machine::{Machine, MachineRules, Travel};
-pub use material::{Cutter, Stock, StockSpan};
+pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated::StatedStatistics;

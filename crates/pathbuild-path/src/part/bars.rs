@@ -29,6 +29,8 @@ pub struct LostBar {
     pub length: f64,
     /// Its middle.
     pub at: Xy,
+    /// Its middle line.
+    pub middle: Curve,
 }
 
 /// The bars of all paths that cuts take away, once for each element that does.
@@ -40,7 +42,7 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
             let length = middle.length();
             let at = at_along(middle, length / 2.0);
             let elements = BarLoss { bar, middle, cuts, tolerance }.elements();
-            let lost = |((by, element), lost)| LostBar { of, by, element, lost, length, at };
+            let lost = |((by, element), lost)| LostBar { of, by, element, lost, length, at, middle: *middle };
             found.extend(elements.into_iter().map(lost));
         }
     }

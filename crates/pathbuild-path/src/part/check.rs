@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 
 use super::bars::lost_bars;
 use super::cuts::{CutIndex, PathCuts};
@@ -27,6 +27,10 @@ pub struct PartFindings {
     pub parts: Vec<Vec<usize>>,
     /// The material that each path leaves at outlines.
     pub left: Vec<Vec<LeftMaterial>>,
+    /// The indices of the parts that nothing holds.
+    pub loose: Vec<usize>,
+    /// For each path, the middle lines of its support bars that are cut away.
+    pub lost_bars: Vec<Vec<Curve>>,
 }
 
 /// Depth in mm up to which a cut into a part is a warning.
@@ -45,6 +49,8 @@ pub fn check_parts(
         of_paths: vec![Vec::new(); paths.len()],
         parts: vec![Vec::new(); paths.len()],
         left: vec![Vec::new(); paths.len()],
+        loose: Vec::new(),
+        lost_bars: vec![Vec::new(); paths.len()],
     };
     if parts.is_empty() {
         return none;
@@ -60,6 +66,9 @@ pub fn check_parts(
         }
         let leftovers = if is_complete { check.leftovers() } else { Leftovers::default() };
         for (path, problem) in check.problems(is_complete, &leftovers) {
+            if problem.code() == Code::LoosePart {
+                findings.loose.push(number);
+            }
             findings.of_paths[path].push(problem);
         }
         for left in leftovers.stretches {
@@ -71,6 +80,7 @@ pub fn check_parts(
     }
     for lost in lost_bars(&cuts, settings.tolerance) {
         let problem = lost.problem(paths[lost.of]);
+        findings.lost_bars[lost.of].push(lost.middle);
         findings.of_paths[lost.by].push(paths[lost.by].at_element(lost.element, problem));
     }
     findings

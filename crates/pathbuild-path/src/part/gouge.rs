@@ -2,10 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::cuts::{CutIndex, IndexedCut};
+use rstar::Envelope as _;
+
+use super::cuts::{CutIndex, IndexedCut, THROUGH};
 use super::intervals::{GAP, Stretch};
 use super::prepared::{Passage, PreparedPart, Side};
-use crate::geometry::{Curve, Xy};
+use super::{Part, placed_part};
+use crate::geometry::{Curve, Placement, Xy};
+use crate::keep_out::{Way, around};
 
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct JudgedCut<'c> {
@@ -70,6 +74,26 @@ pub(super) fn gouges<'j>(
         }
     }
     found
+}
+
+/// The stretches of ways on which a cutter goes into a part, for pictures. `ways` are those of the program in which the part is placed and
+/// raised.
+pub fn gouging_ways<'w>(
+    part: &Part,
+    placement: &Placement,
+    raised: f64,
+    ways: impl IntoIterator<Item = &'w Way>,
+    [radius, tolerance]: [f64; 2],
+) -> Vec<Curve> {
+    let part = placed_part(part, placement);
+    let part = PreparedPart::new(&part);
+    let through = ways.into_iter().filter_map(|way| way.below(raised + THROUGH));
+    let near = through.filter(|way| around(way, radius).intersects(&part.extent()));
+    let stretches = near.flat_map(|way| {
+        let Passage { entered, .. } = part.passage(&way, radius, tolerance, None);
+        entered.into_iter().map(move |(from, to)| way.section(from, to))
+    });
+    stretches.collect()
 }
 
 impl Gouge {

@@ -17,12 +17,13 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, Place};
 use smol_str::SmolStr;
 
-use crate::geometry::Curve;
+use crate::geometry::{Curve, Placement};
 use crate::names::{LayerPattern, PathName};
 
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts, check_path};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH};
+pub use gouge::gouging_ways;
 pub use leftover::LeftMaterial;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts};
 
@@ -90,6 +91,14 @@ pub struct PartRing {
     /// Index of the outermost opening that contains this ring, or of the ring itself if none does. Rings of the same nest are alternatives,
     /// of which only one must be cut: for example, a hole and the circle around it that shows its thread.
     pub nest: usize,
+}
+
+fn placed_part(part: &Part, placement: &Placement) -> Part {
+    let ring = |ring: &PartRing| PartRing {
+        curves: ring.curves.iter().map(|curve| placement.place_curve(curve)).collect(),
+        nest: ring.nest,
+    };
+    Part { rings: part.rings.iter().map(ring).collect(), ..part.clone() }
 }
 
 /// The parts as drawn.

@@ -6,7 +6,7 @@ use super::bars::{LostBar, lost_bars};
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
 use super::gouge::{gouges, judged};
 use super::prepared::PreparedPart;
-use super::{Part, PartRing};
+use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
 use crate::keep_out::{Way, around};
 
@@ -112,14 +112,6 @@ impl<'c> PlacedCuts<'c> {
         });
         placed
     }
-}
-
-fn placed_part(part: &Part, placement: &Placement) -> Part {
-    let ring = |ring: &PartRing| PartRing {
-        curves: ring.curves.iter().map(|curve| placement.place_curve(curve)).collect(),
-        nest: ring.nest,
-    };
-    Part { rings: part.rings.iter().map(ring).collect(), ..part.clone() }
 }
 
 /// The box of a placed box.

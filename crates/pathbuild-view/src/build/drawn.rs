@@ -171,13 +171,32 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
     }
 }
 
+/// A finished part with what the check found about it.
+#[derive(Clone, Copy, Debug)]
+pub struct PartSource<'a> {
+    /// The part as drawn.
+    pub part: &'a pathbuild_path::Part,
+    /// The material that is left at its outline, as drawn.
+    pub left: &'a [pathbuild_path::LeftMaterial],
+    /// The middle lines of support bars that are cut away, as drawn.
+    pub lost_bars: &'a [Curve],
+    /// The stretches on which cuts go into it, in the program.
+    pub gouges: &'a [Curve],
+    /// Its place in the program.
+    pub placement: &'a Placement,
+    /// Whether nothing holds it.
+    pub is_loose: bool,
+    /// Half the diameter of the cutter.
+    pub radius: f64,
+    /// Z of its upper face.
+    pub top: f64,
+    /// How far a cut may miss its outline.
+    pub tolerance: f64,
+}
+
 /// A finished part at its place in a program.
-pub fn finished_part(
-    part: &pathbuild_path::Part,
-    left: &[pathbuild_path::LeftMaterial],
-    placement: &Placement,
-    [top, tolerance]: [f64; 2],
-) -> FinishedPart {
+pub fn finished_part(source: &PartSource<'_>) -> FinishedPart {
+    let PartSource { part, left, lost_bars, gouges, placement, is_loose, radius, top, tolerance } = *source;
     let shapes =
         |curves: &[Curve]| curves.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect();
     FinishedPart {
@@ -188,6 +207,11 @@ pub fn finished_part(
             .iter()
             .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
+        nests: part.rings.iter().map(|ring| ring.nest).collect(),
+        gouges: gouges.iter().map(curve_shape).collect(),
+        lost_bars: shapes(lost_bars),
+        radius,
+        is_loose,
     }
 }
 

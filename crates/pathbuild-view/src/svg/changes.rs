@@ -115,7 +115,10 @@ fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, colo
     }
     let (width, dashes) =
         if movement.kind == MoveKind::Sweep { (0.7, " stroke-dasharray=\"1 4\"") } else { (2.0, dashes) };
-    canvas.path(&data(movement, place), &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)));
+    canvas.path(
+        &data(&movement.way, place),
+        &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)),
+    );
 }
 
 fn color(kind: Option<ChangeKind>) -> &'static str {

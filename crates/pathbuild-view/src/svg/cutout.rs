@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING};
 use super::frame::VisibleParts;
 use super::frame::{Frame, PageTransform, Room, widen};
+use super::stock::DoneStock;
 use super::things;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
@@ -60,6 +61,20 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
         circles(&mut canvas, path, spot, &place);
         things::over(&mut canvas, path, &place, shown, &mut room);
     }
+    canvas.close();
+    mark(&mut canvas, spot, &frame.of_drawing());
+    ruler(&mut canvas, scale);
+    canvas.finish()
+}
+
+/// Draws the stock around a place as it is when all moves are done. `number` tells the pictures of a document apart.
+pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, number: usize) -> String {
+    let window = window(spot);
+    let scale = SIZE[0] / (window[1][0] - window[0][0]);
+    let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
+    let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
+    canvas.open("id=\"drawing\"");
+    DoneStock::of(scene).near(window).draw(&mut canvas, &frame, &format!("stock{number}"));
     canvas.close();
     mark(&mut canvas, spot, &frame.of_drawing());
     ruler(&mut canvas, scale);

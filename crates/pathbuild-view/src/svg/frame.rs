@@ -20,12 +20,14 @@ pub struct VisibleParts {
     pub arrows: bool,
     /// Whether to show parameter texts.
     pub texts: bool,
+    /// Whether to show the stock after all moves instead of drawing and moves.
+    pub stock: bool,
 }
 
 impl VisibleParts {
-    /// Shows everything.
+    /// Shows everything of the drawing and the moves.
     pub fn all(lang: Lang) -> Self {
-        Self { lang, rapids: true, order: true, arrows: true, texts: true }
+        Self { lang, rapids: true, order: true, arrows: true, texts: true, stock: false }
     }
 
     pub(super) fn either(self, en: &'static str, de: &'static str) -> &'static str {

@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, n};
 use super::frame::Frame;
 use super::frame::VisibleParts;
+use super::stock::DoneStock;
 use super::things::SWEEP;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
@@ -24,12 +25,24 @@ pub(super) struct Legend<'a> {
     scale: f64,
     top: f64,
     findings: Vec<(Option<&'a Finding>, String)>,
+    /// The stock, if it is shown instead of the moves.
+    stock: Option<&'a DoneStock<'a>>,
 }
 
 impl<'a> Legend<'a> {
     pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: VisibleParts) -> Self {
         let findings = scene.findings.iter().flat_map(|finding| lines(finding, shown)).collect();
-        Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings }
+        Self { scene, depths, shown, scale: frame.scale(), top: frame.bottom(), findings, stock: None }
+    }
+
+    /// The legend of the stock after all moves.
+    pub(super) fn of_stock(
+        stock: &'a DoneStock<'a>,
+        frame: &Frame,
+        depths: &'a Depths,
+        shown: VisibleParts,
+    ) -> Self {
+        Self { stock: Some(stock), ..Self::new(stock.scene, frame, depths, shown) }
     }
 
     /// The lower edge of the page.
@@ -47,9 +60,14 @@ impl<'a> Legend<'a> {
             &format!("fill=\"{TEXT}\""),
             &self.facts(),
         );
-        kinds(canvas, self.scene, self.shown, [40.0, self.top + 3.0 * LINE], Frame::WIDTH);
+        if self.stock.is_none() {
+            kinds(canvas, self.scene, self.shown, [40.0, self.top + 3.0 * LINE], Frame::WIDTH);
+        }
         self.scale_bar(canvas, self.top + 3.0 * LINE);
-        depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]);
+        match self.stock {
+            Some(stock) => stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE], Frame::WIDTH),
+            None => depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]),
+        }
         for (row, (finding, line)) in self.findings.iter().enumerate() {
             let y = self.top + (5.0 + row as f64) * LINE;
             let style = match finding {

@@ -7,13 +7,14 @@ mod frame;
 mod legend;
 mod moves;
 mod sheet;
+mod stock;
 mod things;
 
 use crate::scene::Scene;
 pub use canvas::escaped;
 use canvas::{Canvas, Depths};
 pub use changes::{Picture, changes_svg};
-pub use cutout::{Spot, cutout_svg};
+pub use cutout::{Spot, cutout_svg, stock_cutout_svg};
 pub use frame::VisibleParts;
 use frame::{Frame, Room};
 #[cfg(not(feature = "pictures"))]
@@ -21,9 +22,13 @@ pub use sheet::sheet_pdf;
 #[cfg(feature = "pictures")]
 pub(crate) use sheet::xmp;
 pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg};
+pub use stock::{StockChange, has_stock, stock_change_svg};
 
-/// Draws a scene.
+/// Draws a scene: its drawing and moves, or the stock after them.
 pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
+    if shown.stock {
+        return stock::svg(scene, shown);
+    }
     let frame = Frame::of(scene);
     let depths = Depths::of(scene);
     let legend = legend::Legend::new(scene, &frame, &depths, shown);

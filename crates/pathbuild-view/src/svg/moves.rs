@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use pathbuild_motion::MoveShape;
+use pathbuild_motion::{Move, MoveShape};
 
 use super::canvas::{Canvas, Depths, KERF, RAPID, n};
 use super::frame::PageTransform;
@@ -35,7 +35,10 @@ pub(super) fn draw(
     if let Some(tool) = path.tool {
         let width = n((tool * place.scale()).max(0.5));
         for movement in cuts.iter().filter(|movement| movement.way.kind != MoveKind::Plunge) {
-            canvas.path(&data(movement.way, place), &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""));
+            canvas.path(
+                &data(&movement.way.way, place),
+                &format!("stroke=\"{KERF}\" stroke-width=\"{width}\""),
+            );
         }
     }
     canvas.close();
@@ -75,7 +78,7 @@ fn cut(canvas: &mut Canvas, cut: &Cut<'_>, path: &ScenePath, place: &PageTransfo
         );
     }
     let dashes = if movement.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
-    canvas.path(&data(movement, place), &format!("stroke=\"{color}\"{dashes}"));
+    canvas.path(&data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
 /// Whether a plunge makes up its whole element. Without elements, every plunge looks like a hole.
@@ -145,7 +148,7 @@ fn rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: V
     let sweeps =
         || path.moves.iter().filter(|movement| movement.kind == MoveKind::Sweep && movement.is_placed());
     for movement in sweeps() {
-        canvas.path(&data(movement, place), "");
+        canvas.path(&data(&movement.way, place), "");
     }
     canvas.close();
     if shown.arrows {
@@ -180,28 +183,29 @@ pub(super) fn along(movement: &SceneMove, share: f64) -> Point {
 }
 
 /// A move as SVG path data; arcs in the plane stay arcs.
-pub(super) fn data(movement: &SceneMove, place: &PageTransform) -> String {
+pub(super) fn data(way: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))
     };
-    let mut data = format!("M{}", point(movement.from()));
-    match movement.way.shape {
-        MoveShape::Line => _ = write!(data, "L{}", point(movement.to())),
+    let in_plane = |[x, y, _]: [f64; 3]| point([x, y]);
+    let mut data = format!("M{}", in_plane(way.from.at));
+    match way.shape {
+        MoveShape::Line => _ = write!(data, "L{}", in_plane(way.to.at)),
         MoveShape::Arc(arc) if arc.plane.axes() == [0, 1] => {
             // Drawn as two halves, since SVG cannot express a full circle as one arc and each half is at most half a turn.
             let turns = arc.extra_turns + 1;
-            let radius = n(arc.radius(&movement.way.from) * place.scale());
+            let radius = n(arc.radius(&way.from) * place.scale());
             let sweep = i32::from(arc.clockwise);
             let halves = if turns > 1 { 2 * turns } else { 2 };
             for half in 1..=halves {
-                let to = point(along(movement, f64::from(half) / f64::from(halves)));
+                let to = in_plane(way.point(f64::from(half) / f64::from(halves)));
                 _ = write!(data, "A{radius} {radius} 0 0 {sweep} {to}");
             }
         }
         MoveShape::Arc(_) => {
             for piece in 1..=PIECES {
-                _ = write!(data, "L{}", point(along(movement, f64::from(piece) / f64::from(PIECES))));
+                _ = write!(data, "L{}", in_plane(way.point(f64::from(piece) / f64::from(PIECES))));
             }
         }
     }

@@ -64,7 +64,7 @@ fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &m
 }
 
 /// Adjacent shapes of an outline as one piece of path data.
-fn outline(shapes: &[Shape], place: &PageTransform) -> String {
+pub(super) fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     let mut data = String::new();
     for piece in shapes {
         let next = shape(piece, place);

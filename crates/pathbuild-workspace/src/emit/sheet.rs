@@ -14,6 +14,7 @@ use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, Shee
 use super::options::{OutputSettings, SheetSettings, total};
 use super::outcome::cannot_write;
 use super::plan::Job;
+use super::shown::finished_parts;
 use crate::config::types::SheetFormat;
 use crate::session::{OutputKind, WriteSettings, program_scene};
 
@@ -108,6 +109,7 @@ fn add(
     let embedded = placed_keep_outs(db, target).into_iter().filter(|clamp| clamp.occurrence > 0);
     scene.keep_outs.extend(embedded.map(|clamp| view::keep_out(&clamp.placed, [0.0, 0.0])));
     path.zero = [0.0, 0.0];
+    path.parts = finished_parts(db, target);
     scene.paths.push(path);
     Ok(pathbuild_db::program(db, target).clone())
 }

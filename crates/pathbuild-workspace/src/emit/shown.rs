@@ -2,15 +2,17 @@
 
 use std::slice;
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Database, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
-    other_layers, placed_keep_outs, placed_parts, traced_program,
+    Database, PlacedPart, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
+    other_layers, path_names, placed_keep_outs, placed_parts, traced_program,
 };
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_path::{KeepOut, PathName};
-use pathbuild_view::{self as view, BilingualText, EmittedText, Scene, ScenePath, Sheet};
+use pathbuild_view::{
+    self as view, BilingualText, EmittedText, FinishedPart, PartSource, Scene, ScenePath, Sheet,
+};
 
 use super::build::{Built, build};
 use super::options::{self, OutputSettings, writing};
@@ -77,6 +79,13 @@ impl Session<'_> {
         SceneReport { scene, diagnostics }
     }
 
+    /// The scene of a path by the names of its drawing and itself; `None` if the drawing has no such path.
+    pub fn scene_of(&self, drawing: &Utf8Path, name: &str) -> Option<Scene> {
+        let file = self.file(drawing);
+        let name = path_names(self.db(), file).iter().find(|path| path.as_str() == name)?;
+        Some(self.scene(file, slice::from_ref(name), ShownText::Native).scene)
+    }
+
     /// Says of each parameter that an option gives where in pathbuild.toml that stands.
     fn add_origins(&self, scene: &mut Scene) {
         let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
@@ -126,10 +135,7 @@ impl Session<'_> {
             if let Some(scene) = &mut scene {
                 scene.examples = examples(db, traced, writing);
                 scene.refusal.clone_from(&refusal);
-                let parts = placed_parts(db, *target).into_iter();
-                scene.parts.extend(parts.map(|part| {
-                    view::finished_part(part.drawn, part.left, &part.placement, [part.top, part.tolerance])
-                }));
+                scene.parts = finished_parts(db, *target);
             }
             let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
             Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
@@ -148,6 +154,24 @@ impl Session<'_> {
         let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(self.db(), file, drawn, &parameters)));
         (drawn, diagnostics, Vec::new())
     }
+}
+
+/// The finished parts that the program of a target cuts.
+pub(super) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart> {
+    let part = |part: PlacedPart<'_>| {
+        view::finished_part(&PartSource {
+            part: part.drawn,
+            left: part.left,
+            lost_bars: part.lost_bars,
+            gouges: &part.gouges,
+            placement: &part.placement,
+            is_loose: part.is_loose,
+            radius: part.radius,
+            top: part.top,
+            tolerance: part.tolerance,
+        })
+    };
+    placed_parts(db, target).into_iter().map(part).collect()
 }
 
 /// The message of a diagnostic in both languages.

@@ -17,7 +17,7 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, Checks, ChipLoadRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics,
+    Against, Checks, ChipLoadRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock,
     WordRules, coarse_arcs, verify_with,
 };
 use pathbuild_motion::{Move, Pace, Step};
@@ -144,6 +144,14 @@ impl<'w> Verifier<'w> {
         let verification = Verification::new(self, &program, &header, has_probed);
         let problems = verification.run(stated);
         problems.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
+    }
+
+    /// The material that a program cuts, as far as its cutters and its surface are known.
+    pub fn stock(&self, program: &Program) -> Option<Stock> {
+        let mut header = HeaderReader::default();
+        program.read.steps.iter().for_each(|step| header.step(step));
+        let header = header.finish(program.inch_word());
+        Sources::new(self, program, &header).stock().cloned()
     }
 
     /// The words that programs of this dialect may have.

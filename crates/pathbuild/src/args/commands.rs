@@ -331,6 +331,15 @@ pub struct ViewArgs {
     /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
+    /// Show the stock when all moves are done, from above, in a file .svg, .png or .pdf
+    #[arg(long, requires = "output")]
+    pub stock: bool,
+    /// Diameter of a program's cutter; without it from T and `[tool.NAME]`, or from comments
+    #[arg(long, value_name = "MM", requires = "stock", allow_hyphen_values = true)]
+    pub cutter: Option<String>,
+    /// Height of a program's material; programs by pathbuild contain it
+    #[arg(long, value_name = "MM", requires = "stock", allow_hyphen_values = true)]
+    pub surface: Option<String>,
     /// How a program is read.
     #[command(flatten)]
     pub reading: ReadingArgs,
@@ -643,6 +652,18 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
     (
         "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
         "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild",
+    ),
+    (
+        "Show the stock when all moves are done, from above, in a file .svg, .png or .pdf",
+        "Zeigt das Rohteil nach allen Bewegungen von oben, in einer Datei .svg, .png oder .pdf",
+    ),
+    (
+        "Diameter of a program's cutter; without it from T and `[tool.NAME]`, or from comments",
+        "Durchmesser des Fräsers eines Programms; sonst aus T und `[tool.NAME]` oder aus Kommentaren",
+    ),
+    (
+        "Height of a program's material; programs by pathbuild contain it",
+        "Materialhöhe eines Programms; Programme von pathbuild enthalten sie",
     ),
     (
         "Also write a file: .html (with pictures) or .md (for a pull request)",

@@ -2,12 +2,16 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
-use pathbuild_view::{Scene, VisibleParts};
+use pathbuild_gcode::verify::{Stock, StockSpan};
+use pathbuild_view::{Scene, ToolSpan, VisibleParts, has_stock};
+use pathbuild_workspace::config::{number, positive};
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_there;
+use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::{NamedPaths, Session};
+use pathbuild_workspace::verify::{self, Verifier, VerifyOptions};
 
 use super::picture_output::{deliver, show};
 use crate::args::ViewArgs;
@@ -16,7 +20,7 @@ use crate::exit::ExitStatus;
 
 /// Runs the command. Errors are shown in the picture.
 pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
-    let output = match Output::of(context, args.output.as_deref()) {
+    let output = match Output::of(context, args) {
         Ok(output) => output,
         Err(reason) => return context.usage(&reason),
     };
@@ -27,10 +31,24 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     };
     let (scene, findings) = target.report.with_findings(context, &target.file);
     context.show(&findings);
+    if output.shown.stock && !has_stock(&scene) {
+        return no_stock(context, &findings);
+    }
     if let Err(problem) = output.deliver(context, &scene) {
         return context.fail(vec![*problem]);
     }
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+}
+
+/// Nothing is cut, or its cutter or its material is unknown.
+fn no_stock(context: &Context, findings: &Findings) -> ExitStatus {
+    if findings.errors() > 0 {
+        return ExitStatus::Errors;
+    }
+    context.usage(context.choose(
+        "view --stock: nothing is cut, or the cutter or the height of the material is unknown: give --cutter and --surface",
+        "view --stock: nichts wird gefräst, oder Fräser oder Materialhöhe sind unbekannt: --cutter und --surface angeben",
+    ))
 }
 
 /// The scene of an argument.
@@ -57,12 +75,36 @@ fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failu
 }
 
 fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
-    let program = Program::open(context, file, args.reading.options())
-        .map_err(|problem| Failure::Found(vec![*problem]))?;
+    let found = |problem: Box<Diagnostic>| Failure::Found(vec![*problem]);
+    let program = Program::open(context, file, args.reading.options()).map_err(found)?;
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
-    scene.paths.push(program.scene_path(context));
+    let mut path = program.scene_path(context);
+    if args.stock {
+        let options = VerifyOptions {
+            reading: args.reading.options(),
+            cutter: args.cutter.as_deref().map(|text| positive("cutter", text)).transpose().map_err(found)?,
+            surface: args
+                .surface
+                .as_deref()
+                .map(|text| number("surface", text))
+                .transpose()
+                .map_err(found)?,
+            ..VerifyOptions::default()
+        };
+        let mut session = Session::new(context);
+        let verifier = Verifier::new(&mut session, options).map_err(|failure| match failure {
+            verify::Failure::Usage(reason) => Failure::Usage(reason),
+            verify::Failure::Post(found) | verify::Failure::Drawing(found) => Failure::Found(found),
+        })?;
+        path.tools = verifier.stock(&program).iter().flat_map(Stock::spans).map(tool_span).collect();
+    }
+    scene.paths.push(path);
     let report = SceneReport { scene, diagnostics: program.read.problems };
     Ok(TargetScene { report, file: file.to_string() })
+}
+
+fn tool_span(span: &StockSpan) -> ToolSpan {
+    ToolSpan { line: span.line, diameter: span.cutter.diameter, surface: Some(span.surface) }
 }
 
 fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
@@ -93,6 +135,7 @@ struct Output {
     format: Format,
     /// The file; `None` shows the scene in the browser.
     file: Option<Utf8PathBuf>,
+    shown: VisibleParts,
 }
 
 /// Format of a picture.
@@ -147,6 +190,17 @@ impl Format {
         )
     }
 
+    fn is_picture(self) -> bool {
+        match self {
+            Self::Svg => true,
+            Self::Json => false,
+            #[cfg(feature = "pictures")]
+            Self::Png | Self::Pdf => true,
+            #[cfg(feature = "pictures")]
+            Self::Html => false,
+        }
+    }
+
     fn bytes(self, scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
         match self {
             Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
@@ -165,24 +219,32 @@ impl Output {
     /// Chooses the format by the extension.
     ///
     /// # Errors
-    /// If the extension is unknown.
-    fn of(context: &Context, file: Option<&Utf8Path>) -> Result<Self, String> {
-        let Some(file) = file else { return Self::browser(context) };
+    /// If the extension is unknown, or is not that of a picture of the stock.
+    fn of(context: &Context, args: &ViewArgs) -> Result<Self, String> {
+        let shown = VisibleParts { stock: args.stock, ..VisibleParts::all(context.lang()) };
+        let Some(file) = &args.output else { return Self::browser(context, shown) };
         let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
         let format = Format::of(&extension);
         let format =
             format.ok_or_else(|| format!("-o {}: {}", shown::line(file.as_str()), Format::names(context)))?;
-        Ok(Self { format, file: Some(file.to_owned()) })
+        if args.stock && !format.is_picture() {
+            return Err(context.phrase(
+                "-o {}: view --stock writes a picture: the name must end in .svg, .png or .pdf",
+                "-o {}: view --stock schreibt ein Bild: der Name muss auf .svg, .png oder .pdf enden",
+                &shown::line(file.as_str()),
+            ));
+        }
+        Ok(Self { format, file: Some(file.to_owned()), shown })
     }
 
     #[cfg(feature = "pictures")]
     #[expect(clippy::unnecessary_wraps, reason = "without pictures there is no page")]
-    fn browser(_: &Context) -> Result<Self, String> {
-        Ok(Self { format: Format::Html, file: None })
+    fn browser(_: &Context, shown: VisibleParts) -> Result<Self, String> {
+        Ok(Self { format: Format::Html, file: None, shown })
     }
 
     #[cfg(not(feature = "pictures"))]
-    fn browser(context: &Context) -> Result<Self, String> {
+    fn browser(context: &Context, _: VisibleParts) -> Result<Self, String> {
         let needs = context.choose("view needs -o FILE", "view braucht -o DATEI");
         Err(format!("{needs}: {}", Format::names(context)))
     }
@@ -192,7 +254,7 @@ impl Output {
     /// # Errors
     /// If it cannot be written or shown.
     fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
-        let bytes = self.format.bytes(scene, VisibleParts::all(context.lang()));
+        let bytes = self.format.bytes(scene, self.shown);
         match &self.file {
             Some(file) => deliver(context, file, bytes),
             None => show(context, bytes),

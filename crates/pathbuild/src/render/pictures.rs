@@ -1,8 +1,8 @@
 //! Pictures of findings: details of their drawings. (book: reference/output)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_view::{Scene, Spot, cutout_svg};
+use pathbuild_diagnostic::{Code, Diagnostic, Value};
+use pathbuild_view::{Scene, Spot, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::findings::Findings;
@@ -17,7 +17,7 @@ const MOST: usize = 1000;
 const MOST_BYTES: usize = 256 << 20;
 
 /// One picture per finding; `None` if the finding has no place in a drawing.
-pub(crate) fn pictures(workspace: &Workspace, diagnostics: &[Diagnostic]) -> Vec<Option<String>> {
+pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic]) -> Vec<Option<String>> {
     let mut files: Vec<&Utf8Path> =
         diagnostics.iter().take(MOST).filter_map(|diagnostic| drawing(diagnostic)).collect();
     files.sort_unstable();
@@ -26,14 +26,43 @@ pub(crate) fn pictures(workspace: &Workspace, diagnostics: &[Diagnostic]) -> Vec
     let scene = |file: &Utf8Path| -> Option<&Scene> {
         scenes.get(files.binary_search(&file).ok()?).and_then(Option::as_ref)
     };
+    let session = Session::new(workspace);
+    let mut known: Option<StockScene<'_>> = None;
+    let mut stock = |index: usize, diagnostic: &'d Diagnostic| -> Option<String> {
+        let place = part_and_path(diagnostic)?;
+        if known.as_ref().is_none_or(|(known, _)| *known != place) {
+            let scene = session.scene_of(place.0, place.1).filter(has_stock);
+            known = Some((place, scene));
+        }
+        let scene = known.as_ref()?.1.as_ref()?;
+        Some(stock_cutout_svg(scene, &spot(diagnostic)?, index))
+    };
     let mut bytes = 0;
-    let picture = |(index, diagnostic): (usize, &Diagnostic)| {
-        let scene = scene(drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?)?;
-        let picture = cutout_svg(scene, &spot(diagnostic)?, workspace.lang());
+    let picture = |(index, diagnostic): (usize, &'d Diagnostic)| {
+        let drawing = drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?;
+        let drawn = || Some(cutout_svg(scene(drawing)?, &spot(diagnostic)?, workspace.lang()));
+        let picture = stock(index, diagnostic).or_else(drawn)?;
         bytes += picture.len();
         Some(picture)
     };
     diagnostics.iter().enumerate().map(picture).collect()
+}
+
+/// A path with its drawing, and its scene if anything is cut.
+type StockScene<'d> = ((&'d Utf8Path, &'d str), Option<Scene>);
+
+/// The drawing and the path of a finding about a finished part, which its stock shows.
+fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
+    let is_about_part = matches!(
+        diagnostic.code(),
+        Code::GougedPart
+            | Code::GougedNeighbour
+            | Code::LeftoverAtPart
+            | Code::UnreachableCorner
+            | Code::LoosePart
+            | Code::BarCutAway
+    );
+    Some((drawing(diagnostic)?, diagnostic.path.as_deref()?)).filter(|_| is_about_part)
 }
 
 /// The drawing in which a finding has a place.

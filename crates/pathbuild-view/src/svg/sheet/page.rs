@@ -90,6 +90,8 @@ pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
             picture::larger(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }),
         );
     }
+    let area = Column::new([LEFT, BELOW_TITLE], [RIGHT, BOTTOM]);
+    pages.extend(picture::stock(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }));
     pages
 }
 

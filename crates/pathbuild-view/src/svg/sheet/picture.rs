@@ -6,6 +6,7 @@ use crate::scene::{Point, Scene};
 use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, n};
 use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
 use crate::svg::legend::{self, mm};
+use crate::svg::stock::{DoneStock, has_stock};
 use crate::svg::{moves, things};
 
 use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
@@ -35,6 +36,8 @@ pub(super) struct PlacedPicture {
     /// Whether it has a true-size inset.
     has_inset: bool,
     height: f64,
+    /// Whether it shows the stock when it is done instead of the moves.
+    is_stock: bool,
     /// The position of the lower left corner if the picture is rotated to landscape.
     turned: Option<Point>,
 }
@@ -78,6 +81,21 @@ pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     (placed.scale.0 > on_first.scale.0).then_some(placed)
 }
 
+/// The stock when it is done, on a whole page; `None` if nothing is cut.
+pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
+    let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
+    let [low, high] = cleared(sheet).filter(|_| has_stock(&sheet.scene))?;
+    let corners = padded([low.map(|at| at - radius), high.map(|at| at + radius)]);
+    let beneath = Column { left: 0.0, width: area.bottom - area.top, top: 0.0, bottom: area.width };
+    let placed = |area: Column| {
+        let scale = Scale::within(limit(corners, area));
+        PlacedPicture { is_stock: true, ..PlacedPicture::new(area, corners, scale, false) }
+    };
+    let (upright, turned) = (placed(area), placed(beneath));
+    let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..turned };
+    Some(if turned.scale.0 > upright.scale.0 { turned } else { upright })
+}
+
 fn padded([mut low, mut high]: Corners) -> Corners {
     for axis in [0, 1] {
         let missing = (LEAST - (high[axis] - low[axis])).max(0.0) / 2.0;
@@ -107,7 +125,7 @@ impl PlacedPicture {
     fn new(area: Column, corners: Corners, scale: Scale, has_inset: bool) -> Self {
         let [low, high] = corners;
         let height = ABOVE + (high[1] - low[1]) * scale.0 * UNITS + BELOW + LEGEND;
-        Self { area, corners, scale, has_inset, height, turned: None }
+        Self { area, corners, scale, has_inset, height, is_stock: false, turned: None }
     }
 
     /// The lower edge on its page.
@@ -128,9 +146,16 @@ impl PlacedPicture {
     }
 
     pub(super) fn draw(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
-        let Some([left, bottom]) = self.turned else { return self.draw_upright(canvas, sheet, lang) };
+        let draw = |canvas: &mut Canvas| {
+            if self.is_stock {
+                self.draw_stock(canvas, sheet, lang);
+            } else {
+                self.draw_upright(canvas, sheet, lang);
+            }
+        };
+        let Some([left, bottom]) = self.turned else { return draw(canvas) };
         canvas.open(&format!("transform=\"matrix(0 -1 1 0 {} {})\"", n(left), n(bottom)));
-        self.draw_upright(canvas, sheet, lang);
+        draw(canvas);
         canvas.close();
     }
 
@@ -158,6 +183,22 @@ impl PlacedPicture {
         self.legend(canvas, sheet, &depths, shown);
     }
 
+    fn draw_stock(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
+        let stock = DoneStock::of(&sheet.scene);
+        stock.draw(canvas, &self.frame(), "stock");
+        let top = self.bottom() - LEGEND + 12.0;
+        canvas.open(&format!("id=\"stock-legend\" fill=\"{INK}\""));
+        let scale = self.scale.text();
+        let title = Words(lang).either(
+            format!("when it is done, scale {scale}"),
+            format!("wenn es fertig ist, Maßstab {scale}"),
+        );
+        canvas.text([self.area.left, top], 11.0, Anchor::Start, "font-weight=\"bold\"", &title);
+        let right = self.area.left + self.area.width;
+        stock.legend(canvas, VisibleParts::all(lang), [self.area.left, top + 17.0], right);
+        canvas.close();
+    }
+
     fn legend(&self, canvas: &mut Canvas, sheet: &Sheet, depths: &Depths, shown: VisibleParts) {
         let words = Words(shown.lang);
         let top = self.bottom() - LEGEND + 12.0;
@@ -183,7 +224,8 @@ impl PlacedPicture {
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
         let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + ABOVE]);
         let depths = Depths::of(&sheet.scene);
-        let shown = VisibleParts { rapids: false, order: false, arrows: false, texts: false, lang };
+        let shown =
+            VisibleParts { rapids: false, order: false, arrows: false, texts: false, stock: false, lang };
         canvas.open("id=\"true-size\"");
         for path in &sheet.scene.paths {
             moves::draw(canvas, path, &frame.of_path(path), &depths, shown);

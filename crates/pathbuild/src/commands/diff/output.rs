@@ -354,18 +354,21 @@ fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: La
     page.push_str("</section>\n");
 }
 
-/// Shows the pictures in three ways. Without scripts, only the changes are visible.
-fn show(page: &mut String, PictureSet { changes, old, new }: &PictureSet, lang: Lang) {
+/// Shows the pictures in three ways, and the stock if the change concerns it. Without scripts, only the changes are visible.
+fn show(page: &mut String, PictureSet { changes, old, new, stock }: &PictureSet, lang: Lang) {
     let button = |way: &str, en, de| format!("<button data-way=\"{way}\">{}</button>", lang.choose(en, de));
     let label = lang.choose("old to new", "alt bis neu");
     _ = writeln!(
         page,
-        "<div class=\"pictures\" data-way=\"changes\">\n<nav>{}{}{}</nav>\n<div class=\"changes\">{changes}</div>\n\
+        "<div class=\"pictures\" data-way=\"changes\">\n<nav>{}{}{}{}</nav>\n<div class=\"changes\">{changes}</div>\n\
          <div class=\"beside\"><div>{old}</div><div>{new}</div></div>\n\
          <div class=\"over\"><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"{label}\">\
-         <div class=\"stack\"><div>{old}</div><div class=\"new\">{new}</div></div></div>\n</div>",
+         <div class=\"stack\"><div>{old}</div><div class=\"new\">{new}</div></div></div>\n\
+         <div class=\"stock\">{}</div>\n</div>",
         button("changes", "changes", "Änderungen"),
         button("beside", "side by side", "nebeneinander"),
         button("over", "overlaid", "übereinander"),
+        if stock.is_empty() { String::new() } else { button("stock", "stock", "Rohteil") },
+        if stock.is_empty() { String::new() } else { format!("<div>{}</div>", stock.join("</div><div>")) },
     );
 }

@@ -1,0 +1,613 @@
+//! The stock as it is when all moves are done, seen from above. (book: program/pictures)
+//!
+//! The area that a cutter sweeps is a stroke as wide as the cutter. Strokes are painted from high to low, so that each place shows its
+//! lowest cut, and everything keeps its exact size at any scale.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use pathbuild_diagnostic::Lang;
+use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
+use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position, Step};
+
+use super::canvas::{Anchor, Canvas, Depths, INK, n};
+use super::frame::{Frame, PageTransform, Room, VisibleParts, widen};
+use super::legend::{Legend, mm};
+use super::moves::data;
+use super::things;
+use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape};
+
+const UNTOUCHED: &str = "#dbbd85";
+const EDGE: &str = "#4a3012";
+const THROUGH: &str = "#ccd6e0";
+/// Rapid moves through material, cuts into parts and support bars that are cut away.
+const WRONG: &str = "#e50d1a";
+const LEFT: &str = "#9628c8";
+const REMOVED_NOW: &str = "#0072b2";
+const LOOSE: &str = "#e69f00";
+const OUTLINE: &str = "#0b57c4";
+
+/// Red, green and blue of the shallowest and the deepest cut.
+const DEPTHS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]];
+
+/// Width in px of the line along the edges of cuts.
+const EDGE_WIDTH: f64 = 0.7;
+
+/// Number of steps into which the deepest slope is divided.
+const STEPS: f64 = 64.0;
+
+/// Length of the pieces, in diameters of the cutter, in which rapid moves are searched for material.
+const SEARCHED: f64 = 0.25;
+
+/// Upper bound on the number of pieces of a rapid move.
+const MOST_PIECES: f64 = 400.0;
+
+/// The cuts of a scene, and the stock around them.
+pub(super) struct DoneStock<'s> {
+    pub(super) scene: &'s Scene,
+    blanks: Vec<Blank>,
+    strokes: Vec<Stroke>,
+    /// Pieces of rapid moves that hit material.
+    hits: Vec<Swept>,
+    /// Highest upper face and deepest cut.
+    range: [f64; 2],
+}
+
+/// A rectangle of stock, and its upper face.
+type Blank = ([Point; 2], f64);
+
+/// A way of a cutter in the coordinates of the drawing.
+#[derive(Clone, Copy)]
+struct Swept {
+    way: Move,
+    diameter: f64,
+}
+
+/// Something to paint. What is higher is painted first, and an edge before what is cut at the same height.
+struct Stroke {
+    swept: Swept,
+    z: f64,
+    kind: StrokeKind,
+    /// Instead of the colour of its depth.
+    mark: Option<&'static str>,
+}
+
+impl Stroke {
+    /// The way in micrometres, without heights, and the diameter: equal for strokes that paint the same area.
+    fn key(&self) -> [i64; 7] {
+        let Move { from, to, shape, .. } = &self.swept.way;
+        let centre = if let MoveShape::Arc(arc) = shape { arc.centre } else { [0.0; 2] };
+        let ([a, b, _], [c, d, _]) = (from.at, to.at);
+        #[expect(clippy::cast_possible_truncation, reason = "saturates")]
+        let micrometres = |value: f64| (value * 1000.0).round() as i64;
+        [a, b, c, d, centre[0], centre[1], self.swept.diameter].map(micrometres)
+    }
+
+    /// The height that is left; of all cuts through the plate, the same.
+    fn height(&self) -> f64 {
+        if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
+    }
+}
+
+/// Sorts strokes as they are painted: cuts through the plate last, the others from high to low, and marked ones beneath others.
+fn sort(strokes: &mut [Stroke]) {
+    let is_through = |stroke: &Stroke| stroke.kind >= StrokeKind::ThroughEdge;
+    strokes.sort_by(|one, other| {
+        let by_height = is_through(one).cmp(&is_through(other)).then(other.z.total_cmp(&one.z));
+        by_height.then(other.mark.cmp(&one.mark)).then(one.kind.cmp(&other.kind))
+    });
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum StrokeKind {
+    Edge,
+    Cut,
+    ThroughEdge,
+    Through,
+}
+
+/// Cutter and stock of a move.
+struct Setting {
+    diameter: f64,
+    /// Z of the upper face.
+    top: f64,
+    /// Z at or below which a cut goes through.
+    through: f64,
+}
+
+impl<'s> DoneStock<'s> {
+    pub(super) fn of(scene: &'s Scene) -> Self {
+        let mut cuts = Vec::new();
+        let mut blanks: Vec<Blank> = Vec::new();
+        for path in &scene.paths {
+            for movement in path.moves.iter().filter(|movement| movement.kind.cuts()) {
+                let Some(setting) = setting(scene, path, movement) else { continue };
+                let Some([low, high]) = movement.extent().filter(|_| is_known(&movement.way)) else {
+                    continue;
+                };
+                let zero = path.zero;
+                let extent = [
+                    [0, 1].map(|axis| low[axis] + zero[axis] - setting.diameter),
+                    [0, 1].map(|axis| high[axis] + zero[axis] + setting.diameter),
+                ];
+                match blanks.iter_mut().find(|(_, top)| *top == setting.top) {
+                    Some((blank, _)) => {
+                        let mut corners = Some(*blank);
+                        widen(&mut corners, extent);
+                        *blank = corners.unwrap_or(*blank);
+                    }
+                    None => blanks.push((extent, setting.top)),
+                }
+                cuts.push((moved(&movement.way, zero), setting));
+            }
+        }
+        let lowest = |(way, _): &(Move, Setting)| way.from.z().min(way.to.z());
+        let low = cuts.iter().map(lowest).reduce(f64::min).unwrap_or_default();
+        blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
+        let top = blanks.last().map_or(low, |(_, top)| *top);
+        let step = ((top - low) / STEPS).max(1e-3);
+        let mut strokes: Vec<Stroke> = cuts.iter().flat_map(|(way, of)| strokes(way, of, step)).collect();
+        sort(&mut strokes);
+        let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
+        let hits = scene.paths.iter().flat_map(|path| hits(scene, path, blank)).collect();
+        Self { scene, blanks, strokes, hits, range: [top, low] }
+    }
+
+    /// Both stocks in one, with the cuts of this one marked where they are deeper; `None` if the other one has all
+    /// these cuts, or deeper ones along the same ways.
+    fn compared(mut self, other: Self, mark: &'static str) -> Option<Self> {
+        let mut heights: BTreeMap<_, f64> = BTreeMap::new();
+        for stroke in &other.strokes {
+            let height = heights.entry(stroke.key()).or_insert(f64::INFINITY);
+            *height = height.min(stroke.height());
+        }
+        let is_deeper = |stroke: &Stroke| heights.get(&stroke.key()).is_none_or(|z| stroke.height() < *z);
+        self.strokes.retain(|stroke| matches!(stroke.kind, StrokeKind::Cut | StrokeKind::Through));
+        self.strokes.retain(is_deeper);
+        if self.strokes.is_empty() {
+            return None;
+        }
+        for stroke in &mut self.strokes {
+            stroke.mark = Some(mark);
+        }
+        self.strokes.extend(other.strokes);
+        sort(&mut self.strokes);
+        self.blanks.extend(other.blanks);
+        self.range = [self.range[0].max(other.range[0]), self.range[1].min(other.range[1])];
+        self.hits.clear();
+        Some(self)
+    }
+
+    /// Leaves out everything outside of an area.
+    pub(super) fn near(mut self, [low, high]: [Point; 2]) -> Self {
+        let is_near = |swept: &Swept| {
+            let radius = swept.diameter / 2.0;
+            let sides = swept.way.extent().into_iter().zip(low.into_iter().zip(high));
+            sides.into_iter().all(|(side, (low, high))| {
+                side.is_none_or(|(from, to)| from - radius <= high && to + radius >= low)
+            })
+        };
+        self.strokes.retain(|stroke| is_near(&stroke.swept));
+        self.hits.retain(is_near);
+        self
+    }
+
+    /// The corners of the stock and of the places of findings.
+    pub(super) fn extent(&self) -> Option<[Point; 2]> {
+        let mut corners = None;
+        for (blank, _) in &self.blanks {
+            widen(&mut corners, *blank);
+        }
+        for at in self.scene.findings.iter().filter_map(|finding| finding.at) {
+            widen(&mut corners, [at, at]);
+        }
+        corners
+    }
+
+    /// Draws the stock with what is wrong about it, and the outlines of the parts. `id` makes the names of clips unique.
+    pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, id: &str) {
+        let place = frame.of_drawing();
+        self.blanks(canvas, &place, id);
+        canvas.open(&format!(
+            "clip-path=\"url(#{id})\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\""
+        ));
+        let middle = self.strokes.partition_point(|stroke| stroke.kind < StrokeKind::ThroughEdge);
+        self.strokes(canvas, &place, &self.strokes[..middle]);
+        self.parts(|part, path, number| {
+            left(canvas, part, &frame.of_path(path), &format!("{id}-outside-{number}"));
+        });
+        self.strokes(canvas, &place, &self.strokes[middle..]);
+        self.parts(|part, path, number| {
+            wrong(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
+        });
+        let mut hits = String::new();
+        for (index, hit) in self.hits.iter().enumerate() {
+            hits.push_str(&data(&hit.way, &place));
+            if self.hits.get(index + 1).is_none_or(|next| next.diameter != hit.diameter) {
+                stroke(canvas, &std::mem::take(&mut hits), hit.diameter * place.scale(), WRONG);
+            }
+        }
+        canvas.close();
+        canvas.open(&format!("fill=\"none\" stroke=\"{OUTLINE}\" stroke-width=\"1.2\""));
+        self.parts(|part, path, _| {
+            for ring in &part.rings {
+                canvas.path(&things::outline(ring, &frame.of_path(path)), "");
+            }
+        });
+        canvas.close();
+    }
+
+    fn blanks(&self, canvas: &mut Canvas, place: &PageTransform, id: &str) {
+        let mut all = String::new();
+        for ([low, high], _) in &self.blanks {
+            let ([left, bottom], [right, top]) = (place.at(*low), place.at(*high));
+            _ = write!(all, "M{} {}H{}V{}H{}Z", n(left), n(top), n(right), n(bottom), n(left));
+        }
+        canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{all}\"/></clipPath>"));
+        canvas.path(&all, &format!("fill=\"{UNTOUCHED}\""));
+    }
+
+    /// Paints strokes that look alike at once.
+    fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
+        let mut all = String::new();
+        for (index, next) in strokes.iter().enumerate() {
+            all.push_str(&data(&next.swept.way, place));
+            let is_alike = |other: &Stroke| {
+                other.kind == next.kind
+                    && other.z == next.z
+                    && other.mark == next.mark
+                    && other.swept.diameter == next.swept.diameter
+            };
+            if strokes.get(index + 1).is_some_and(is_alike) {
+                continue;
+            }
+            let width = next.swept.diameter * place.scale();
+            let data = std::mem::take(&mut all);
+            match next.kind {
+                StrokeKind::Edge | StrokeKind::ThroughEdge => {
+                    stroke(canvas, &data, width + 2.0 * EDGE_WIDTH, EDGE);
+                }
+                StrokeKind::Cut | StrokeKind::Through => {
+                    let through = (next.kind == StrokeKind::Through).then_some(THROUGH);
+                    let color = next.mark.or(through).map_or_else(|| self.color(next.z), str::to_owned);
+                    stroke(canvas, &data, width, &color);
+                }
+            }
+        }
+    }
+
+    fn color(&self, z: f64) -> String {
+        let [top, low] = self.range;
+        depth_color(((top - z) / (top - low).max(1e-6)).clamp(0.0, 1.0))
+    }
+
+    fn parts(&self, mut each: impl FnMut(&FinishedPart, &ScenePath, usize)) {
+        let parts = self.scene.paths.iter().flat_map(|path| path.parts.iter().map(move |part| (part, path)));
+        for (number, (part, path)) in parts.enumerate() {
+            each(part, path, number);
+        }
+    }
+
+    /// Draws what the colours mean, from `left` to `right`, continuing on further lines.
+    pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, [left, mut y]: Point, right: f64) {
+        let [top, low] = self.range;
+        let has = |kind| self.strokes.iter().any(|stroke| stroke.kind == kind);
+        let has_part = |is_such: fn(&FinishedPart) -> bool| {
+            self.scene.paths.iter().flat_map(|path| &path.parts).any(is_such)
+        };
+        let depths = format!("Z {} … {}", mm(top), mm(low));
+        let all = [
+            (true, UNTOUCHED.to_owned(), shown.either("untouched", "unberührt")),
+            (has(StrokeKind::Cut), depth_color(0.0), depths.as_str()),
+            (
+                has(StrokeKind::Cut),
+                depth_color(1.0),
+                shown.either("the darker, the deeper", "je dunkler, desto tiefer"),
+            ),
+            (has(StrokeKind::Through), THROUGH.to_owned(), shown.either("cut through", "durchgefräst")),
+            (has_part(|_| true), OUTLINE.to_owned(), shown.either("outline of the part", "Umriss des Teils")),
+            (
+                has_part(|part| !part.gouges.is_empty()),
+                WRONG.to_owned(),
+                shown.either("cut into the part", "Schnitt ins Teil"),
+            ),
+            (
+                has_part(|part| !part.left.is_empty()),
+                LEFT.to_owned(),
+                shown.either("left at the part", "bleibt am Teil stehen"),
+            ),
+            (has_part(|part| part.is_loose), LOOSE.to_owned(), shown.either("loose part", "loses Teil")),
+            (
+                has_part(|part| !part.lost_bars.is_empty()),
+                WRONG.to_owned(),
+                shown.either("support bar cut away", "abgetrennter Stützsteg"),
+            ),
+            (
+                !self.hits.is_empty(),
+                WRONG.to_owned(),
+                shown.either("rapid move through material", "Eilgang durch Material"),
+            ),
+        ];
+        let mut x = left;
+        for (_, color, name) in all.into_iter().filter(|(is_there, ..)| *is_there) {
+            let width = 38.0 + 6.6 * name.chars().count() as f64;
+            if x + width > right {
+                (x, y) = (left, y + 17.0);
+            }
+            let style = format!("fill=\"{color}\" stroke=\"{EDGE}\" stroke-width=\"0.5\"");
+            canvas.path(&format!("M{} {}h12v10h-12Z", n(x), n(y - 9.0)), &style);
+            canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK}\""), name);
+            x += width;
+        }
+    }
+}
+
+/// The two pictures of what a change does to the stock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StockChange {
+    /// What is removed now and was not before.
+    Removed,
+    /// What is left now and was removed before.
+    Left,
+}
+
+/// Draws what a change removes from the stock or leaves of it; `None` if nothing, or if the stock is not known.
+pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, lang: Lang) -> Option<String> {
+    // The programs are compared in their own coordinates.
+    let [old, new] = [old, new].map(|path| Scene {
+        paths: vec![ScenePath { zero: [0.0; 2], parts: Vec::new(), ..path.clone() }],
+        ..Scene::new("")
+    });
+    let [old, new] = [&old, &new].map(DoneStock::of);
+    if old.blanks.is_empty() || new.blanks.is_empty() {
+        return None;
+    }
+    let (stock, other, id, color) = match change {
+        StockChange::Removed => (new, old, "stock-removed", REMOVED_NOW),
+        StockChange::Left => (old, new, "stock-left", LEFT),
+    };
+    let stock = stock.compared(other, color)?;
+    let frame = Frame::around(stock.extent());
+    let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom());
+    stock.draw(&mut canvas, &frame, id);
+    let (en, de) = match change {
+        StockChange::Removed => ("removed now, not before", "jetzt weggefräst, vorher nicht"),
+        StockChange::Left => ("left now, removed before", "bleibt jetzt stehen, vorher weggefräst"),
+    };
+    let y = frame.bottom() - 14.0;
+    canvas.path(&format!("M40 {}h12v10h-12Z", n(y - 9.0)), &format!("fill=\"{color}\""));
+    canvas.text([57.0, y], 13.0, Anchor::Start, &format!("fill=\"{INK}\""), lang.choose(en, de));
+    Some(canvas.finish())
+}
+
+/// Draws the stock of a scene, or an empty page if there is none.
+pub(super) fn svg(scene: &Scene, shown: VisibleParts) -> String {
+    let stock = DoneStock::of(scene);
+    let frame = Frame::around(stock.extent());
+    let depths = Depths { range: None };
+    let legend = Legend::of_stock(&stock, &frame, &depths, shown);
+    let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
+    canvas.title(&scene.title);
+    canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
+    canvas.clip("frame", frame.area());
+    stock.draw(&mut canvas, &frame, "stock");
+    things::findings(&mut canvas, scene, &frame, &mut Room::new(frame.area()));
+    canvas.close();
+    legend.draw(&mut canvas);
+    canvas.finish()
+}
+
+/// Whether the cutter and the upper face of anything that is cut are known.
+pub fn has_stock(scene: &Scene) -> bool {
+    scene.paths.iter().any(|path| {
+        let mut cuts = path.moves.iter().filter(|movement| movement.kind.cuts() && is_known(&movement.way));
+        cuts.any(|movement| setting(scene, path, movement).is_some())
+    })
+}
+
+fn is_known(way: &Move) -> bool {
+    way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
+}
+
+fn setting(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<Setting> {
+    let line = movement.line.unwrap_or(0);
+    let later = path.tools.partition_point(|tool| tool.line <= line);
+    let tool = later.checked_sub(1).map(|index| &path.tools[index]);
+    let element = movement.element.and_then(|element| path.elements.get(element as usize));
+    let component = path.embedded.get(element.map_or(0, |element| element.path as usize));
+    let stated = tool.and_then(|tool| tool.surface);
+    let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
+    let raised = component.map_or(0.0, |component| component.raised);
+    let through = if top > raised { raised + scene.through } else { f64::NEG_INFINITY };
+    Some(Setting { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
+}
+
+/// A move in the coordinates of the drawing.
+fn moved(way: &Move, zero: Point) -> Move {
+    let place =
+        |end: &Position| Position { at: [end.at[0] + zero[0], end.at[1] + zero[1], end.at[2]], ..*end };
+    let mut moved = Move { from: place(&way.from), to: place(&way.to), ..*way };
+    if let MoveShape::Arc(arc) = &mut moved.shape {
+        for (axis, coordinate) in arc.plane.axes().into_iter().zip(&mut arc.centre) {
+            *coordinate += zero.get(axis).copied().unwrap_or(0.0);
+        }
+    }
+    moved
+}
+
+/// What a cut paints. A slope is divided into steps, each as high as its upper end.
+fn strokes(way: &Move, setting: &Setting, step: f64) -> Vec<Stroke> {
+    let Setting { diameter, top, through } = *setting;
+    let [from, to] = [way.from.z(), way.to.z()];
+    let mut strokes = Vec::new();
+    let mut add = |way: Move, z: f64, has_edge: bool| {
+        let (z, edge, kind) = if z <= through {
+            (through, StrokeKind::ThroughEdge, StrokeKind::Through)
+        } else {
+            (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
+        };
+        let swept = Swept { way, diameter };
+        strokes.extend(has_edge.then_some(Stroke { swept, z, kind: edge, mark: None }));
+        strokes.push(Stroke { swept, z, kind, mark: None });
+    };
+    let low = from.min(to);
+    if low >= top {
+        return Vec::new();
+    }
+    let bottom = if from < to { way.from } else { way.to };
+    if way.is_vertical() {
+        add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, true);
+    } else if (from - to).abs() < step / 4.0 {
+        add(*way, from.max(to), true);
+    } else {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most the number of steps"
+        )]
+        let count = ((from - to).abs() / step).ceil().clamp(1.0, STEPS) as u32;
+        for piece in way.split(count) {
+            let z = piece.from.z().max(piece.to.z());
+            if z < top {
+                add(piece, z, false);
+            }
+        }
+        add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, false);
+    }
+    strokes
+}
+
+/// A height to a micrometre, so that cuts at the same height are painted at once.
+fn rounded(z: f64) -> f64 {
+    (z * 1000.0).round() / 1000.0
+}
+
+/// The pieces of rapid moves of a path that hit material. Without a common blank, it is only known near cuts.
+fn hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<Swept> {
+    let settings: Vec<Option<Setting>> =
+        path.moves.iter().map(|movement| setting(scene, path, movement)).collect();
+    let highest = settings.iter().flatten().map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
+    let is_low = |movement: &SceneMove| {
+        matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
+            && movement.depth().is_some_and(|z| z < highest)
+    };
+    if !path.moves.iter().any(|movement| is_low(movement) && movement.way.to.z() <= movement.way.from.z()) {
+        return Vec::new();
+    }
+    let (mut spans, mut steps, mut swept) = (Vec::new(), Vec::new(), Vec::new());
+    if let Some((way, span)) = blank.map(|blank| touch(blank, path.zero)) {
+        swept.push(Swept { way, diameter: 0.0 });
+        steps.push(Step::of_move(span.line, way));
+        spans.push(span);
+    }
+    for (movement, setting) in path.moves.iter().zip(&settings) {
+        let Some(setting) = setting.as_ref().filter(|_| movement.kind != MoveKind::Probe) else { continue };
+        let first = line(steps.len());
+        let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
+        spans.push(StockSpan { line: first, surface, cutter });
+        let count = (movement.length / (setting.diameter * SEARCHED)).ceil().clamp(1.0, MOST_PIECES);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let count = if is_low(movement) && !movement.way.is_vertical() { count as u32 } else { 1 };
+        for way in movement.way.split(count) {
+            swept.push(Swept { way: moved(&way, path.zero), diameter: setting.diameter });
+            steps.push(Step::of_move(line(steps.len()), way));
+        }
+    }
+    let lines = rapid_hits(&steps, &Stock::of_pieces(spans));
+    lines.into_iter().map(|line| swept[line as usize - 1]).collect()
+}
+
+/// A move that touches the upper face of a blank, with a cutter so wide that the material around the move is all of the blank.
+fn touch(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
+    let [x, y] = [0, 1].map(|axis| [low[axis] - zero[axis], high[axis] - zero[axis]]);
+    let z = surface - TOUCH;
+    let (from, to, reach) = if x[1] - x[0] > y[1] - y[0] {
+        let middle = f64::midpoint(y[0], y[1]);
+        ([x[0], middle, z], [x[1], middle, z], y[1] - middle)
+    } else {
+        let middle = f64::midpoint(x[0], x[1]);
+        ([middle, y[0], z], [middle, y[1], z], x[1] - middle)
+    };
+    let end = |[x, y, z]: [f64; 3]| Position::known(x, y, z);
+    let way =
+        Move { from: end(from), to: end(to), shape: MoveShape::Line, pace: Pace::Feed(1.0), named: None };
+    let cutter = Cutter { diameter: reach, removed: 0.0, colliding: 0.0 };
+    (way, StockSpan { line: 1, surface, cutter })
+}
+
+/// Depth in mm of the move that touches a blank: less than what counts as material.
+const TOUCH: f64 = 1e-4;
+
+/// The number of the next step.
+fn line(steps: usize) -> u32 {
+    u32::try_from(steps + 1).unwrap_or(u32::MAX)
+}
+
+fn stroke(canvas: &mut Canvas, data: &str, width: f64, color: &str) {
+    canvas.path(data, &format!("stroke=\"{color}\" stroke-width=\"{}\"", n(width.max(0.5))));
+}
+
+/// Draws the material left at a part, outside of it.
+fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+    if part.left.is_empty() {
+        return;
+    }
+    outside(canvas, part, place, id);
+    canvas.open(&format!("clip-path=\"url(#{id})\""));
+    for stretch in &part.left {
+        let data: String = stretch.outline.iter().map(|shape| things::shape(shape, place)).collect();
+        stroke(canvas, &data, 2.0 * stretch.reach * place.scale(), LEFT);
+    }
+    canvas.close();
+}
+
+/// Draws what is wrong about a part: cuts into it, support bars that are cut away, and that nothing holds it.
+fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+    let material = || -> String {
+        // A ring inside an opening leaves it open.
+        let rings =
+            part.rings.iter().enumerate().zip(&part.nests).filter(|((index, _), nest)| index == *nest);
+        rings.map(|((_, ring), _)| things::outline(ring, place)).collect()
+    };
+    if part.is_loose {
+        canvas.path(&material(), &format!("fill=\"{LOOSE}\" fill-opacity=\"0.45\""));
+    }
+    let width = 2.0 * part.radius * place.scale();
+    let data = |shapes: &[Shape]| shapes.iter().map(|shape| things::shape(shape, place)).collect::<String>();
+    if !part.gouges.is_empty() {
+        canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{}\"/></clipPath>", material()));
+        canvas.open(&format!("clip-path=\"url(#{id})\""));
+        stroke(canvas, &data(&part.gouges), width, WRONG);
+        canvas.close();
+    }
+    if !part.lost_bars.is_empty() {
+        canvas.open("stroke-linecap=\"butt\"");
+        stroke(canvas, &data(&part.lost_bars), width, WRONG);
+        canvas.close();
+    }
+}
+
+/// Defines the outside of a part for clipping: a frame around its rings, which run around their material on the left.
+fn outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+    let mut corners = None;
+    for shape in part.rings.iter().flatten() {
+        widen(&mut corners, shape.extent());
+    }
+    let reach = part.left.iter().map(|left| left.reach).fold(0.0, f64::max);
+    let [low, high] = corners.unwrap_or_default();
+    let ([left, bottom], [right, top]) =
+        (place.at(low.map(|at| at - reach)), place.at(high.map(|at| at + reach)));
+    let frame = format!("M{} {}H{}V{}H{}Z", n(left), n(top), n(right), n(bottom), n(left));
+    let rings: String = part.rings.iter().map(|ring| things::outline(ring, place)).collect();
+    canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{frame}{rings}\"/></clipPath>"));
+}
+
+fn depth_color(share: f64) -> String {
+    let [red, green, blue] = [0, 1, 2].map(|part| {
+        let value = DEPTHS[0][part] + (DEPTHS[1][part] - DEPTHS[0][part]) * share;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+        let value = value.round() as u8;
+        value
+    });
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
