@@ -131,7 +131,7 @@ fn freecad_library(list: &[Value], bit: ReadBit<'_>) -> Result<Description, Box<
         match bit(&name) {
             Ok(text) => {
                 let bit: Value = serde_json::from_str(&text)
-                    .map_err(|error| Box::new(unreadable(Shown::foreign(&error.to_string()))))?;
+                    .map_err(|error| Box::new(unreadable(Shown::foreign(error.to_string()))))?;
                 freecad_bit(&bit, number, &mut tools);
             }
             Err(reason) => tools.problems.push(unreadable(reason)),
