@@ -223,7 +223,7 @@ fn no_number(letter: Letter, value: &str) -> Diagnostic {
     Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible)
 }
 
-/// Letters that must always be positive. (The book does not list Z, but a machine that probes with feed 0 never arrives.)
+/// Letters that must always be positive. (book: language/letters)
 const POSITIVE: [Letter; 8] =
     [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
 
