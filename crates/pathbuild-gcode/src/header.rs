@@ -113,7 +113,7 @@ pub static FORMS: &[HeaderForm] = &[
     HeaderForm {
         name: "pathbuild",
         source: "provenance.rs",
-        sample: "pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5",
+        sample: "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5",
         signature: None,
         read: pathbuild,
     },

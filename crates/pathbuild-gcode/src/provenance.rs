@@ -1,6 +1,6 @@
 //! The header line that identifies the origin of a program. (book: program/gcode)
 //!
-//! `pathbuild 0.1.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5` consists of the version, a hash of the moves and formulas, a hash of the
+//! `pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5` consists of the version, a hash of the moves and formulas, a hash of the
 //! options, the dialect, the cutter O and the height T of the material in mm. O and T are omitted if a program has several of them.
 //!
 //! A program with equal hashes and an unmodified body is up to date, regardless of the version that wrote it, and even if its drawing has
