@@ -2,7 +2,8 @@
 //!
 //! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It answers what the program answers: what is wrong
 //! with the drawings ([`check`](Library::check)), which paths there are ([`paths`](Library::paths)), what the tool does along one of them
-//! ([`path`](Library::path)), its G-code ([`program`](Library::program)), and it writes programs ([`emit`](Library::emit)). It does so
+//! ([`path`](Library::path)), its G-code ([`program`](Library::program)), it writes programs ([`emit`](Library::emit)), and it verifies
+//! programs of any origin ([`verify`](Library::verify)). It does so
 //! whenever a drawing changes ([`watch`](Library::watch)).
 //!
 //! ```
@@ -40,6 +41,7 @@ mod library;
 mod options;
 mod path;
 mod report;
+mod verify;
 mod watch;
 
 pub use finding::{Embedding, Error, Finding};
@@ -50,4 +52,5 @@ pub use pathbuild_diagnostic::Lang;
 pub use report::{
     CheckReport, EmitReport, FileState, OutputFile, PathListing, PathSummary, ProgramState, ProgramText,
 };
+pub use verify::{CheckState, DrawingComparison, ProgramCheck, VerifiedProgram, VerifyOptions, VerifyReport};
 pub use watch::{WatchEnd, WatchReport};

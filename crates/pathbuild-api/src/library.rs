@@ -4,7 +4,7 @@ use std::path::Path as FilePath;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{SourceFile, bug, catch_bugs, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -13,13 +13,13 @@ use pathbuild_workspace::emit::{self, SceneReport, ShownText, State, Task};
 use pathbuild_workspace::list;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::{NamedPaths, Session, several_paths};
-use pathbuild_workspace::{Inputs, Workspace, watch};
+use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 
 use crate::options::Source;
 use crate::watch::{Reports, absolute};
 use crate::{
     CheckReport, EmitOptions, EmitReport, Error, Finding, LibraryOptions, OutputFile, Path, PathListing,
-    PathSummary, ProgramText, WatchEnd, WatchReport,
+    PathSummary, ProgramText, VerifyOptions, VerifyReport, WatchEnd, WatchReport,
 };
 
 /// A directory of drawings, opened with the configuration that applies there.
@@ -173,6 +173,27 @@ impl Library {
                 files: emission.delivered.into_iter().flat_map(OutputFile::of).collect(),
                 findings: Finding::all(session.workspace(), emission.diagnostics),
             })
+        })
+    }
+
+    /// Verifies G-code programs of any origin as `pathbuild verify` does. Inputs are files, directories with programs, and patterns.
+    ///
+    /// # Errors
+    /// If the post-processor or the path to compare with does not exist, or has errors. What is wrong with the programs is in the report.
+    pub fn verify(&self, programs: &[&str], options: &VerifyOptions) -> Result<VerifyReport, Error> {
+        let places: Vec<Utf8PathBuf> = programs.iter().map(Utf8PathBuf::from).collect();
+        let options = options.clone();
+        self.ask(move |session| {
+            let workspace = session.workspace();
+            let request =
+                verify::Request { places: &places, text: None, options: options.resolve(workspace)? };
+            let verification = request.run(session).map_err(|failure| match failure {
+                verify::Failure::Usage(reason) => Error::Refused(reason),
+                verify::Failure::Post(found) | verify::Failure::Drawing(found) => {
+                    Error::found(workspace, found)
+                }
+            })?;
+            Ok(VerifyReport::new(workspace, verification))
         })
     }
 

@@ -3,8 +3,8 @@
 use std::fs;
 
 use pathbuild_api::{
-    EmitOptions, Error, FileState, Lang, Library, LibraryOptions, MoveKind, Path, ProgramState, WatchEnd,
-    WatchReport,
+    CheckState, EmitOptions, Error, FileState, Lang, Library, LibraryOptions, MoveKind, Path, ProgramState,
+    VerifyOptions, VerifyReport, WatchEnd, WatchReport,
 };
 use pathbuild_testkit::{project, sheet};
 use tempfile::TempDir;
@@ -109,6 +109,38 @@ fn a_program_is_the_text_that_is_written() {
     assert_eq!(library.emit(&[], &compare).unwrap().files[0].state, FileState::Current);
     let posted = library.program("8001.1P", &EmitOptions::new().post("mach3")).unwrap();
     assert_ne!(posted.text, program.text);
+}
+
+#[test]
+fn programs_are_verified_and_compared_with_their_drawing() {
+    let directory = on_disk();
+    let library = Library::open(directory.path()).unwrap();
+    let written = library.emit(&[], &EmitOptions::new()).unwrap().files.remove(0).file;
+    let against = VerifyOptions::new().against("8001.1P");
+    let report = library.verify(&[&written], &against).unwrap();
+    assert_eq!(report.findings, []);
+    let comparison = report.programs[0].comparison.clone().unwrap();
+    assert_eq!((&*comparison.path, comparison.equal), ("8001.1P", comparison.moves));
+    let state = |report: &VerifyReport, name| {
+        report.programs[0].checks.iter().find(|check| check.name == name).map(|check| check.state)
+    };
+    assert_eq!(state(&report, "drawing"), Some(CheckState::Made));
+    fs::write(
+        directory.path().join("other.nc"),
+        "G21 G90\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG0 Z-1\nG1 X9 F90\nM30\n",
+    )
+    .unwrap();
+    let options = VerifyOptions::new().dialect("grbl").cutter(2.0).surface(0.0).require("feeds");
+    let report = library.verify(&["other.nc"], &options).unwrap();
+    let codes: Vec<String> = report.findings.iter().map(|finding| finding.code()).collect();
+    assert!(codes.contains(&"PB741".to_owned()), "{codes:?}");
+    assert_eq!(
+        (state(&report, "rapids"), state(&report, "feeds")),
+        (Some(CheckState::Made), Some(CheckState::NotMade))
+    );
+    assert!(report.findings.iter().any(|finding| finding.message(Lang::En).contains("feeds")), "{codes:?}");
+    assert!(library.verify(&["other.nc"], &VerifyOptions::new().dialect("klingon")).is_err());
+    assert!(library.verify(&["other.nc"], &VerifyOptions::new().against("9999.1P")).is_err());
 }
 
 /// What was computed is kept until the library is told of an edit.

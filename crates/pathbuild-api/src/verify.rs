@@ -1,0 +1,186 @@
+//! Verifying programs of any origin.
+
+use camino::Utf8PathBuf;
+use pathbuild_workspace::Workspace;
+use pathbuild_workspace::config::types::Requirement;
+use pathbuild_workspace::program::ReadingOptions;
+use pathbuild_workspace::verify::{self, CheckRecord, MoveComparison, Outcome, Verification};
+
+use crate::{Error, Finding};
+
+/// How programs are verified.
+#[derive(Clone, Debug, Default)]
+pub struct VerifyOptions {
+    against: Option<String>,
+    cutter: Option<f64>,
+    surface: Option<f64>,
+    dialect: Option<String>,
+    post: Option<String>,
+    required: Vec<String>,
+}
+
+impl VerifyOptions {
+    /// Options that change nothing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Compares the programs with the drawing of this path, which also gives the cutter and the material.
+    pub fn against(mut self, path: impl Into<String>) -> Self {
+        self.against = Some(path.into());
+        self
+    }
+
+    /// Sets the diameter of the cutter in mm. Without it, it is that of the drawing, of `[tool]`, or of comments.
+    pub fn cutter(mut self, diameter: f64) -> Self {
+        self.cutter = Some(diameter);
+        self
+    }
+
+    /// Sets the height of the material's upper face in mm.
+    pub fn surface(mut self, height: f64) -> Self {
+        self.surface = Some(height);
+        self
+    }
+
+    /// Sets the dialect of the programs, such as `grbl`; without it, it is guessed.
+    pub fn dialect(mut self, dialect: impl Into<String>) -> Self {
+        self.dialect = Some(dialect.into());
+        self
+    }
+
+    /// Sets the post-processor that wrote the programs: the name of a built-in one, or a definition's file.
+    pub fn post(mut self, post: impl Into<String>) -> Self {
+        self.post = Some(post.into());
+        self
+    }
+
+    /// Makes it an error if this check is not made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing` or `clamps`.
+    /// Without any, the configuration decides.
+    pub fn require(mut self, check: impl Into<String>) -> Self {
+        self.required.push(check.into());
+        self
+    }
+
+    pub(crate) fn resolve(self, workspace: &Workspace) -> Result<verify::VerifyOptions, Error> {
+        let reading = |name: &String| {
+            ReadingOptions::in_dialect(name).ok_or_else(|| {
+                let [en, de] = ["there is no dialect `{}`", "es gibt keinen Dialekt `{}`"];
+                Error::Refused(workspace.phrase(en, de, name))
+            })
+        };
+        let requirement = |name: &String| {
+            Requirement::named(name).ok_or_else(|| {
+                Error::Refused(workspace.phrase("there is no check `{}`", "es gibt keine Prüfung `{}`", name))
+            })
+        };
+        if let Some(cutter) = self.cutter.filter(|cutter| !(cutter.is_finite() && *cutter > 0.0)) {
+            let [en, de] = ["`{}` is no diameter of a cutter", "`{}` ist kein Durchmesser eines Fräsers"];
+            return Err(Error::Refused(workspace.phrase(en, de, &cutter.to_string())));
+        }
+        Ok(verify::VerifyOptions {
+            reading: self.dialect.as_ref().map(reading).transpose()?.unwrap_or_default(),
+            against: self.against,
+            cutter: self.cutter,
+            surface: self.surface.filter(|surface| surface.is_finite()),
+            required: self.required.iter().map(requirement).collect::<Result<_, _>>()?,
+            post: self.post,
+        })
+    }
+}
+
+/// What was verified, and what was found.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VerifyReport {
+    /// Errors and warnings, sorted by program.
+    pub findings: Vec<Finding>,
+    /// The programs, in the order in which they were named.
+    pub programs: Vec<VerifiedProgram>,
+}
+
+/// What was verified of a program.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VerifiedProgram {
+    /// Its file.
+    pub file: String,
+    /// What was checked, and what was not; empty if the program could not be read.
+    pub checks: Vec<ProgramCheck>,
+    /// What was compared with the drawing, if it was named.
+    pub comparison: Option<DrawingComparison>,
+}
+
+/// A check of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ProgramCheck {
+    /// Its name, as in [`VerifyOptions::require`].
+    pub name: String,
+    /// Whether it was made.
+    pub state: CheckState,
+    /// The values it was made with, or why it was not made, in the language of the library.
+    pub detail: String,
+}
+
+/// Whether a check was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CheckState {
+    /// It was made.
+    Made,
+    /// It was made with values that only comments of the program state.
+    Assumed,
+    /// It was not made.
+    NotMade,
+}
+
+/// A comparison of a program with a drawing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DrawingComparison {
+    /// The path.
+    pub path: String,
+    /// Its drawing.
+    pub drawing: String,
+    /// Number of moves in the drawing.
+    pub moves: usize,
+    /// Number of moves that are equal, from the beginning of the program.
+    pub equal: usize,
+}
+
+impl VerifyReport {
+    pub(crate) fn new(workspace: &Workspace, verification: Verification) -> Self {
+        let (mut diagnostics, mut programs) = (verification.problems, Vec::new());
+        for (file, verified) in verification.programs {
+            diagnostics.extend(verified.diagnostics);
+            programs.push(VerifiedProgram {
+                file: Utf8PathBuf::into_string(file),
+                checks: verified.checks.iter().map(|record| ProgramCheck::new(workspace, record)).collect(),
+                comparison: verified.comparison.map(DrawingComparison::new),
+            });
+        }
+        Self { findings: Finding::all(workspace, diagnostics), programs }
+    }
+}
+
+impl ProgramCheck {
+    fn new(workspace: &Workspace, record: &CheckRecord) -> Self {
+        let lang = workspace.lang();
+        let (state, detail) = match &record.outcome {
+            Outcome::Made(values) => {
+                (CheckState::Made, values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default())
+            }
+            Outcome::Assumed(values) => (CheckState::Assumed, values.in_lang(lang)),
+            Outcome::NotMade(reason) => (CheckState::NotMade, reason.text().in_lang(lang).to_owned()),
+        };
+        Self { name: record.requirement.name().to_owned(), state, detail }
+    }
+}
+
+impl DrawingComparison {
+    fn new(comparison: MoveComparison) -> Self {
+        let MoveComparison { path, drawing, moves, equal, .. } = comparison;
+        Self { path, drawing: drawing.into_string(), moves, equal }
+    }
+}
