@@ -46,6 +46,7 @@ mod limits;
 mod list;
 mod machine_import;
 mod machines;
+mod many_programs;
 mod meanwhile;
 mod nesting;
 mod nothing;

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::System;
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::{files, gcode};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
@@ -42,6 +43,11 @@ impl Default for ReadingOptions {
 }
 
 impl ReadingOptions {
+    /// Reads programs in the dialect of this name; `None` if there is no such dialect.
+    pub fn in_dialect(name: &str) -> Option<Self> {
+        Some(Self { dialect: Some(name.parse().ok()?), ..Self::default() })
+    }
+
     fn with_settings(self, settings: &Settings) -> Options {
         Options {
             unit_codes: self.unit_codes,
@@ -95,7 +101,8 @@ impl Program {
         file: &Utf8Path,
         reading: ReadingOptions,
     ) -> Result<Self, Box<Diagnostic>> {
-        Self::of_text(workspace, file, read(workspace, file)?, reading)
+        let text = read(&workspace.settings, &*workspace.system, file)?;
+        Self::of_text(workspace, file, text, reading)
     }
 
     /// Reads the text of a file and keeps its steps.
@@ -265,10 +272,14 @@ impl Program {
 ///
 /// # Errors
 /// If the file cannot be read, or is too large.
-pub fn read(workspace: &Workspace, file: &Utf8Path) -> Result<Vec<u8>, Box<Diagnostic>> {
-    let limit = workspace.settings.limits.file_size.value;
+pub(crate) fn read(
+    settings: &Settings,
+    system: &dyn System,
+    file: &Utf8Path,
+) -> Result<Vec<u8>, Box<Diagnostic>> {
+    let limit = settings.limits.file_size.value;
     let unreadable = |error: ReadError| Box::new(error.diagnostic(limit, "file-size").in_file(file));
-    workspace.system.read(file, limit).map_err(unreadable)
+    system.read(file, limit).map_err(unreadable)
 }
 
 /// PB779: words on which the dialects disagree that a program may be in.

@@ -22,6 +22,13 @@ messages! {
         help_en: "name a directory that holds .dxf files; hidden ones and those that .gitignore or .ignore excludes do not count",
         help_de: "ein Verzeichnis mit .dxf-Dateien nennen; versteckte und durch .gitignore oder .ignore ausgeschlossene zählen nicht",
     }
+    /// A directory without programs.
+    NO_PROGRAM: NothingFound {
+        en: "there is no G-code program in {directory}",
+        de: "es gibt kein G-Code-Programm in {directory}",
+        help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .gitignore or .ignore excludes do not count",
+        help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .gitignore oder .ignore ausgeschlossene Dateien zählen nicht",
+    }
     /// Drawings without paths.
     NO_PATH_ANYWHERE: NothingFound {
         en: "none of the {count} drawings contains a path",

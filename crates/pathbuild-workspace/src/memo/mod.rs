@@ -5,7 +5,7 @@
 mod builder;
 mod store;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::{Listings, Reason, decode};
 use pathbuild_db::{Database, SourceFile};
 use serde::de::DeserializeOwned;
@@ -53,6 +53,22 @@ impl Memo {
         let store =
             Store::open(workspace, ResultKind::Check, &check_query(false), Scope::All, Listings::new());
         store.map(|store| Self(Some(store)))
+    }
+
+    /// Results of earlier verifications of these programs. `text` is what they depend on besides settings and files. `directories` were
+    /// searched for programs.
+    pub(crate) fn of_programs(
+        session: &Session<'_>,
+        text: &str,
+        programs: &[Utf8PathBuf],
+        directories: &[Utf8PathBuf],
+    ) -> Self {
+        if !session.is_traced() {
+            return Self(None);
+        }
+        let names = |paths: &[Utf8PathBuf]| paths.iter().map(ToString::to_string).collect();
+        let scope = Scope::Drawings { drawings: names(programs), directories: names(directories) };
+        Self(Store::open(session.workspace(), ResultKind::Emit, text, scope, Listings::new()))
     }
 
     /// The result for each item: that of an earlier run if it still holds and `accept` takes it, otherwise the one that `build` computes. It

@@ -134,7 +134,7 @@ impl Session<'_> {
         for input in inputs.iter() {
             match input {
                 Input::Place(place) => {
-                    let expand_pattern = self.expand_pattern(place);
+                    let expand_pattern = self.expand_pattern(place, library::is_drawing);
                     let places =
                         if expand_pattern.is_empty() { vec![place.to_owned()] } else { expand_pattern };
                     let argument = |place: &Utf8PathBuf| self.match_place(place, &mut found.listings);
@@ -152,15 +152,19 @@ impl Session<'_> {
         found
     }
 
-    /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. Matches drawings and directories by the last component,
-    /// unless a file of just that name exists.
-    fn expand_pattern(&self, place: &Utf8Path) -> Vec<Utf8PathBuf> {
+    /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. Matches wanted files and directories by the last
+    /// component, unless a file of just that name exists.
+    pub(super) fn expand_pattern(
+        &self,
+        place: &Utf8Path,
+        is_wanted: fn(&Utf8Path) -> bool,
+    ) -> Vec<Utf8PathBuf> {
         let Some(pattern) = place.file_name().and_then(pattern_of) else { return Vec::new() };
         if self.db.system().kind(&self.normal(place)) != FileKind::Missing {
             return Vec::new();
         }
         let directory = place.parent().unwrap_or(Utf8Path::new(""));
-        let entries = self.entries(&self.normal(directory)).into_iter();
+        let entries = self.entries(&self.normal(directory), is_wanted).into_iter();
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
@@ -228,7 +232,7 @@ impl Session<'_> {
 
     fn search_directory(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
         self.start_workers();
-        let walked = self.walk().through(&directory);
+        let walked = self.walk(library::is_drawing).through(&directory);
         self.found_directory(directory, walked, listings)
     }
 
@@ -249,7 +253,7 @@ impl Session<'_> {
     fn library_walked(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
-        let walk = self.walk();
+        let walk = self.walk(library::is_drawing);
         let walked: Vec<library::WalkResult> = if walk.is_parallel && library.len() > 1 {
             library.par_iter().map(|directory| walk.through(directory)).collect()
         } else {
@@ -296,7 +300,7 @@ impl Session<'_> {
         let (drawings, problems) = if self.has_library() {
             self.library()
         } else {
-            let walked = self.walk().through(Utf8Path::new(""));
+            let walked = self.walk(library::is_drawing).through(Utf8Path::new(""));
             (walked.drawings, walked.problems)
         };
         (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
@@ -304,7 +308,7 @@ impl Session<'_> {
 
     /// The drawings in and below a directory.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
-        self.walk().through(directory).drawings.into_iter()
+        self.walk(library::is_drawing).through(directory).drawings.into_iter()
     }
 
     /// Passes the names of freshly listed directories to the database, to save listing them again, unless they are doubtful.
@@ -331,13 +335,14 @@ impl Session<'_> {
         self.db.system().kind(&self.normal(place)) == FileKind::Directory
     }
 
-    fn walk(&self) -> library::Walk<'_> {
+    pub(super) fn walk(&self, is_wanted: fn(&Utf8Path) -> bool) -> library::Walk<'_> {
         let limits = &self.context.settings.limits;
         library::Walk {
             system: &*self.context.system,
             limit: limits.library_entries.value,
             rules_limit: limits.ignore_file_size.value,
             is_parallel: self.context.jobs != Some(1),
+            is_wanted,
         }
     }
 }

@@ -3,6 +3,7 @@
 //! howto/large-libraries)
 
 use std::cmp;
+use std::collections::HashSet;
 use std::ops::ControlFlow;
 use std::path::is_separator;
 use std::sync::Arc;
@@ -16,15 +17,26 @@ use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join};
 use pathbuild_db::{Db, System, catch_bugs, unlistable, unlisted};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::limits::line_too_long;
-use pathbuild_diagnostic::messages::files as messages;
+use pathbuild_diagnostic::messages::{files as messages, outputs};
 use rayon::prelude::*;
 
 use super::Session;
 
+/// The programs that arguments name.
+#[derive(Debug, Default)]
+pub struct ProgramMatches {
+    /// Paths of the programs, in the order of the arguments.
+    pub programs: Vec<Utf8PathBuf>,
+    /// The directories that were searched.
+    pub directories: Vec<Utf8PathBuf>,
+    /// Directories that cannot be listed, or without programs.
+    pub problems: Vec<Diagnostic>,
+}
+
 /// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
 pub(super) struct WalkResult {
-    /// All drawings, sorted by place.
+    /// All drawings, or other wanted files, sorted by place.
     pub(super) drawings: Vec<Utf8PathBuf>,
     /// The directory itself and all directories below it, sorted by place.
     pub(super) directories: Vec<Utf8PathBuf>,
@@ -49,6 +61,8 @@ pub(super) struct Walk<'a> {
     pub(super) rules_limit: u64,
     /// Whether to use all cores.
     pub(super) is_parallel: bool,
+    /// Which files are searched for, by their names.
+    pub(super) is_wanted: fn(&Utf8Path) -> bool,
 }
 
 impl Walk<'_> {
@@ -105,7 +119,7 @@ impl Walk<'_> {
                     }
                     // The root itself may be a drawing.
                     None if directory == *root && self.system.kind(root) == FileKind::File => {
-                        walked.drawings.extend(is_drawing(root).then(|| root.to_owned()));
+                        walked.drawings.extend((self.is_wanted)(root).then(|| root.to_owned()));
                         continue;
                     }
                     None => {}
@@ -126,6 +140,12 @@ pub(super) fn readable(directory: &Utf8Path) -> &Utf8Path {
 /// Whether the file is a drawing; the case of `.dxf` does not matter.
 pub(super) fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
+}
+
+/// Whether the file is a G-code program, by its extension.
+fn is_program(path: &Utf8Path) -> bool {
+    const EXTENSIONS: [&str; 6] = ["nc", "ngc", "gcode", "tap", "cnc", "din"];
+    path.extension().is_some_and(|own| EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }
 
 /// The contents of a single directory.
@@ -162,7 +182,7 @@ impl Directory {
         let mut has_own = false;
         let mut listed = walk.system.each_entry(directory, &mut |entry| {
             has_own = entry.is_exact && changes_rules(entry.name, above.is_some());
-            found.add(directory, entry);
+            found.add(directory, entry, walk.is_wanted);
             if has_own || found.count > walk.limit {
                 ControlFlow::Break(())
             } else {
@@ -174,7 +194,7 @@ impl Directory {
             found =
                 Self { rules: Some(Rules::read(walk.system, directory, above, budget)?), ..Self::default() };
             listed = walk.system.each_entry(directory, &mut |entry| {
-                found.add(directory, entry);
+                found.add(directory, entry, walk.is_wanted);
                 if found.count > walk.limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
         }
@@ -203,14 +223,22 @@ impl Directory {
         Ok(Some(found))
     }
 
-    fn add(&mut self, directory: &Utf8Path, Entry { name, is_exact, kind }: Entry<'_>) {
-        if kind != EntryKind::Directory {
+    fn add(
+        &mut self,
+        directory: &Utf8Path,
+        Entry { name, is_exact, kind }: Entry<'_>,
+        is_wanted: fn(&Utf8Path) -> bool,
+    ) {
+        if kind != EntryKind::Directory && is_wanted(Utf8Path::new(name)) {
             let listing = if is_exact { &mut self.listing } else { &mut self.inexact };
-            listing.add(name, kind == EntryKind::Link);
+            listing.names.push(name.into());
+            if kind == EntryKind::Link {
+                listing.links.push(name.into());
+            }
         }
         let is_directory = kind == EntryKind::Directory;
         if !is_exact {
-            let is_meant = is_directory || is_drawing(Utf8Path::new(name));
+            let is_meant = is_directory || is_wanted(Utf8Path::new(name));
             if is_meant && self.counts(directory, name, is_directory) {
                 let problem = Diagnostic::new(&messages::NAME_NOT_UTF_8).quoting("name", name);
                 self.problems.push(problem.in_file(readable(directory)));
@@ -268,6 +296,39 @@ fn too_many(directory: &Utf8Path, limit: u64) -> Diagnostic {
 }
 
 impl Session<'_> {
+    /// The programs that these arguments name, each once, and what is wrong with directories. A directory stands for the programs in and
+    /// below it. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
+    pub fn match_programs(&self, arguments: &[Utf8PathBuf]) -> ProgramMatches {
+        let mut found = ProgramMatches::default();
+        for argument in arguments {
+            let expanded = self.expand_pattern(argument, is_program);
+            let places = if expanded.is_empty() { vec![argument.clone()] } else { expanded };
+            for place in places {
+                if self.is_directory(&place) {
+                    self.add_directory(&place, &mut found);
+                } else {
+                    found.programs.push(place);
+                }
+            }
+        }
+        let mut seen = HashSet::new();
+        found.programs.retain(|program| seen.insert(self.normal(program)));
+        found
+    }
+
+    fn add_directory(&self, directory: &Utf8Path, found: &mut ProgramMatches) {
+        self.start_workers();
+        let root = if directory == "." { Utf8Path::new("") } else { directory };
+        let walked = self.walk(is_program).through(root);
+        if walked.drawings.is_empty() && walked.problems.is_empty() {
+            let problem = Diagnostic::new(&outputs::NO_PROGRAM);
+            found.problems.push(problem.quoting("directory", readable(directory).as_str()));
+        }
+        found.programs.extend(walked.drawings);
+        found.directories.extend(walked.directories);
+        found.problems.extend(walked.problems);
+    }
+
     /// Queries the database about a directory.
     ///
     /// PB006 if this triggers a bug, PB001 if a drawing changed in the meantime or if the directory cannot be listed.

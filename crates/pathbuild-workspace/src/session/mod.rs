@@ -26,7 +26,7 @@ pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, End, Graph, Node};
 #[cfg(not(target_family = "wasm"))]
 pub(crate) use library::{IGNORE_FILES, is_ignore_file};
-pub use library::{by_name, by_place};
+pub use library::{ProgramMatches, by_name, by_place};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
 pub(crate) use resolve::MOST_UNKNOWN;
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};

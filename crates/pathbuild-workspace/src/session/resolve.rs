@@ -372,7 +372,10 @@ impl Session<'_> {
 
     /// Everything that a name without a separator may refer to.
     fn known(&self) -> KnownNames {
-        KnownNames { paths: self.paths_of_library(MOST_UNKNOWN), entries: self.entries(Utf8Path::new("")) }
+        KnownNames {
+            paths: self.paths_of_library(MOST_UNKNOWN),
+            entries: self.entries(Utf8Path::new(""), library::is_drawing),
+        }
     }
 
     /// The existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.
@@ -383,18 +386,18 @@ impl Session<'_> {
         let directory = file.ancestors().skip(1).find(is_there)?;
         let mut missing = file.strip_prefix(directory).ok()?.components();
         let name = missing.next()?;
-        let entries = self.entries(directory);
+        let entries = self.entries(directory, library::is_drawing);
         let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = join(&near, missing.as_path());
         // The components after the misspelled one may exist.
         Some(if self.db().system().kind(&whole) == FileKind::Missing { near } else { whole })
     }
 
-    /// Sorted names of the drawings and directories in a directory, without hidden ones.
-    pub(super) fn entries(&self, directory: &Utf8Path) -> Vec<String> {
+    /// Sorted names of the wanted files and the directories in a directory, without hidden ones.
+    pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: fn(&Utf8Path) -> bool) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
-            let counts = entry.kind == EntryKind::Directory || library::is_drawing(Utf8Path::new(entry.name));
+            let counts = entry.kind == EntryKind::Directory || is_wanted(Utf8Path::new(entry.name));
             if counts && entry.is_exact && !entry.name.starts_with('.') {
                 names.push(entry.name.to_owned());
             }

@@ -176,6 +176,11 @@ impl Session<'_> {
         self.map_in_chunks(items, PROGRAMS_PER_CHUNK, work)
     }
 
+    /// Processes items that need no database, such as programs, in parallel. The results are in the order of the items.
+    pub fn map_programs<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+        self.map_in_chunks(items, PROGRAMS_PER_CHUNK, |_, item| work(item))
+    }
+
     /// Processes items in parallel, with results in the order of the items. A single item is processed on this thread: starting threads
     /// takes longer than most paths.
     pub(super) fn map_parallel<T: Sync, R: Send>(

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use camino::Utf8PathBuf;
-use pathbuild_db::{Role, Target, check_file, placed_keep_outs, program};
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::{Role, Target, Trace, check_file, placed_keep_outs, program};
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
@@ -32,6 +32,8 @@ pub(super) struct ReferenceProgram {
     file: Utf8PathBuf,
     /// The clamps around it, if its drawings have any.
     clamps: Option<Clamps>,
+    /// What it depends on, if the session traces that.
+    trace: Option<Trace>,
 }
 
 /// The program that a definition writes for a path.
@@ -73,7 +75,17 @@ impl ReferenceProgram {
         let drawn = drawn.ok_or_else(|| Failure::Drawing(Vec::new()))?;
         let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
         let file = target.file(session.db()).path(session.db()).clone();
-        Ok(Self { drawn, file, clamps })
+        Ok(Self { drawn, file, clamps, trace: checked.trace.clone() })
+    }
+
+    /// The drawing.
+    pub(super) fn file(&self) -> &Utf8Path {
+        &self.file
+    }
+
+    /// What it depends on, if the session traces that.
+    pub(super) fn trace(&self) -> Option<&Trace> {
+        self.trace.as_ref()
     }
 
     /// O in mm, if all cuts use the same tool.

@@ -2,6 +2,7 @@
 
 mod against;
 mod checks;
+mod run;
 mod stock;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -32,6 +33,7 @@ use crate::session::Session;
 use crate::workspace::Workspace;
 
 pub use checks::{CheckRecord, Origin, Outcome, RapidValues, Reason, summary};
+pub use run::{Request, Verification};
 use stock::Sources;
 
 /// How programs are verified.
@@ -141,9 +143,9 @@ impl<'w> Verifier<'w> {
             Program::read_each(self.settings, file, text, self.options.reading, &by_definition, each);
         let has_probed = as_written.has_probed;
         let (header, stated) = as_written.finish(&program);
-        let verification = Verification::new(self, &program, &header, has_probed);
-        let problems = verification.run(stated);
-        problems.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
+        let examination = Examination::new(self, &program, &header, has_probed);
+        let verified = examination.run(stated);
+        verified.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
     }
 
     /// The material that a program cuts, as far as its cutters and its surface are known.
@@ -251,8 +253,8 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
     }
 }
 
-/// The verification of a program.
-struct Verification<'v> {
+/// A program under examination.
+struct Examination<'v> {
     verifier: &'v Verifier<'v>,
     program: &'v Program,
     header: &'v Header,
@@ -266,7 +268,7 @@ struct Verification<'v> {
     milled: Option<&'v ReferenceProgram>,
 }
 
-impl<'v> Verification<'v> {
+impl<'v> Examination<'v> {
     fn new(verifier: &'v Verifier<'v>, program: &'v Program, header: &'v Header, has_probed: bool) -> Self {
         let evidence = program.evidence.map(|evidence| evidence.kind);
         let writer = verifier.writers.of(program.shown, evidence);
@@ -367,10 +369,8 @@ impl<'v> Verification<'v> {
         let mut is_limit_reached = false;
         for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
             is_limit_reached = true;
-            if self.sources.is_assumed() {
-                // Without the comments, the check would not be made either.
-                problem.severity = Severity::Warning;
-            }
+            // A check that is not made is an error only if it is required.
+            problem.severity = Severity::Warning;
         }
         let verifier = self.verifier;
         let is_against = verifier.against.is_some();
@@ -425,6 +425,12 @@ impl Writers {
         // Of a broken one `emit` tells.
         let configured = if named.is_some() { None } else { post(None).ok().flatten() };
         Ok(Self { named, configured, dialect })
+    }
+
+    /// The definitions and everything else that their words depend on.
+    fn identities(&self) -> Vec<(Option<&Utf8Path>, String)> {
+        let posts = self.named.iter().chain(&self.configured);
+        posts.map(|post| (post.file(), blake3::hash(&post.identity()).to_string())).collect()
     }
 
     /// The dialect that the command line says, by itself or by the post.

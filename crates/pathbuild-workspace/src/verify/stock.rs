@@ -99,13 +99,6 @@ impl<'s> Sources<'s> {
         self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
     }
 
-    /// Whether only comments of another CAM state the cutter or the surface.
-    pub(super) fn is_assumed(&self) -> bool {
-        let is_own = self.program.dialect == Dialect::Native || self.header.is_of_pathbuild;
-        let surface = self.surface().map(|(origin, _)| origin);
-        !is_own && self.cutter_origin().max(surface) == Some(Origin::Program)
-    }
-
     /// Where the surface comes from, with its height if it is the same everywhere.
     pub(super) fn surface(&self) -> Option<(Origin, Option<f64>)> {
         let drawn = self.drawn_surface();

@@ -230,8 +230,8 @@ pub struct ImportArgs {
 /// `pathbuild verify`
 #[derive(Clone, Debug, Args)]
 pub struct VerifyArgs {
-    /// G-code programs
-    #[arg(value_name = "FILE", required = true)]
+    /// G-code programs, directories with programs, or - for standard input
+    #[arg(value_name = "FILE|DIRECTORY", required = true)]
     pub files: Vec<Utf8PathBuf>,
     /// Compare with the drawing of this path, which also gives the cutter and the material
     #[arg(long, value_name = "PATH", add = completion::paths())]
@@ -259,7 +259,7 @@ pub struct VerifyArgs {
 impl VerifyArgs {
     /// The programs, followed by the path. The path's configuration applies to programs outside its tree.
     pub(super) fn inputs(&self) -> Inputs {
-        let mut inputs = Inputs::places(&self.files);
+        let mut inputs = Inputs::places(self.files.iter().filter(|file| *file != "-"));
         inputs.inputs.extend(self.against.clone());
         inputs
     }
@@ -554,6 +554,10 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
         "Nach der Änderung: ebenso, zu einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis",
     ),
     ("G-code programs", "G-Code-Programme"),
+    (
+        "G-code programs, directories with programs, or - for standard input",
+        "G-Code-Programme, Verzeichnisse mit Programmen oder - für die Standardeingabe",
+    ),
     ("G-code program", "G-Code-Programm"),
     ("Name of a built-in post", "Name eines eingebauten Postprozessors"),
     ("Drawing to embed", "Zeichnung zum Einbetten"),

@@ -1,13 +1,15 @@
 //! `pathbuild verify`: checks that G-code programs are safe to run and match their drawing. (book: program/reading)
 
-use camino::Utf8Path;
+use std::io::Read;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{number, positive};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::program;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::verify::{
-    CheckRecord, Failure, MoveComparison, Outcome, VerifiedProgram, Verifier, VerifyOptions, summary,
+    CheckRecord, Failure, MoveComparison, Outcome, Request, VerifiedProgram, VerifyOptions, summary,
 };
 use pathbuild_workspace::waivers::Coverage;
 use serde_json::{Value, json};
@@ -24,35 +26,55 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(options) => options,
         Err(fault) => return context.refuse(vec![*fault]),
     };
-    let mut session = Session::new(context);
-    let verifier = match Verifier::new(&mut session, options) {
-        Err(Failure::Post(problems)) => return context.fail(problems),
-        other => other,
+    let standard_input = Utf8Path::new(STANDARD_INPUT);
+    let text = args.files.iter().any(|file| file == standard_input).then(|| read_standard_input(context));
+    let text = match text.transpose() {
+        Ok(text) => text.map(|text| (standard_input, text)),
+        Err(problem) => return context.fail(vec![*problem]),
     };
-    context.output.figure("programs", args.files.len());
+    let places: Vec<Utf8PathBuf> =
+        args.files.iter().filter(|file| *file != standard_input).cloned().collect();
+    let request = Request { places: &places, text, options };
+    let mut session = request.session(context);
+    let verified = match request.run(&mut session) {
+        Err(Failure::Post(problems)) => return context.fail(problems),
+        verified => verified,
+    };
+    let programs = verified.as_ref().map_or(args.files.len(), |verified| verified.programs.len());
+    context.output.figure("programs", programs);
     context.output.figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
-    let verifier = match verifier {
-        Ok(verifier) => verifier,
+    let verified = match verified {
+        Ok(verified) => verified,
         Err(Failure::Usage(reason)) => return context.usage(&reason),
         Err(Failure::Drawing(found) | Failure::Post(found)) => {
             return conclude(context, args, &session, found);
         }
     };
-    let mut report = CheckReport::default();
-    let mut diagnostics = Vec::new();
-    for file in &args.files {
-        match program::read(context, file) {
-            Ok(text) => {
-                let verified = verifier.verify(file, text);
-                report.add(context, file, &verified);
-                diagnostics.extend(verified.diagnostics);
-            }
-            Err(problem) => diagnostics.push(*problem),
-        }
+    let (mut report, mut diagnostics) = (CheckReport::default(), verified.problems);
+    for (file, verified) in verified.programs {
+        report.add(context, &file, &verified);
+        diagnostics.extend(verified.diagnostics);
     }
     let status = conclude(context, args, &session, diagnostics);
     report.finish(context);
     status
+}
+
+/// The argument that stands for standard input.
+const STANDARD_INPUT: &str = "-";
+
+/// # Errors
+/// If it cannot be read, or is too large.
+fn read_standard_input(context: &Context) -> Result<Vec<u8>, Box<Diagnostic>> {
+    let limit = context.settings.limits.file_size.value;
+    let mut text = Vec::new();
+    let read = std::io::stdin().take(limit.saturating_add(1)).read_to_end(&mut text);
+    let fault = match read {
+        Ok(_) if text.len() as u64 <= limit => return Ok(text),
+        Ok(_) => ReadError::TooLarge { size: text.len() as u64 },
+        Err(error) => ReadError::from(error),
+    };
+    Err(Box::new(fault.diagnostic(limit, "file-size").in_file(Utf8Path::new(STANDARD_INPUT))))
 }
 
 fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {

@@ -1,0 +1,111 @@
+//! Verifies many programs in one run, and keeps the results for later runs. (book: reference/commands, `verify`)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::catch_bugs;
+use pathbuild_diagnostic::Diagnostic;
+
+use super::{Failure, VerifiedProgram, Verifier, VerifyOptions};
+use crate::memo::{Answer, ExtraInput, Inputs, Memo, is_transient};
+use crate::program;
+use crate::session::Session;
+use crate::workspace::Workspace;
+
+/// A request to verify programs.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// The files and directories.
+    pub places: &'a [Utf8PathBuf],
+    /// A program that is in no file, such as standard input, and its name in messages. Its result is not kept.
+    pub text: Option<(&'a Utf8Path, Vec<u8>)>,
+    /// How the programs are verified.
+    pub options: VerifyOptions,
+}
+
+/// The outcome of a verification.
+#[derive(Debug, Default)]
+pub struct Verification {
+    /// The programs, in the order in which they were named.
+    pub programs: Vec<(Utf8PathBuf, VerifiedProgram)>,
+    /// What is wrong with directories.
+    pub problems: Vec<Diagnostic>,
+}
+
+impl Request<'_> {
+    /// Opens a session that suits this request.
+    pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
+        if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
+    }
+
+    /// Verifies the programs of which no result is kept.
+    ///
+    /// # Errors
+    /// Why programs cannot be verified.
+    pub fn run(self, session: &mut Session<'_>) -> Result<Verification, Failure> {
+        let verifier = Verifier::new(session, self.options)?;
+        let matches = session.match_programs(self.places);
+        let mut programs = verifier.verify_files(session, &matches.programs, &matches.directories);
+        if let Some((name, text)) = self.text {
+            programs.push((name.to_owned(), verifier.verify(name, text)));
+        }
+        Ok(Verification { programs, problems: matches.problems })
+    }
+}
+
+impl Verifier<'_> {
+    fn verify_files(
+        &self,
+        session: &Session<'_>,
+        files: &[Utf8PathBuf],
+        directories: &[Utf8PathBuf],
+    ) -> Vec<(Utf8PathBuf, VerifiedProgram)> {
+        let memo = Memo::of_programs(session, &self.query(session), files, directories);
+        let traces: Vec<_> = self.against.iter().filter_map(|against| against.trace()).cloned().collect();
+        let verify = |open: &[&Utf8PathBuf]| {
+            if memo.is_some() {
+                report_known(session.workspace(), files.len() - open.len(), files.len());
+            }
+            let verified = session.map_programs(open, |file| self.verify_file(file));
+            let with_inputs = |(file, (program, hash)): (&&Utf8PathBuf, (VerifiedProgram, _))| {
+                let is_transient = program.diagnostics.iter().any(is_transient);
+                let further = vec![ExtraInput { path: session.normal(file), hash }];
+                (program, Inputs { traces: traces.clone(), further, is_transient, ..Inputs::default() })
+            };
+            open.iter().zip(verified).map(with_inputs).collect()
+        };
+        let subject = |file: &Utf8PathBuf| file.as_str().into();
+        let answers = memo.get_or(files, subject, |_, result| Some(result), verify);
+        memo.keep(session, answers.iter().filter_map(Answer::fresh));
+        files.iter().cloned().zip(answers.into_iter().map(|answer| answer.value)).collect()
+    }
+
+    /// Verifies a file. Also returns the hash of its bytes.
+    fn verify_file(&self, file: &Utf8Path) -> (VerifiedProgram, Option<[u8; 32]>) {
+        let failed = |problem: Box<Diagnostic>| VerifiedProgram {
+            diagnostics: vec![problem.in_file(file)],
+            ..VerifiedProgram::default()
+        };
+        match program::read(self.settings, &*self.system, file) {
+            Ok(text) => {
+                let hash = *blake3::hash(&text).as_bytes();
+                (catch_bugs(|| self.verify(file, text)).unwrap_or_else(failed), Some(hash))
+            }
+            Err(problem) => (failed(problem), None),
+        }
+    }
+
+    /// Everything that a result depends on besides the program and the settings of `emit`.
+    fn query(&self, session: &Session<'_>) -> String {
+        let limits = &self.settings.limits;
+        let limits = (limits.verify_cells.value, limits.verify_pieces.value);
+        let identities = self.writers.identities();
+        let drawing = self.against.as_ref().map(|against| session.normal(against.file()));
+        let parts = (&self.options, self.required(), self.lang, limits, &self.machine, identities, drawing);
+        format!("verify {parts:?}")
+    }
+}
+
+/// Reports, as a detail, how many programs have cached results that still hold.
+fn report_known(workspace: &Workspace, known: usize, all: usize) {
+    let [en, de] = ["programs whose results still hold", "Programme, deren Ergebnisse noch gelten"];
+    workspace.reporter.detail(&format!("{}: {known} / {all}", workspace.choose(en, de)));
+}
