@@ -729,6 +729,7 @@ pub(super) const GERMAN: &[(&str, &str)] = &[
     ),
     ("G70 inches, G71 millimetres", "G70 Zoll, G71 Millimeter"),
     ("The other way round", "Umgekehrt"),
+    ("FILE|DIRECTORY", "DATEI|VERZEICHNIS"),
     ("GLOB|DRAWING|DIRECTORY", "MUSTER|ZEICHNUNG|VERZEICHNIS"),
     ("PATH|DRAWING|FILE", "PFAD|ZEICHNUNG|DATEI"),
     ("PATH|DRAWING", "PFAD|ZEICHNUNG"),
