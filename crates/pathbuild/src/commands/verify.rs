@@ -47,15 +47,17 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(verified) => verified,
         Err(Failure::Usage(reason)) => return context.usage(&reason),
         Err(Failure::Drawing(found) | Failure::Post(found)) => {
-            return conclude(context, args, &session, found);
+            return conclude(context, args, &session, &args.files, found);
         }
     };
     let (mut report, mut diagnostics) = (CheckReport::default(), verified.problems);
+    let mut files = Vec::new();
     for (file, verified) in verified.programs {
         report.add(context, &file, &verified);
         diagnostics.extend(verified.diagnostics);
+        files.push(file);
     }
-    let status = conclude(context, args, &session, diagnostics);
+    let status = conclude(context, args, &session, &files, diagnostics);
     report.finish(context);
     status
 }
@@ -92,10 +94,11 @@ fn conclude(
     context: &Context,
     args: &VerifyArgs,
     session: &Session<'_>,
+    files: &[Utf8PathBuf],
     diagnostics: Vec<Diagnostic>,
 ) -> ExitStatus {
     let findings = context.findings(session.with_hints(diagnostics));
-    let coverage = |_: &Findings| Coverage { files: args.files.clone(), ..Coverage::default() };
+    let coverage = |_: &Findings| Coverage { files: files.to_vec(), ..Coverage::default() };
     let findings = match waivers::settle(context, &args.waivers, findings, coverage) {
         Ok(findings) => findings,
         Err(status) => return status,
