@@ -384,7 +384,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         ("coolant = \"off\"\n", "`coolant` belongs in [tool.NAME]", "`coolant` gehört in [tool.NAME]"),
         (
             "[emit]\nlibrary = []\n",
-            "`library` belongs to the top of the file",
+            "`library` belongs at the top of the file",
             "`library` gehört an den Anfang",
         ),
         ("[post]\ndebounce = \"1 s\"\n", "`debounce` belongs in [watch]", "`debounce` gehört in [watch]"),
@@ -395,7 +395,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         ),
         (
             "[emit]\nlibary = []\n",
-            "did you mean `library`? It belongs to the top",
+            "did you mean `library`? It belongs at the top",
             "Das gehört an den Anfang",
         ),
         // A typing error in a key is matched with its own table first.
