@@ -218,7 +218,7 @@ fn arcs_that_are_followed_are_limited() {
         let place = Place::new()
             .file("pathbuild.toml", format!("[limits]\nverify-pieces = {most}\n"))
             .file("a.gcode", &program);
-        place.run("verify a.gcode --cutter 2 --surface 0 --dialect linuxcnc")
+        place.run("verify a.gcode --cutter 2 --surface 0 --dialect linuxcnc --require rapids")
     };
     let asked = verify(1);
     assert_exceeds(&asked, "verify-pieces");

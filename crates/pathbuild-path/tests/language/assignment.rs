@@ -306,8 +306,9 @@ fn a_text_without_element_names_a_few_layers() {
         let raw = drawing(&format!("{empty}{full}layer 1234.1P\n{}", text("20,1", "F100")));
         let notes = raw.diagnostics.iter().flat_map(|found| &found.notes);
         let notes = notes.map(|note| note.text(pathbuild_diagnostic::Lang::En));
-        let named = notes
-            .filter_map(|note| Some(note.strip_prefix("on layer 1234.1P~")?.split(' ').next()?.to_owned()));
+        let named = notes.filter_map(|note| {
+            Some(note.strip_prefix("on layer 1234.1P~")?.split(' ').next()?.trim_end_matches(',').to_owned())
+        });
         named.collect::<Vec<_>>()
     };
     assert_eq!(layers(0, 3), ["BAAA", "BAAB", "BAAC"]);

@@ -417,7 +417,8 @@ fn nesting_and_growth_have_an_end() {
 fn doubtful_terms_are_warnings() {
     let warnings = |text: &str| texts(&text_with(text, &[("Q1", "-5")]).unwrap().warnings).join("\n");
     assert!(
-        warnings("{-~Q1~}").starts_with("5: PB760 program-start, line 1, column 2: CAD6 takes only one sign")
+        warnings("{-~Q1~}")
+            .starts_with("5: PB760 program-start, line 1, column 2: CAD6 accepts only one sign")
     );
     assert!(warnings("{3&1==1}").contains("which of & | ^ and the comparison comes first"));
     assert!(warnings("{sin(90)}").contains("functions are an extension"));
