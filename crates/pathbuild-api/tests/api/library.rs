@@ -132,7 +132,7 @@ fn programs_are_verified_and_compared_with_their_drawing() {
     .unwrap();
     let options = VerifyOptions::new().dialect("grbl").cutter(2.0).surface(0.0).require("feeds");
     let report = library.verify(&["other.nc"], &options).unwrap();
-    let codes: Vec<String> = report.findings.iter().map(|finding| finding.code()).collect();
+    let codes: Vec<String> = report.findings.iter().map(pathbuild_api::Finding::code).collect();
     assert!(codes.contains(&"PB741".to_owned()), "{codes:?}");
     assert_eq!(
         (state(&report, "rapids"), state(&report, "feeds")),
