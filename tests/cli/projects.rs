@@ -251,7 +251,7 @@ fn names_like_one_that_is_not_found_are_named() {
         pathbuild_testkit::sheet(drawn).unwrap().to_dxf()
     });
     let run = place.run("check 8009.1P");
-    for note in ["paths in the drawings whose names admit it: 1234.1P, 1234.2P", "similar names: 1234.1P"] {
+    for note in ["paths in drawings that could contain it: 1234.1P, 1234.2P", "similar names: 1234.1P"] {
         assert!(run.stderr.lines().any(|line| line.ends_with(note)), "{note} in {run}");
     }
     // Every command that looks for a path says the same.

@@ -232,7 +232,7 @@ const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
 /// Problems with the values that `own` gives; other values come from the path.
 pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
-    let mut limits = Limits { own, path, problems: Vec::new() };
+    let mut limits = LimitCheck { own, path, problems: Vec::new() };
     limits.check_positive(&POSITIVE);
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
     // T of a probe or a subpath is the thickness there, which is unrelated to the path's depths.
@@ -262,13 +262,13 @@ fn example(letter: Letter) -> &'static str {
     }
 }
 
-struct Limits<'a> {
+struct LimitCheck<'a> {
     own: &'a Values<'a>,
     path: &'a Values<'a>,
     problems: Vec<Diagnostic>,
 }
 
-impl Limits<'_> {
+impl LimitCheck<'_> {
     fn check_positive(&mut self, letters: &[Letter]) {
         for letter in letters {
             let GivenNumber::Number(value) = self.own.number(*letter) else { continue };

@@ -32,7 +32,7 @@ pub enum Question {
     Check(Place),
     /// Totals over all checked paths, as in `stats`: `{ statistics }`.
     Statistics,
-    /// A G-code program, whose text follows: `{ seen }`, and its scene with what `verify` finds.
+    /// A G-code program; its text follows. The answer is `{ seen }`, followed by the scene with the findings of `verify`.
     Program {
         /// The name of its file.
         name: String,

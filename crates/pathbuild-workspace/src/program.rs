@@ -30,7 +30,7 @@ pub struct ReadingOptions {
     pub dialect: Option<Dialect>,
     /// Meaning of G70 and G71.
     pub unit_codes: UnitCodes,
-    /// Whether I and J are the centre of an arc itself.
+    /// Whether I and J are the absolute position of an arc's centre.
     pub absolute_arc_centres: bool,
     /// Whether F is ignored.
     pub ignore_feed: bool,

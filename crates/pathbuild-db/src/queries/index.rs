@@ -27,7 +27,7 @@ use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 pub struct FileIndex {
     /// Names in order of first appearance.
     names: Vec<PathName>,
-    /// Paths in order of name, since a drawing may have as many paths as layers.
+    /// Paths sorted by name for binary search, because a drawing may have as many paths as layers.
     paths: Vec<Arc<PathIndex>>,
     diagnostics: Vec<Diagnostic>,
     /// The clamps, if any layer has some.

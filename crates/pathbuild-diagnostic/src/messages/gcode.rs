@@ -249,7 +249,7 @@ messages! {
         en: "a switch at the machine can leave this line out; it is read as if it were run",
         de: "ein Schalter an der Maschine kann diese Zeile auslassen; sie wird gelesen, als würde sie ausgeführt",
         help_en: "remove `/`, or the line",
-        help_de: "`/` entfernen oder die Zeile",
+        help_de: "`/` oder die ganze Zeile entfernen",
     }
     /// A `/` that has no effect.
     SLASH_DROPPED: OptionalLine {

@@ -165,8 +165,8 @@ messages! {
     NOT_FOUND: PathNotFound {
         en: "path {name} was not found",
         de: "Pfad {name} wurde nicht gefunden",
-        help_en: "searched in {directories}; files whose names admit it: {files}",
-        help_de: "gesucht in {directories}; Dateien, deren Namen ihn zulassen: {files}",
+        help_en: "searched in {directories}; files that could contain it: {files}",
+        help_de: "gesucht in {directories}; Dateien, die ihn enthalten könnten: {files}",
     }
     /// Note: similar names.
     NEAR_NAMES: PathNotFound {
@@ -175,8 +175,8 @@ messages! {
     }
     /// Note: the paths of the drawings that were searched, none of them with a similar name.
     NAMES_THERE: PathNotFound {
-        en: "paths in the drawings whose names admit it: {names}",
-        de: "Pfade in den Zeichnungen, deren Namen ihn zulassen: {names}",
+        en: "paths in drawings that could contain it: {names}",
+        de: "Pfade in Zeichnungen, die ihn enthalten könnten: {names}",
     }
     /// Note: the path is elsewhere in the library.
     ELSEWHERE: PathNotFound {

@@ -11,7 +11,7 @@ use pathbuild_motion::{Action, StatedWord, Step, WordEffect};
 
 use super::codes;
 use super::evaluate::name_of;
-use super::execute::{Interpreter, Jump, Name, ValueFault, limits, whole};
+use super::execute::{Interpreter, Jump, SubprogramName, ValueFault, limits, whole};
 use super::switches::CALLS;
 use crate::read::{Block, BlockReader, OWord, OWordKind, Place, Value};
 
@@ -37,9 +37,9 @@ pub(super) struct Runner<'r, 'i> {
     interpreter: &'r mut Interpreter<'i>,
     each: &'r mut dyn FnMut(Step) -> ControlFlow<()>,
     /// Where the subprograms of the file begin; searched for at the first call.
-    definitions: Option<HashMap<Name, Place>>,
+    definitions: Option<HashMap<SubprogramName, Place>>,
     /// The subprograms that are being executed.
-    active: Vec<Name>,
+    active: Vec<SubprogramName>,
     /// The number of calls and loops that are being executed.
     depth: usize,
     /// Lines executed by calls and loops.
@@ -110,7 +110,7 @@ impl<'r, 'i> Runner<'r, 'i> {
     fn call(
         &mut self,
         reader: &mut BlockReader<'_>,
-        name: Name,
+        name: SubprogramName,
         times: u32,
         values: &[f64],
         line: u32,
@@ -120,7 +120,8 @@ impl<'r, 'i> Runner<'r, 'i> {
             self.report(&say::CALLED_ELSEWHERE, line, &shown, 0);
             return Outcome::Repeated;
         };
-        let is_main = matches!(name, Name::Program(number) if self.interpreter.main_number == Some(number));
+        let is_main =
+            matches!(name, SubprogramName::Program(number) if self.interpreter.main_number == Some(number));
         if is_main || self.active.contains(&name) {
             self.report(&say::CALLED_BY_ITSELF, line, &shown, 0);
             return Outcome::Repeated;
@@ -131,7 +132,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         if reader.is_before(place) {
             reader.allow_subprograms();
         }
-        let is_local = matches!(name, Name::Subroutine(_));
+        let is_local = matches!(name, SubprogramName::Subroutine(_));
         self.active.push(name);
         let saved = is_local.then(|| self.interpreter.parameters.enter(values));
         let mut outcome = Outcome::Returned;
@@ -205,13 +206,18 @@ impl<'r, 'i> Runner<'r, 'i> {
     }
 
     /// The definition of a subprogram. `P30100` may mean three times O100.
-    fn definition(&mut self, reader: &BlockReader<'_>, name: Name, times: u32) -> Option<(Name, Place, u32)> {
+    fn definition(
+        &mut self,
+        reader: &BlockReader<'_>,
+        name: SubprogramName,
+        times: u32,
+    ) -> Option<(SubprogramName, Place, u32)> {
         let definitions = self.definitions.get_or_insert_with(|| definitions(reader.again()));
         if let Some(place) = definitions.get(&name) {
             return Some((name, *place, times));
         }
-        let Name::Program(packed) = name else { return None };
-        let name = Name::Program(packed % 10_000);
+        let SubprogramName::Program(packed) = name else { return None };
+        let name = SubprogramName::Program(packed % 10_000);
         let place = definitions.get(&name).filter(|_| packed >= 10_000 && times == 1)?;
         Some((name, *place, packed / 10_000))
     }
@@ -229,22 +235,22 @@ fn name_of_o_word(block: &Block<'_>, word: OWord) -> Box<str> {
     name_of(block, word.name).trim_start_matches('0').into()
 }
 
-fn definitions(mut reader: BlockReader<'_>) -> HashMap<Name, Place> {
+fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Place> {
     let mut found = HashMap::new();
     loop {
         let before = reader.place();
         let Some(block) = reader.next_block() else { return found };
         if let Some(word) = block.o_word.filter(|word| word.kind == OWordKind::Sub) {
-            let name = Name::Subroutine(name_of_o_word(&block, word));
+            let name = SubprogramName::Subroutine(name_of_o_word(&block, word));
             found.entry(name).or_insert(reader.place());
             continue;
         }
         let first = block.words.first().filter(|word| word.letter == b'O');
         let program = first.and_then(|word| match word.value {
-            Value::Number(number) => whole(number.value).map(Name::Program),
+            Value::Number(number) => whole(number.value).map(SubprogramName::Program),
             Value::Expression(_) => None,
         });
-        let line = block.number.and_then(|number| whole(number.value)).map(Name::Line);
+        let line = block.number.and_then(|number| whole(number.value)).map(SubprogramName::Line);
         for name in program.into_iter().chain(line) {
             found.entry(name).or_insert(before);
         }
@@ -264,7 +270,7 @@ impl Interpreter<'_> {
         let times = values.first().copied().and_then(whole);
         self.jump = match (word.kind, times) {
             (OWordKind::Sub, _) => Some(Jump::Pass(name)),
-            (OWordKind::Call, _) => Some(Jump::Call(Name::Subroutine(name), 1, values)),
+            (OWordKind::Call, _) => Some(Jump::Call(SubprogramName::Subroutine(name), 1, values)),
             (OWordKind::Return | OWordKind::EndSub, _) => Some(Jump::Return),
             (OWordKind::Repeat, Some(times)) => Some(Jump::Repeat(name, times)),
             (OWordKind::EndRepeat, _) => Some(Jump::EndRepeat),
@@ -292,7 +298,11 @@ impl Interpreter<'_> {
                 let repeats = self.words.values.take_slot(b'L');
                 match (whole(place.value), repeats.map_or(Some(1), |slot| whole(slot.value))) {
                     (Some(number), Some(times)) => {
-                        let name = if code == 970 { Name::Line(number) } else { Name::Program(number) };
+                        let name = if code == 970 {
+                            SubprogramName::Line(number)
+                        } else {
+                            SubprogramName::Program(number)
+                        };
                         self.jump = Some(Jump::Call(name, times, Vec::new()));
                     }
                     (None, _) => self.out_of_range(block, "P", place, &limits::COUNT),

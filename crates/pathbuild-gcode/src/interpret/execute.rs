@@ -318,7 +318,7 @@ pub(super) type ValueFault = (Fault, Span);
 
 /// How a control names a subprogram.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Name {
+pub(super) enum SubprogramName {
     /// `o100 sub`, `o<name> sub`.
     Subroutine(Box<str>),
     /// `O100`.
@@ -331,7 +331,7 @@ pub(super) enum Name {
 #[derive(Debug)]
 pub(super) enum Jump {
     /// Runs a subprogram several times, with values for its parameters.
-    Call(Name, u32, Vec<f64>),
+    Call(SubprogramName, u32, Vec<f64>),
     /// Runs the lines up to the end of the loop several times.
     Repeat(Box<str>, u32),
     /// Passes over the definition of a subroutine.
@@ -342,7 +342,7 @@ pub(super) enum Jump {
     EndRepeat,
 }
 
-impl Name {
+impl SubprogramName {
     pub(super) fn shown(&self) -> String {
         match self {
             Self::Subroutine(name) if name.bytes().all(|byte| byte.is_ascii_digit()) => format!("o{name}"),

@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING};
 use super::frame::VisibleParts;
 use super::frame::{Frame, PageTransform, Room, widen};
-use super::stock::DoneStock;
+use super::stock::MilledStock;
 use super::things;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
@@ -74,7 +74,7 @@ pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, number: usize) -> String {
     let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
     let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
     canvas.open("id=\"drawing\"");
-    DoneStock::of(scene).near(window).draw(&mut canvas, &frame, &format!("stock{number}"));
+    MilledStock::of(scene).near(window).draw(&mut canvas, &frame, &format!("stock{number}"));
     canvas.close();
     mark(&mut canvas, spot, &frame.of_drawing());
     ruler(&mut canvas, scale);

@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, n};
 use super::frame::Frame;
 use super::frame::VisibleParts;
-use super::stock::DoneStock;
+use super::stock::MilledStock;
 use super::things::SWEEP;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
@@ -26,7 +26,7 @@ pub(super) struct Legend<'a> {
     top: f64,
     findings: Vec<(Option<&'a Finding>, String)>,
     /// The stock, if it is shown instead of the moves.
-    stock: Option<&'a DoneStock<'a>>,
+    stock: Option<&'a MilledStock<'a>>,
 }
 
 impl<'a> Legend<'a> {
@@ -37,7 +37,7 @@ impl<'a> Legend<'a> {
 
     /// The legend of the stock after all moves.
     pub(super) fn of_stock(
-        stock: &'a DoneStock<'a>,
+        stock: &'a MilledStock<'a>,
         frame: &Frame,
         depths: &'a Depths,
         shown: VisibleParts,

@@ -43,7 +43,7 @@ const SEARCHED: f64 = 0.25;
 const MOST_PIECES: f64 = 400.0;
 
 /// The cuts of a scene, and the stock around them.
-pub(super) struct DoneStock<'s> {
+pub(super) struct MilledStock<'s> {
     pub(super) scene: &'s Scene,
     blanks: Vec<Blank>,
     strokes: Vec<Stroke>,
@@ -115,7 +115,7 @@ struct Setting {
     through: f64,
 }
 
-impl<'s> DoneStock<'s> {
+impl<'s> MilledStock<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
         let mut cuts = Vec::new();
         let mut blanks: Vec<Blank> = Vec::new();
@@ -358,7 +358,7 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
         paths: vec![ScenePath { zero: [0.0; 2], parts: Vec::new(), ..path.clone() }],
         ..Scene::new("")
     });
-    let [old, new] = [&old, &new].map(DoneStock::of);
+    let [old, new] = [&old, &new].map(MilledStock::of);
     if old.blanks.is_empty() || new.blanks.is_empty() {
         return None;
     }
@@ -382,7 +382,7 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
 
 /// Draws the stock of a scene, or an empty page if there is none.
 pub(super) fn svg(scene: &Scene, shown: VisibleParts) -> String {
-    let stock = DoneStock::of(scene);
+    let stock = MilledStock::of(scene);
     let frame = Frame::around(stock.extent());
     let depths = Depths { range: None };
     let legend = Legend::of_stock(&stock, &frame, &depths, shown);

@@ -383,7 +383,7 @@ struct Writers {
     knows_all: bool,
 }
 
-/// Title of a program in plain characters.
+/// Title of a program, reduced for comparison.
 fn title(drawing: &str, path: &str) -> String {
     plain_title(&native::title(drawing, path))
 }
@@ -392,7 +392,7 @@ fn file_name(drawing: &Utf8Path) -> &str {
     drawing.file_name().unwrap_or_default()
 }
 
-/// Output directory of programs, and their title or drawing in plain characters.
+/// Output directory of programs, and their title or drawing, reduced for comparison (see [`plain_title`]).
 type Title = (Utf8PathBuf, String);
 
 impl Writers {

@@ -88,7 +88,7 @@ impl<'a> Library<'a> {
         &self.session
     }
 
-    /// The same, for writing programs.
+    /// The session, mutably, for writing programs.
     pub(super) fn session_mut(&mut self) -> &mut Session<'a> {
         &mut self.session
     }

@@ -6,7 +6,7 @@ use crate::scene::{Point, Scene};
 use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, n};
 use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
 use crate::svg::legend::{self, mm};
-use crate::svg::stock::{DoneStock, has_stock};
+use crate::svg::stock::{MilledStock, has_stock};
 use crate::svg::{moves, things};
 
 use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
@@ -184,7 +184,7 @@ impl PlacedPicture {
     }
 
     fn draw_stock(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
-        let stock = DoneStock::of(&sheet.scene);
+        let stock = MilledStock::of(&sheet.scene);
         stock.draw(canvas, &self.frame(), "stock");
         let top = self.bottom() - LEGEND + 12.0;
         canvas.open(&format!("id=\"stock-legend\" fill=\"{INK}\""));
