@@ -1,12 +1,12 @@
-//! A check of one's own, in addition to pathbuild's: no feed above 200 mm/min in aluminium. `cargo run --example custom_check -- DIRECTORY`;
-//! the exit status is 1 if there is an error or such a feed.
+//! A custom check in addition to pathbuild's: no feed above 200 mm/min in aluminium. `cargo run --example custom_check -- DIRECTORY`; the
+//! exit status is 1 if there is an error or such a feed.
 #![expect(clippy::print_stdout, reason = "printing is what this program is for")]
 
 use std::process::ExitCode;
 
 use pathbuild_api::{Element, Error, Lang, Library};
 
-/// mm/min.
+/// Highest allowed feed in mm/min.
 const HIGHEST: f64 = 200.0;
 
 fn main() -> Result<ExitCode, Error> {
@@ -32,7 +32,7 @@ fn main() -> Result<ExitCode, Error> {
     Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// By its own material: an embedded path may be of another one than the path that embeds it.
+/// Asks for the element's own material: an embedded path may have another one than the path that embeds it.
 fn is_aluminium(element: &Element) -> bool {
     element.parameter('M').is_some_and(|material| material.value.starts_with("Al"))
 }

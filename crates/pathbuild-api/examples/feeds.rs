@@ -1,4 +1,4 @@
-//! Prints how far each path cuts at which feed: `cargo run --example feeds -- DIRECTORY`.
+//! Prints the length that each path cuts at each feed: `cargo run --example feeds -- DIRECTORY`.
 #![expect(clippy::print_stdout, reason = "printing is what this program is for")]
 
 use std::collections::BTreeMap;

@@ -110,14 +110,14 @@ impl Finding {
         self.diagnostic.trace.iter().map(embedding).collect()
     }
 
-    /// The findings of a run: by configured severities, sorted, each once.
+    /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates.
     pub(crate) fn all(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
         let found = workspace.findings(diagnostics).diagnostics;
         found.into_iter().map(|diagnostic| Self { diagnostic }).collect()
     }
 }
 
-/// The message in English, behind the code.
+/// The code, followed by the message in English.
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.code(), self.message(Lang::En))
@@ -128,9 +128,9 @@ impl fmt::Display for Finding {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The configuration, or what the request is about, has these errors. There may be warnings among them.
+    /// The configuration, or an input of the request, has these errors; there may be warnings among them.
     Findings(Vec<Finding>),
-    /// The request makes no sense, for the reason given in the language of the library.
+    /// The request is invalid, for this reason in the language of the library.
     Refused(String),
 }
 

@@ -1,10 +1,9 @@
 //! pathbuild as a library: checks drawings of milling paths and compiles them to G-code.
 //!
-//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It answers what the program answers: what is wrong
-//! with the drawings ([`check`](Library::check)), which paths there are ([`paths`](Library::paths)), what the tool does along one of them
-//! ([`path`](Library::path)), its G-code ([`program`](Library::program)), it writes programs ([`emit`](Library::emit)), and it verifies
-//! programs of any origin ([`verify`](Library::verify)). It does so
-//! whenever a drawing changes ([`watch`](Library::watch)).
+//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It does what the program does: it checks the
+//! drawings ([`check`](Library::check)), lists their paths ([`paths`](Library::paths)), returns the moves of a path
+//! ([`path`](Library::path)) and its G-code ([`program`](Library::program)), writes programs ([`emit`](Library::emit)), verifies programs
+//! of any origin ([`verify`](Library::verify)), and checks again whenever a drawing changes ([`watch`](Library::watch)).
 //!
 //! ```
 //! use pathbuild_api::{Error, Lang, Library};
@@ -29,7 +28,7 @@
 //! A [`Finding`] is a result, like an error message of a compiler; [`Error`] says why a request has no result. Nothing here panics because
 //! of a drawing.
 //!
-//! Three programs in `examples/` show more: a report of feeds, moves as CSV, and a check of one's own.
+//! Three programs in `examples/` show more: a report of feeds, moves as CSV, and a custom check.
 //!
 //! # Stability
 //!

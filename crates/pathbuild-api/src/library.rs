@@ -24,17 +24,17 @@ use crate::{
 
 /// A directory of drawings, opened with the configuration that applies there.
 ///
-/// It can be shared between threads. It answers one request after the other, each on all cores, and keeps what it has found out: after an
-/// edit, only what depends on it is computed again. Tell it of edits by [`changed`](Self::changed).
+/// It can be shared between threads. It answers one request after the other, each on all cores, and keeps its results: after an edit, only
+/// what depends on it is computed again. Report edits with [`changed`](Self::changed).
 #[derive(Debug)]
 pub struct Library {
     requests: Sender<Request>,
 }
 
-/// Work on the session, which sends its answer itself.
+/// A request to the session, which sends its answer itself.
 type Request = Box<dyn FnOnce(&mut Session<'_>) + Send>;
 
-/// Bytes of the stack of the library's thread, as of a program's first thread.
+/// Stack size of the library's thread in bytes, as large as that of a program's main thread.
 const STACK: usize = 8 << 20;
 
 impl Library {
@@ -88,9 +88,9 @@ impl Library {
         })
     }
 
-    /// A path with its elements, their parameters, and the moves of its program. It is named, or it is the only path of the drawing that is
-    /// named. The variables of a path with variables have the first of their values, as in `pathbuild check`; what embeds it may give it
-    /// others. The moves are those of the native program, whatever post-processor is configured.
+    /// Returns a path with its elements, their parameters, and the moves of its program. The name is that of the path, or of a drawing with
+    /// no other path. Variables have the first of their values, as in `pathbuild check`; a path that embeds it may give them others. The
+    /// moves are those of the native program, whatever post-processor is configured.
     ///
     /// # Errors
     /// If there is no such path. What is wrong with the path is in [`Path::findings`]; a path with errors has no statistics.
@@ -119,7 +119,7 @@ impl Library {
         })
     }
 
-    /// What there is to see of a path, as JSON: what `pathbuild view -o FILE.json` writes. (book: program/pictures)
+    /// Returns the scene of a path as JSON, as `pathbuild view -o FILE.json` writes it. (book: program/pictures)
     ///
     /// # Errors
     /// As [`path`](Self::path).
@@ -134,7 +134,7 @@ impl Library {
         })
     }
 
-    /// The program of a path, as `pathbuild emit -o -` prints it.
+    /// Returns the program of a path, as `pathbuild emit -o -` prints it.
     ///
     /// # Errors
     /// If there is no such path, if it has errors, or if its program consists of several files because it has Z-probes.
@@ -159,7 +159,7 @@ impl Library {
     /// names.
     ///
     /// # Errors
-    /// If the request makes no sense, for example because a needed setting is missing. What is wrong with the drawings is in the report.
+    /// If the request is invalid, for example because a needed setting is missing. What is wrong with the drawings is in the report.
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
         let (inputs, options) = (owned(inputs), options.clone());
         let task = if options.compare {
@@ -197,8 +197,7 @@ impl Library {
         })
     }
 
-    /// Tells of a file that has changed, appeared or disappeared since it was last asked for. Its name is relative to the library's
-    /// directory, or absolute.
+    /// Reports that a file has changed, appeared or disappeared. Its name is relative to the library's directory, or absolute.
     ///
     /// # Errors
     /// If an internal error occurs.
@@ -212,7 +211,7 @@ impl Library {
         })
     }
 
-    /// Forgets what was found out, because files may have changed of which nothing is known.
+    /// Drops all results, because any file may have changed.
     ///
     /// # Errors
     /// If an internal error occurs.
@@ -223,11 +222,11 @@ impl Library {
         })
     }
 
-    /// Checks the library, and again what depends on a drawing whenever it changes, until `seen` returns false. If the configuration names
-    /// no library, it is the directory. Nothing else is answered meanwhile. Only a library on disk can be watched.
+    /// Checks the library, and after each change of a drawing what depends on it, until `seen` returns false. If the configuration names no
+    /// library, it is the directory. Other requests wait meanwhile. Only a library on disk can be watched.
     ///
     /// # Errors
-    /// If the system does not tell of changes.
+    /// If the system cannot report changes.
     pub fn watch(&self, seen: impl FnMut(WatchReport) -> bool + Send + 'static) -> Result<WatchEnd, Error> {
         self.ask(move |session| {
             let workspace = session.workspace();
@@ -261,7 +260,7 @@ impl Library {
         Ok(Self { requests })
     }
 
-    /// The answer of some work on the session.
+    /// Does some work on the session, and waits for its result.
     fn ask<R: Send + 'static>(
         &self,
         work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
@@ -269,7 +268,7 @@ impl Library {
         let (answer, answered) = channel();
         let request = move |session: &mut Session<'_>| {
             let result = catch_bugs(|| work(session)).unwrap_or_else(|problem| Err(Error::bug(*problem)));
-            // Whoever asked waits for it.
+            // The caller waits for it.
             _ = answer.send(result);
         };
         self.requests.send(Box::new(request)).map_err(|_| gone())?;
@@ -298,7 +297,7 @@ fn serve(
     }
 }
 
-/// A session that keeps results if the workspace does.
+/// Opens a session that caches results if the workspace does.
 fn new_session(workspace: &Workspace) -> Session<'_> {
     if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
 }
@@ -312,20 +311,20 @@ fn owned(inputs: &[&str]) -> Inputs {
     Inputs { inputs: inputs.iter().map(|input| (*input).to_owned()).collect() }
 }
 
-/// The inputs that mean the configured library, or the directory if there is none.
+/// The inputs that stand for the configured library, or for the directory if none is configured.
 fn whole_library(session: &Session<'_>) -> Inputs {
     let directory = (!session.has_library()).then_some(&session.workspace().working_directory);
     Inputs::places(directory)
 }
 
-/// The post-processor that is named, or else configured; `None` for native programs.
+/// The named post-processor, or else the configured one; `None` for native programs.
 fn post_processor(session: &Session<'_>, named: Option<&str>) -> Result<Option<PostProcessor>, Error> {
     let workspace = session.workspace();
     PostProcessor::for_run(workspace, named, PostArguments::default())
         .map_err(|found| Error::found(workspace, found))
 }
 
-/// The drawing and the name of a path; the name is that of the path, or of a drawing that holds no other.
+/// Finds a path by its name, or by the name of a drawing with no other path.
 fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, PathName), Error> {
     let workspace = session.workspace();
     let found = |found| Error::found(workspace, found);

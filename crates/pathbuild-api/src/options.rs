@@ -41,20 +41,20 @@ pub struct EmitOptions {
 }
 
 impl LibraryOptions {
-    /// Options that change nothing.
+    /// The default options.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Takes this configuration instead of the nearest `pathbuild.toml`.
+    /// Uses this configuration instead of the nearest `pathbuild.toml`.
     pub fn config(mut self, file: impl Into<PathBuf>) -> Self {
         self.config = Some(file.into());
         self
     }
 
-    /// Overrides a key of the configuration, by the name and in the words of the program's option: `setting("rapid", "2000")` is
-    /// `--rapid 2000`. The value of a switch is `"true"`. An option that may be repeated takes the values of all calls; of any other, the
-    /// last call counts. (book: reference/commands)
+    /// Overrides a key of the configuration, by the name and value of the program's option: `setting("rapid", "2000")` is `--rapid 2000`.
+    /// The value of a switch is `"true"`. An option that may be repeated takes the values of all calls; of any other, the last call counts.
+    /// (book: reference/commands)
     pub fn setting(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
         self.settings.push((name.into(), value.into()));
         self
@@ -66,13 +66,13 @@ impl LibraryOptions {
         self
     }
 
-    /// Keeps results in this directory, so that a later process need not find them again.
+    /// Caches results in this directory for later processes.
     pub fn cache(mut self, directory: impl Into<PathBuf>) -> Self {
         self.cache = Some(directory.into());
         self
     }
 
-    /// Works on this number of threads instead of one per core.
+    /// Uses this number of threads instead of one per core.
     pub fn threads(mut self, threads: u16) -> Self {
         self.threads = Some(threads);
         self
@@ -163,7 +163,7 @@ impl LibraryOptions {
 }
 
 impl EmitOptions {
-    /// Options that change nothing.
+    /// The default options.
     pub fn new() -> Self {
         Self::default()
     }
@@ -224,7 +224,7 @@ fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
     Utf8PathBuf::from_path_buf(path).map_err(|path| refused(lang, en, de, &path.to_string_lossy()))
 }
 
-/// A refusal before the configuration is read, which may name another language.
+/// A refusal before the configuration is read, which may set another language.
 fn refused(lang: Option<Lang>, en: &str, de: &str, value: &str) -> Error {
     Error::Refused(lang.unwrap_or_default().choose(en, de).replace("{}", value))
 }

@@ -26,7 +26,7 @@ pub struct Path {
     pub zero: [f64; 2],
     /// What is drawn on the layers of the path and of those that it embeds.
     pub elements: Vec<Element>,
-    /// The moves of the tool, in order. Empty if the path has errors, except for cuts into its part, which are to be seen.
+    /// The moves of the tool, in order. Empty if the path has errors, except for cuts into its part, so that they can be shown.
     pub moves: Vec<Move>,
     /// Lengths and times; `None` if the path has errors, and then there is no program.
     pub statistics: Option<Statistics>,
@@ -82,7 +82,7 @@ pub struct Move {
     pub feed: Option<f64>,
     /// Its length in mm.
     pub length: f64,
-    /// What it belongs to, as an index into [`Path::elements`]: what it mills, or into which it plunges. `None` for moves between elements.
+    /// The element that it mills or plunges into, as an index into [`Path::elements`]; `None` for moves between elements.
     pub element: Option<usize>,
     /// Its line in the program, counted from 1.
     pub line: Option<u32>,
@@ -102,7 +102,7 @@ pub enum MoveKind {
     Mill,
     /// A cut along an element that is only marked.
     Mark,
-    /// Until the probe makes contact.
+    /// A move down until the probe makes contact.
     Probe,
 }
 
@@ -114,7 +114,7 @@ pub struct Arc {
     pub axes: [usize; 2],
     /// The centre along these axes, in mm.
     pub centre: [f64; 2],
-    /// As seen from the positive end of the third axis.
+    /// Whether it turns clockwise, seen from the positive end of the third axis.
     pub clockwise: bool,
     /// The angle it covers, in degrees.
     pub degrees: f64,
@@ -165,7 +165,7 @@ impl Path {
 }
 
 impl Element {
-    /// The parameter with this letter that is in force for it.
+    /// The parameter with this letter that is in force for the element.
     pub fn parameter(&self, letter: char) -> Option<&Parameter> {
         self.parameters.iter().find(|parameter| parameter.letter == letter)
     }

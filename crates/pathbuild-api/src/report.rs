@@ -1,4 +1,4 @@
-//! What requests about many paths answer.
+//! Results of requests about many paths.
 
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::emit::{ProgramOutcome, State};
@@ -22,7 +22,7 @@ pub struct CheckReport {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PathListing {
-    /// By drawing, then in the order of the file.
+    /// The paths, ordered by drawing and then as in the file.
     pub paths: Vec<PathSummary>,
     /// Number of drawings that were searched.
     pub drawings: usize,
@@ -157,7 +157,7 @@ impl OutputFile {
                 State::Current => FileState::Current,
                 State::Outdated => FileState::Outdated,
                 State::Missing => FileState::Missing,
-                // A program that is printed is no file.
+                // A printed program has no file.
                 State::Printed(_) => return None,
             };
             Some(Self { file: file.into_string(), path: path.to_string(), state, length, minutes })

@@ -20,7 +20,7 @@ pub struct VerifyOptions {
 }
 
 impl VerifyOptions {
-    /// Options that change nothing.
+    /// The default options.
     pub fn new() -> Self {
         Self::default()
     }
@@ -55,7 +55,7 @@ impl VerifyOptions {
         self
     }
 
-    /// Makes it an error if this check is not made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing` or `clamps`.
+    /// Makes it an error if this check cannot be made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing` or `clamps`.
     /// Without any, the configuration decides.
     pub fn require(mut self, check: impl Into<String>) -> Self {
         self.required.push(check.into());

@@ -12,7 +12,7 @@ use pathbuild_workspace::{SilentReporter, Workspace};
 
 use crate::Finding;
 
-/// What was found after some drawings changed; the first report is about the whole library.
+/// The findings after some drawings changed; the first report is about the whole library.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WatchReport {
@@ -30,7 +30,7 @@ pub struct WatchReport {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WatchEnd {
-    /// It was asked to.
+    /// The caller stopped it.
     Stopped,
     /// The configuration, or a file of the post-processor, has changed: the library must be opened again.
     ConfigurationChanged,
@@ -38,7 +38,7 @@ pub enum WatchEnd {
     DirectoriesChanged,
 }
 
-/// The system watches directories relative to the working directory of the process, so everything is named absolutely while it does.
+/// Makes all paths absolute, because the system watches directories relative to the working directory of the process.
 pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
     Workspace {
         settings: workspace.settings.clone(),
@@ -52,7 +52,7 @@ pub(crate) fn absolute(workspace: &Workspace) -> Workspace {
     }
 }
 
-/// Passes reports on, until it is told to stop.
+/// Passes reports on to the caller until the caller stops watching.
 pub(crate) struct Reports<'w, F> {
     /// The workspace of the library, which names files relative to its directory.
     workspace: &'w Workspace,

@@ -69,7 +69,8 @@ impl CheckTarget {
     }
 }
 
-/// A request limited to changed drawings names single drawings or paths. Dependents are found only for whole directories.
+/// The error of a request that is limited to changed drawings, but names single drawings or paths: dependents are found only for whole
+/// directories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InputsNotDirectories;
 
@@ -101,7 +102,7 @@ impl Request<'_> {
         Ok(checked)
     }
 
-    /// Checks whatever no earlier run knows.
+    /// Checks the drawings without a valid cached result.
     fn check(
         &self,
         session: &mut Session<'_>,

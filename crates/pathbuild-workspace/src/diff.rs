@@ -1,4 +1,4 @@
-//! `diff`: compares the programs of all paths in two trees. (docs: "Comparing")
+//! `diff`: compares the programs of all paths in two trees. (book: program/comparing)
 
 use std::collections::HashMap;
 

@@ -145,7 +145,7 @@ impl Workspace {
     }
 }
 
-/// What the configuration makes of a diagnostic.
+/// A diagnostic after applying the configured severities and waivers.
 enum Judged {
     /// It is reported, with the severity that it has now.
     Reported(Diagnostic),

@@ -310,7 +310,7 @@ impl Figures {
 /// A path, with its findings counted by the configured severities.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// What is known of it.
+    /// The path with its figures.
     pub path: ListedPath,
     /// Number of errors.
     pub errors: usize,
@@ -353,7 +353,7 @@ impl Row {
         Self { path, errors, warnings: found.diagnostics.len() - errors }
     }
 
-    /// What it is.
+    /// The state of the path and its program.
     pub fn state(&self) -> State {
         match self.path.program {
             _ if self.errors > 0 => State::Errors,

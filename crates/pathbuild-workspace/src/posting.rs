@@ -244,12 +244,12 @@ impl PostProcessor {
             .of_definition(&self.name(), left_out)
     }
 
-    /// A program of this post in the words of RS274, as the definition tells; `None` if its dialect tells.
+    /// Translates a program of this post into the words of RS274, by its definition; `None` if a dialect defines its words.
     pub fn translate(&self, text: &[u8]) -> Option<TranslatedText> {
         self.is_read_by_definition().then(|| self.post.translate(text))
     }
 
-    /// Whether no dialect tells what its words mean, or its axes are not those of the drawing.
+    /// Whether its programs are read by the definition: no dialect defines its words, or its axes are not those of the drawing.
     fn is_read_by_definition(&self) -> bool {
         self.reader().is_none() || self.post.has_own_axes()
     }
@@ -264,8 +264,8 @@ impl PostProcessor {
         self.file.as_deref().and_then(Utf8Path::file_name).unwrap_or_default().to_owned()
     }
 
-    /// The first line, from 1, in which a program differs from another one of this post, and that one's line. Lines that are only a comment
-    /// in both are equal.
+    /// The first line, from 1, in which a program differs from another one of this post, and the other one's line. Lines that contain only
+    /// a comment in both count as equal.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         self.post.first_other_line(found, expected)
     }

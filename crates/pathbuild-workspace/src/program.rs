@@ -70,7 +70,7 @@ pub struct Program {
     pub dialect: Dialect,
     /// The evidence for the dialect, if it was guessed.
     pub evidence: Option<Evidence>,
-    /// The dialect that was named or guessed. A program that is read by a definition is read in another.
+    /// The dialect that was named or guessed; it differs from `dialect` if the program is read by a definition.
     pub shown: Dialect,
     /// Steps and diagnostics.
     pub read: Interpretation,
@@ -79,7 +79,7 @@ pub struct Program {
     options: Options,
 }
 
-/// Translates a text by the definition that wrote it, if one is known; it gets the guess if no dialect is named.
+/// Translates a text by the definition that wrote it, if one is known. The second argument is the guess, if no dialect is named.
 pub type Translate<'t> = dyn Fn(&[u8], Option<&Guess>) -> Option<ByDefinition> + 't;
 
 /// A program read by the definition that wrote it.
@@ -136,7 +136,7 @@ impl Program {
     }
 
     /// Reads the text of a file and passes on its steps without keeping them; large programs are interpreted again instead. `definition`
-    /// translates the text if a post's definition says what its words mean; it gets the guess if no dialect is named.
+    /// translates the text if a post's definition defines its words; it gets the guess if no dialect is named.
     pub fn read_each(
         settings: &Settings,
         file: &Utf8Path,
@@ -173,7 +173,7 @@ impl Program {
             each(step)
         });
         if by_definition.is_some() {
-            // When M5 acts is for the dialect to say.
+            // Only a dialect defines when M5 acts.
             problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
             // Columns are those of the translation.
             for problem in &mut problems {
@@ -222,7 +222,7 @@ impl Program {
         place(diagnostics, &self.file, &self.text);
     }
 
-    /// The same for diagnostics that have no file yet; the others refer to lines of another file.
+    /// Like [`place`](Self::place), but only for diagnostics without a file: the others refer to lines of another file.
     pub fn place_own(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }

@@ -29,7 +29,7 @@ pub(crate) struct Baseline {
     entries: BTreeMap<String, Entry>,
 }
 
-/// What a line says after its fingerprint.
+/// The part of a line after its fingerprint.
 #[derive(Clone, Debug)]
 struct Entry {
     waiver: Waiver,
@@ -155,7 +155,7 @@ impl Baseline {
     }
 }
 
-/// What a run looked at.
+/// What a run covered.
 pub(crate) struct Run<'a> {
     system: &'a dyn System,
     working_directory: &'a Utf8Path,
@@ -218,7 +218,7 @@ fn description(diagnostic: &Diagnostic, view: &View) -> String {
     shown::line(&words.join(" ")).into_owned()
 }
 
-/// What is wrong with a line, with the part that is.
+/// A fault in a line, with the faulty part.
 struct LineFault {
     message: &'static Message,
     part: std::ops::Range<usize>,

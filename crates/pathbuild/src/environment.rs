@@ -17,10 +17,10 @@ use pathbuild_workspace::config::{self, Overrides, Settings, User, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
-/// Seconds since 1970 that stand for the present, so that results can be reproduced (reproducible-builds.org).
+/// Variable with the seconds since 1970 that stand for the present, so that results can be reproduced (reproducible-builds.org).
 const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
-/// Names the cache directory, like `--cache-dir`.
+/// Variable that names the cache directory, like `--cache-dir`.
 const CACHE_DIR: &str = "PATHBUILD_CACHE_DIR";
 
 /// The user's own settings, with diagnostics of their file.

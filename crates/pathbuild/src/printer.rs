@@ -87,7 +87,7 @@ struct Failures {
 pub enum Stream {
     /// For results.
     Stdout,
-    /// For everything said about the run.
+    /// For messages about the run.
     Stderr,
 }
 
@@ -116,7 +116,7 @@ impl Printer {
         if self.is_stdout_taken { Stream::Stderr } else { Stream::Stdout }
     }
 
-    /// How much is said.
+    /// How much is printed.
     pub fn verbosity(&self) -> Verbosity {
         self.verbosity
     }

@@ -72,7 +72,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Number of findings beyond which they are counted by code, because nobody reads that many.
+/// Number of findings beyond which they are counted by code, because users do not read that many.
 const MANY: usize = 100;
 
 /// Shows findings. Text output stops after `most` errors.

@@ -93,7 +93,7 @@ fn read_or_new(context: &Context, file: &Utf8Path) -> Result<(Baseline, Vec<Diag
     }
 }
 
-/// Rewrites the baseline. Lines without a fingerprint are dropped, but no reason or date that cannot be read.
+/// Rewrites the baseline. Lines without a fingerprint are dropped; a reason or date that cannot be read is an error.
 fn update(context: &Context, file: &Utf8Path, findings: &[Diagnostic], run: &Run<'_>) -> ExitStatus {
     let (baseline, mut faults) =
         read_or_new(context, file).unwrap_or_else(|_| (Baseline::new(file), Vec::new()));
@@ -138,7 +138,7 @@ fn accept(
     write(context, file, &text, &accepted)
 }
 
-/// Why a waiver would be of no use.
+/// Why a waiver would have no effect.
 fn refusal(context: &Context, waiver: &Waiver, run: Option<RunDate>) -> Option<String> {
     if waiver.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
         let reason = context.choose("--reason must not be empty", "--reason darf nicht leer sein");

@@ -115,7 +115,7 @@ fn is_back(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
 
 /// Changes the working directory; returns whether that succeeded.
 fn enter(home: &Utf8Path) -> bool {
-    // It is empty if the system did not tell it.
+    // It is empty if the system does not know it.
     home.as_str().is_empty() || std::env::set_current_dir(home).is_ok()
 }
 

@@ -34,7 +34,7 @@ fn moves_are_printed_as_csv() {
     assert!(!run("moves_csv", &["library", "9999.1P"]).status.success());
 }
 
-/// A feed of 200 mm/min is allowed in aluminium; more is not, but in wood.
+/// A feed of 200 mm/min is allowed in aluminium; a higher one only in wood.
 #[test]
 fn a_check_of_ones_own_finds_feeds() {
     assert!(lines(&run("custom_check", &["library"])).is_empty());

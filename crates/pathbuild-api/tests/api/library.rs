@@ -61,7 +61,7 @@ fn a_library_is_checked_and_listed() {
     assert_eq!(named[0].program, ProgramState::None);
 }
 
-/// What stands in the mistakes of the fixtures is found, in both languages, with its place.
+/// The mistakes of the fixtures are found, in both languages and with their places.
 #[test]
 fn findings_have_code_place_and_both_languages() {
     let checked = fixtures().check(&["mistakes"]).unwrap();
@@ -143,7 +143,7 @@ fn programs_are_verified_and_compared_with_their_drawing() {
     assert!(library.verify(&["other.nc"], &VerifyOptions::new().against("9999.1P")).is_err());
 }
 
-/// What was computed is kept until the library is told of an edit.
+/// Results are kept until an edit is reported.
 #[test]
 fn an_edit_is_seen_after_it_is_told_of() {
     let directory = on_disk();
@@ -169,8 +169,8 @@ fn unknown_edits_are_seen_after_a_refresh() {
     assert!(library.check(&[]).unwrap().findings.iter().any(pathbuild_api::Finding::is_error));
 }
 
-/// The first report is about everything; the second about what an edit changes, after which watching is told to stop. Without a
-/// configuration, the library is the directory.
+/// The first report is about everything; the second about what an edit changes, after which watching is stopped. Without a configuration,
+/// the library is the directory.
 #[test]
 fn a_library_is_watched() {
     for is_configured in [true, false] {
@@ -217,7 +217,7 @@ fn files_in_memory_are_a_library() {
     assert_eq!(program(&library), program(&Library::open(directory.path()).unwrap()));
 }
 
-/// A relative directory is meant as it is when the library is opened, and names are relative to it.
+/// A relative directory is resolved when the library is opened, and names are relative to it.
 #[test]
 fn a_relative_directory_is_opened() {
     let library = Library::open("../../fixtures/library").unwrap();
@@ -285,7 +285,7 @@ fn an_untrusted_library_stays_in_its_tree() {
     assert!(!codes(open(LibraryOptions::new().untrusted())).is_empty());
 }
 
-/// It is shared between threads.
+/// A library can be shared between threads.
 #[test]
 fn threads_share_a_library() {
     let library = fixtures();
@@ -301,7 +301,7 @@ fn threads_share_a_library() {
     assert_ne!(counts[0], counts[1]);
 }
 
-/// A slip in the name of the directory is no library without faults.
+/// A misspelt directory is an error, not a library without findings.
 #[test]
 fn a_missing_directory_is_no_library() {
     let directory = on_disk();

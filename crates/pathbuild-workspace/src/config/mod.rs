@@ -1,4 +1,4 @@
-//! The configuration: `pathbuild.toml` and the options that say the same. (book: reference/configuration)
+//! The configuration: `pathbuild.toml` and the command-line options that override it. (book: reference/configuration)
 //!
 //! ```text
 //! file ---------> Options --\

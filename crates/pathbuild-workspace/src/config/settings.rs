@@ -27,8 +27,7 @@ pub struct Settings {
     pub is_unexpected: bool,
     /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
     pub confined: Option<ConfinedSystem>,
-    /// The date that waivers are compared with; `None` if the caller states none, so that those with a date do not hold. No cached result
-    /// depends on it.
+    /// The date that waivers are compared with; without one, waivers with a date do not hold. No cached result depends on it.
     pub date: Option<RunDate>,
     pub general: general::Settings,
     pub emit: emit::Settings,
@@ -42,7 +41,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Where the value of an option comes from that holds where drawings say nothing: `feed`, `sweep-height` or `probe-feed`.
+    /// Source of an option's value that applies where drawings give none: `feed`, `sweep-height` or `probe-feed`.
     pub fn origin_of_option(&self, name: &str) -> Origin {
         let general = &self.general;
         [&general.feed, &general.sweep_height, &general.probe_feed]

@@ -76,9 +76,9 @@ choice! {
 choice! {
     /// What a cutter cuts. (book: language/part)
     CutterShape {
-        /// The shape that its way draws.
+        /// The area that its diameter sweeps.
         EndMill = "end-mill",
-        /// A slot beside or below that shape: T-slot and side milling cutters.
+        /// A slot beside or below that area: T-slot and side milling cutters.
         Slot = "slot",
         /// A shape that depends on the depth: V-bits, drills, engravers.
         Other = "other",
@@ -90,7 +90,7 @@ choice! {
     Requirement {
         /// Rapid moves into material; values from comments of the program do not suffice.
         Rapids = "rapids",
-        /// The same; values from comments suffice.
+        /// Rapid moves into material; values from comments suffice.
         AssumedRapids = "rapids=assumed",
         /// The travel of the machine.
         Envelope = "envelope",
@@ -258,7 +258,7 @@ impl Severities {
 }
 
 impl FileSeverities {
-    /// Whether it is about a file, which is named relative to the configuration's directory, with slashes.
+    /// Whether the entry concerns a file, which is named relative to the configuration's directory, with slashes.
     pub fn concerns(&self, file: &str) -> bool {
         self.files.iter().any(|pattern| pattern.matches(file))
     }

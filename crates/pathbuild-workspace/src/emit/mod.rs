@@ -1,6 +1,6 @@
 //! `emit`: generates the programs of paths, and writes, compares or prints them. (book: reference/commands, `emit`; book: program/gcode)
 //!
-//! One flow: `select` the paths, `plan` their programs, `build` what no earlier run knows, `settle` the files.
+//! One flow: `select` the paths, `plan` their programs, `build` those that are not cached, `settle` the files.
 
 mod build;
 mod comparison;
@@ -91,7 +91,7 @@ impl Request<'_> {
     /// Emits the programs in a session opened by [`session`](Self::session).
     ///
     /// # Errors
-    /// Why the request makes no sense.
+    /// Why the request is invalid.
     pub fn run(&self, session: &mut Session<'_>) -> Result<Emission, String> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
@@ -135,7 +135,7 @@ impl Request<'_> {
         Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
     }
 
-    /// Selects the paths, plans their programs, and builds and settles those that no earlier run knows.
+    /// Selects the paths, plans their programs, and builds and settles those that are not cached.
     fn perform(
         &self,
         session: &mut Session<'_>,

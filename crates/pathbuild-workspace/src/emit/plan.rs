@@ -337,7 +337,8 @@ fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
     read.filter(|file| seen.insert(*file)).collect()
 }
 
-/// Contains neither a comma nor a drawing's name, so that the program is not mistaken for a single drawing's stale program.
+/// Title of a joined program. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a single drawing's
+/// stale program.
 fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
     let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
     format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")

@@ -22,8 +22,8 @@ use crate::memo::hash_output;
 use crate::posting::PostProcessor;
 use crate::session::{OutputKind, Session, without_places, without_values};
 
-/// Builds and settles the jobs that no earlier run knows. If one file of a job cannot be written, none of its files is. Files are written on
-/// a separate thread: replacing a file waits for the disk, and the cores need not.
+/// Builds and settles the jobs that are not cached. If one file of a job cannot be written, none of its files is. Files are written on a
+/// separate thread: replacing a file waits for the disk, and the cores need not.
 pub(super) fn deliver<'j>(
     session: &mut Session<'_>,
     jobs: impl Iterator<Item = &'j mut Job>,

@@ -88,7 +88,7 @@ pub(super) fn sheet(
     }))
 }
 
-/// What a program lacks though it is drawn on the layers of its paths.
+/// Entities on the layers of a program's paths that are not part of the program.
 fn left_out(program: &Program) -> impl Iterator<Item = BilingualText> + use<> {
     let [en, de] = [Lang::En, Lang::De].map(|lang| native::left_out_lines(program, lang));
     en.into_iter().zip(de).map(|(en, de)| BilingualText { en, de })

@@ -86,7 +86,7 @@ impl Session<'_> {
         Some(self.scene(file, slice::from_ref(name), ShownText::Native).scene)
     }
 
-    /// Says of each parameter that an option gives where in pathbuild.toml that stands.
+    /// Adds the place in pathbuild.toml to each parameter that an option gives.
     fn add_origins(&self, scene: &mut Scene) {
         let elements = scene.paths.iter_mut().flat_map(|path| &mut path.elements);
         for parameter in elements.flat_map(|element| &mut element.parameters) {
@@ -191,7 +191,7 @@ pub struct SheetOutcome {
 /// Creates the setup sheet of a path, or of a drawing's only path.
 ///
 /// # Errors
-/// Why the argument makes no sense, or which options are missing.
+/// Why the argument is invalid, or which options are missing.
 pub fn sheet_of(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,

@@ -83,7 +83,7 @@ pub(super) struct StaleOutcome {
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
-/// The programs of earlier runs that lie where those of this run do.
+/// The programs of earlier runs in the directories of this run's programs.
 pub(super) struct EarlierPrograms<'a> {
     pub(super) session: &'a Session<'a>,
     pub(super) task: Task,

@@ -45,7 +45,7 @@ impl Entries {
         self.is_used.push(false);
     }
 
-    /// An entry, which does not count as used by that.
+    /// Returns an entry without marking it as used.
     pub(super) fn get(&self, name: &str) -> Option<&Entry> {
         Some(&self.list[*self.by_name.get(name)?])
     }

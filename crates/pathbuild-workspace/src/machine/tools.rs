@@ -211,7 +211,7 @@ impl Fields {
         shown(&self.take(name)?).parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// The values that nobody has taken.
+    /// The values that were not taken.
     fn unused(self) -> impl Iterator<Item = Entry> {
         self.values.into_iter().map(|(name, value)| Entry { name, value: shown(&value), line: None })
     }

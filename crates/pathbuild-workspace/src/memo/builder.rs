@@ -354,7 +354,7 @@ pub(crate) fn subject(drawing: &Utf8Path, paths: Option<&[PathName]>) -> Box<str
     format!("{drawing}\0{names}").into()
 }
 
-/// Names and own diagnostics of drawings, sorted by path. Those that no earlier run knows are read now.
+/// Names and own diagnostics of drawings, sorted by path. Drawings without a cached result are read now.
 pub(crate) fn read_drawings(
     session: &Session<'_>,
     memo: &Memo,
@@ -384,8 +384,8 @@ impl Session<'_> {
         names
     }
 
-    /// The same with the drawings that define them. A drawing that the last `check` of the library knows is not read again. Of the others
-    /// only the first `most_unknown` are read, and the rest are left out.
+    /// Like [`names_of_library`](Self::names_of_library), with the drawings that define the paths. A drawing with a cached result of
+    /// `check` is not read again; of the others, only the first `most_unknown` are read.
     pub(crate) fn paths_of_library(&self, most_unknown: usize) -> Vec<(PathName, SourceFile)> {
         let (files, _) = self.all_drawings();
         let memo = Memo::of_checks(self.workspace()).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The memo: results of earlier runs, for commands that process a whole library. Nothing else knows earlier runs. (crate pathbuild-cache)
+//! The memo: results of earlier runs, for commands that process a whole library. No other module accesses them. (crate pathbuild-cache)
 //!
 //! Only results of the database are cached, not what the configuration derives from them (severities, baselines, output formats).
 

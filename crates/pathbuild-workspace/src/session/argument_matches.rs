@@ -100,7 +100,7 @@ impl ArgumentMatches {
 }
 
 impl Argument {
-    /// Whether no drawing and no directory may hold what a name means.
+    /// Whether no drawing and no directory matches a name.
     fn is_unknown(&self) -> bool {
         matches!(self, Self::Name { candidates, drawing: None, directory: None, .. } if candidates.is_empty())
     }
@@ -347,7 +347,7 @@ impl Session<'_> {
     }
 }
 
-/// The pattern that an argument is, if it is one.
+/// An argument as a pattern, if it contains wildcards.
 fn pattern_of(name: &str) -> Option<Pattern> {
     name.contains(['*', '?', '[']).then(|| Pattern::new(name).ok()).flatten()
 }

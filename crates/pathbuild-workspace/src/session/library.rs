@@ -332,7 +332,6 @@ impl Session<'_> {
     /// Queries the database about a directory.
     ///
     /// PB006 if this triggers a bug, PB001 if a drawing changed in the meantime or if the directory cannot be listed.
-    /// PB006 where that shows a bug, PB001 where a drawing changed meanwhile, and where the directory cannot be listed.
     pub(super) fn query_directory<R>(
         &self,
         directory: &Utf8Path,
@@ -432,7 +431,7 @@ impl Rules {
     /// Reads the ignore files of a directory, within a budget.
     ///
     /// # Errors
-    /// Why a file cannot be read. Without it, it is unknown what is ignored.
+    /// Why a file cannot be read: without its rules, it is unknown what is ignored.
     pub(super) fn read(
         system: &dyn System,
         directory: &Utf8Path,

@@ -38,13 +38,13 @@ pub(super) struct ReferenceProgram {
 
 /// The program that a definition writes for a path.
 pub(super) struct Rewritten {
-    /// The first line of the program that is another one, and what it should be.
+    /// The first line of the program that differs, and the expected line.
     other_line: Option<(u32, String)>,
     /// The first position that it states in all axes.
     start: Option<Position>,
     /// The moves from there on.
     moves: Vec<(u32, Move)>,
-    /// Whether writing it compared its moves with the drawing.
+    /// Whether its moves were compared with the drawing when it was written.
     is_read_back: bool,
 }
 
@@ -124,8 +124,8 @@ impl ReferenceProgram {
         verify::Against::new(drawn, dialect, words)
     }
 
-    /// What was compared, and the differences. None counts if the program has the lines that its definition writes. What an unchecked
-    /// definition writes is the measure of its programs, but says nothing about the drawing.
+    /// What was compared, and the differences; there are none if the program has exactly the lines that its definition writes. The output
+    /// of an unchecked definition is the reference for its programs, but says nothing about the drawing.
     pub(super) fn conclude(
         &self,
         program: &Program,
@@ -151,7 +151,7 @@ impl ReferenceProgram {
             let unread = Diagnostic::new(&say::MOVES_NOT_COMPARED).quoting("path", &*self.drawn.path);
             differences.push(unread.quoting("post", program.read_as(lang)));
         }
-        // If words are left out, only the text tells whether they are right.
+        // Words that the reader leaves out can be compared only as text.
         if let Some((line, expected)) = &rewritten.other_line
             && program.words_left_out().next().is_some()
         {

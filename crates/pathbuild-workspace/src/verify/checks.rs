@@ -22,7 +22,7 @@ pub struct CheckRecord {
 /// Whether a check was made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It was made; that of rapid moves with these values.
+    /// It was made. The check of rapid moves states the values that it was made with.
     Made(Option<RapidValues>),
     /// It was made with values that only the program itself states.
     Assumed(RapidValues),

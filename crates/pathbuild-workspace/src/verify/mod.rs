@@ -58,7 +58,7 @@ pub struct VerifyOptions {
 pub enum Failure {
     /// The post-processor does not exist, or is broken.
     Post(Vec<Diagnostic>),
-    /// The request makes no sense.
+    /// The request is invalid, for this reason.
     Usage(String),
     /// The drawing has errors, or the name is unknown.
     Drawing(Vec<Diagnostic>),
@@ -84,7 +84,7 @@ pub struct MoveComparison {
     pub drawing: Utf8PathBuf,
     /// The dialect or the definition by which the program was read.
     pub dialect: String,
-    /// The same with the evidence for it, in the language of messages.
+    /// The dialect or the definition with the evidence for it, in the language of messages.
     pub read_as: String,
     /// Number of moves in the drawing.
     pub moves: usize,
@@ -383,7 +383,7 @@ impl<'v> Examination<'v> {
     fn doubts(&self, rewritten: Option<&Rewritten>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
         let mut doubts = self.program.read.problems.clone();
         if rewritten.is_some_and(Rewritten::is_same) {
-            // What is doubtful about the definition's words is said when it writes them.
+            // Doubts about the definition's words are reported when it writes them.
             doubts.retain(|doubt| doubt.is_error() && self.program.by_definition.is_none());
         } else if self.verifier.against.is_some() {
             let unsaid = doubts.iter_mut().filter(|doubt| is_unsaid(doubt));
@@ -394,8 +394,8 @@ impl<'v> Examination<'v> {
     }
 }
 
-/// Whether a warning is about something that the drawing's program does not contain. The fineness of arcs is up to the drawing, and
-/// ignoring feeds was requested.
+/// Whether a warning is about something that the drawing's program does not contain. Two kinds do not count: the drawing determines how
+/// fine arcs are, and the user asked to ignore feeds.
 fn is_unsaid(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }
@@ -422,7 +422,7 @@ impl Writers {
             PostProcessor::for_run(workspace, name, PostArguments { dialect, ..PostArguments::default() })
         };
         let named = options.post.as_deref().map(|name| post(Some(name))).transpose()?.flatten();
-        // Of a broken one `emit` tells.
+        // `emit` reports a broken one.
         let configured = if named.is_some() { None } else { post(None).ok().flatten() };
         Ok(Self { named, configured, dialect })
     }
@@ -433,12 +433,12 @@ impl Writers {
         posts.map(|post| (post.file(), blake3::hash(&post.identity()).to_string())).collect()
     }
 
-    /// The dialect that the command line says, by itself or by the post.
+    /// The dialect that the command line names, directly or through the post.
     fn dialect(&self) -> Option<Dialect> {
         self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
     }
 
-    /// The post that wrote a program of this dialect, as far as it is known. A program that shows no dialect by its header is one of a
+    /// The post that wrote a program of this dialect, as far as it is known. A program whose header shows no dialect is attributed to a
     /// configured definition that names none.
     fn of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
         let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
@@ -449,7 +449,7 @@ impl Writers {
         self.named.as_ref().or(self.configured.as_ref().filter(may_have_written))
     }
 
-    /// A text as the definition reads it that wrote it, where that names no dialect.
+    /// Translates a text by the definition that wrote it, if that names no dialect.
     fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<ByDefinition> {
         let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
         let writer = self.of(dialect, guess.map(|guess| guess.evidence.kind))?;

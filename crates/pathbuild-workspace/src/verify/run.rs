@@ -1,4 +1,4 @@
-//! Verifies many programs in one run, and keeps the results for later runs. (book: reference/commands, `verify`)
+//! Verifies many programs in one run, and caches the results for later runs. (book: reference/commands, `verify`)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
@@ -15,7 +15,7 @@ use crate::workspace::Workspace;
 pub struct Request<'a> {
     /// The files and directories.
     pub places: &'a [Utf8PathBuf],
-    /// A program that is in no file, such as standard input, and its name in messages. Its result is not kept.
+    /// A program that is in no file, such as standard input, and its name in messages. Its result is not cached.
     pub text: Option<(&'a Utf8Path, Vec<u8>)>,
     /// How the programs are verified.
     pub options: VerifyOptions,
@@ -36,7 +36,7 @@ impl Request<'_> {
         if workspace.keeps_results() { Session::traced(workspace) } else { Session::new(workspace) }
     }
 
-    /// Verifies the programs of which no result is kept.
+    /// Verifies the programs without a cached result.
     ///
     /// # Errors
     /// Why programs cannot be verified.

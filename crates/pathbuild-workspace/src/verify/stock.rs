@@ -122,7 +122,7 @@ impl<'s> Sources<'s> {
             Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
             _ => !found.iter().any(|error| error.is_error() && is_same_line(error, doubt)),
         });
-        // A program is not wrong because it is too large for a check that only doubts.
+        // A limit that stops this check makes no program wrong, because the check only raises doubts.
         for doubt in &mut doubts {
             doubt.severity = Severity::Warning;
         }
@@ -138,7 +138,7 @@ impl<'s> Sources<'s> {
         let given = self.options().cutter.or(self.drawn());
         let widths = |tool: &CuttingTool| Some((tool.line, self.diameters(tool).cutter()?));
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
-        // The tool of a subprogram's lines depends on who calls it.
+        // The tool of a subprogram's lines depends on the caller.
         let is_one = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
         match given.map(Cutter::flat) {
             Some(given) if cutters.is_empty() || (self.header.has_calls && !is_one) => Some(vec![(0, given)]),

@@ -87,7 +87,7 @@ impl Watcher {
         directories.watch(&mut *watcher, &*workspace.system)?;
         let configuration = settings.file.iter().chain(post).map(|file| event_path(session, file));
         let configuration: BTreeSet<Utf8PathBuf> = configuration.collect();
-        // As with drawings: a link may be one to nothing by now.
+        // As with drawings, a link may be dangling by now.
         _ = directories.follow(&mut *watcher, session, configuration.iter().cloned());
         Ok(Self {
             signals,

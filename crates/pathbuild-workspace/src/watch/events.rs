@@ -1,4 +1,4 @@
-//! What watching is asked for, what it hears, and what it reports.
+//! The request to watch, the signals that end or wake the watcher, and the events that it reports.
 
 use std::collections::BTreeSet;
 use std::sync::mpsc::Sender;

@@ -255,7 +255,8 @@ impl Words {
     }
 }
 
-/// `8001.1P > 2051.1P :A0,5`, sorted by embedding path. Paths without any embeddings are listed on their own.
+/// One line per embedding, such as `8001.1P > 2051.1P :A0,5`, sorted by embedding path. Paths without any embeddings are listed on their
+/// own.
 fn list(graph: &Graph, words: &Words) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
     let mut text = String::new();

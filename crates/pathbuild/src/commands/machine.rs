@@ -133,7 +133,7 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[Unused
         change_lines(&mut text, change);
     }
     for (file, format, entries) in unused.iter().filter(|(_, _, entries)| !entries.is_empty()) {
-        // Each tool of a library has the same ones.
+        // All tools of a library have the same entries: name each once.
         let mut names: Vec<&str> = Vec::new();
         for entry in entries {
             if !names.contains(&entry.name.as_str()) {

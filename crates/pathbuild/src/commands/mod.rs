@@ -81,7 +81,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     }
 }
 
-/// Formats of graphs are for commands that print graphs.
+/// Refuses formats of graphs for commands that print none.
 fn format_refusal(context: &Context, command: &Command) -> Option<String> {
     if context.format == Format::Html {
         let refusal = context.choose(

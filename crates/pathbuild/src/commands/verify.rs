@@ -65,6 +65,8 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
 /// The argument that stands for standard input.
 const STANDARD_INPUT: &str = "-";
 
+/// Reads a program from standard input.
+///
 /// # Errors
 /// If it cannot be read, or is too large.
 fn read_standard_input(context: &Context) -> Result<Vec<u8>, Box<Diagnostic>> {

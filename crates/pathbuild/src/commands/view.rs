@@ -1,4 +1,4 @@
-//! `pathbuild view`: shows a path, a drawing or a program. (docs: "Pictures")
+//! `pathbuild view`: shows a path, a drawing or a program. (book: program/pictures)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
@@ -40,7 +40,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
-/// Nothing is cut, or its cutter or its material is unknown.
+/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown.
 fn no_stock(context: &Context, findings: &Findings) -> ExitStatus {
     if findings.errors() > 0 {
         return ExitStatus::Errors;

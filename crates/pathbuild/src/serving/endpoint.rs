@@ -69,8 +69,8 @@ impl Endpoint {
         format!("http://{host}:{}/{fragment}", self.port())
     }
 
-    /// Whether `authority` in a `Host` header means this server. Other names must be refused: whoever controls such a name could point it
-    /// here, and pages from there would be allowed to read everything (DNS rebinding).
+    /// Whether `authority` in a `Host` header means this server. Other names must be refused: their owners could point them here, and pages
+    /// from there would be allowed to read everything (DNS rebinding).
     pub(super) fn answers_to(&self, authority: &str) -> bool {
         let authority = authority.to_ascii_lowercase();
         let suffix = format!(":{}", self.port());

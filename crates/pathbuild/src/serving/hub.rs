@@ -104,7 +104,7 @@ impl Hub {
         self.leave();
     }
 
-    /// Drops pending questions, because nobody will answer them.
+    /// Drops pending questions, because they will not be answered any more.
     pub(super) fn leave(&self) {
         let mut state = self.state();
         state.bell = None;

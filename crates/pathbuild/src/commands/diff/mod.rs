@@ -1,4 +1,4 @@
-//! `pathbuild diff`: shows how changed drawings change the moves. (docs: "Comparing")
+//! `pathbuild diff`: shows how changed drawings change the moves. (book: program/comparing)
 
 mod output;
 mod revision;
