@@ -1,5 +1,5 @@
-//! Files that come to, go from and change in a library while one session watches it: after each step, what the session has told adds up to what
-//! a check from scratch finds. Each step waits for the one before, so that all of them meet the same living session.
+//! Files are added to, removed from and changed in a library while one session watches it. After each step, the session's reports must add
+//! up to the findings of a check from scratch. Each step waits for the previous one, so that all of them happen to the same session.
 
 use std::cell::{Cell, RefCell};
 use std::fs;
@@ -16,13 +16,13 @@ use pathbuild_workspace::{Inputs, check};
 use crate::Chance;
 use crate::on_disk::{OnDisk, sorted};
 
-/// Changed after each step: when the session has told of it, it has taken over the step as well.
+/// A drawing that is changed after each step: once the session reports this change, it has processed the step as well.
 const TICK: &str = "lib/ticks/9999.1P.dxf";
 
-/// The next step of a test; `false` if there is none.
+/// Performs the next step of a test; returns `false` if none is left.
 type Step<'s> = Box<dyn FnMut(&OnDisk) -> bool + 's>;
 
-/// Takes one step after the other.
+/// Performs the steps one after the other.
 struct Driver<'s> {
     name: String,
     place: OnDisk,
@@ -33,7 +33,7 @@ struct Driver<'s> {
     is_patient: Cell<bool>,
 }
 
-/// A little more than the watcher's.
+/// A little longer than the watcher waits for an incomplete drawing.
 const PATIENCE: Duration = Duration::from_millis(2_100);
 
 impl Driver<'_> {
@@ -43,11 +43,11 @@ impl Driver<'_> {
         self.place.draw(TICK, &format!("{text}\nend {},0", self.ticks.get()));
     }
 
-    /// Compares what was told with what there is to tell, and goes on.
+    /// Compares the reported findings with the expected ones, and performs the next step.
     fn settle(&self) {
         let expected = self.checked_anew();
         let told = sorted(self.told.borrow().clone());
-        // The watcher waits for the end of a drawing that has none.
+        // The watcher may still be waiting for a drawing without an end marker.
         if told != expected && !self.is_patient.replace(true) {
             thread::sleep(PATIENCE);
             return self.tick();
@@ -104,7 +104,7 @@ impl Listener for Driver<'_> {
     }
 }
 
-/// Watches a library until there is no further step; how many were taken.
+/// Watches a library until no step is left. Returns the number of steps.
 fn drive(name: String, place: OnDisk, step: Step<'_>) -> u32 {
     fs::create_dir_all(place.path().join("lib/ticks")).unwrap();
     let (bell, told, ticks, is_patient) = Default::default();
@@ -135,7 +135,7 @@ fn project(name: &str, embeds: &[&str]) -> String {
 
 const CONFIGURATION: &str = "library = [\"lib\"]\nsearch = [\"spare\"]\nfeed = 100\nspindle = \"manual\"\n";
 
-/// Projects that embed components, some of which are there.
+/// Projects that embed components, some of which exist.
 fn place() -> OnDisk {
     let place = OnDisk::configured(CONFIGURATION, &[]);
     for directory in ["spare", "lib/more", "away"] {
@@ -147,8 +147,8 @@ fn place() -> OnDisk {
     place
 }
 
-/// What may come: the components that are missing, once more what is there, in files of one path and of ranges, and what has nothing to do with
-/// the projects.
+/// Files that may be added: the missing components, second definitions of existing ones, in files for one path and for ranges, and drawings
+/// unrelated to the projects.
 const ARRIVALS: [(&str, &[&str]); 13] = [
     ("lib/1002.1P.dxf", &["1002.1P"]),
     ("lib/1002 b.dxf", &["1002.1P"]),
@@ -165,13 +165,13 @@ const ARRIVALS: [(&str, &[&str]); 13] = [
     ("lib/1001.dxf", &["1001.1P"]),
 ];
 
-/// A drawing comes, goes, changes its name or moves with its directory.
+/// Adds, removes or renames a drawing, or moves it with its directory.
 fn take_step(place: &OnDisk, chance: &mut Chance) {
     let path = |name: &str| place.path().join(name);
     let (file, names) = *chance.pick(&ARRIVALS);
     match chance.below(10) {
         0..7 if path(file).parent().unwrap().is_dir() => {
-            // As a program saves that writes beside the file first.
+            // Some programs save by writing a new file and renaming it.
             let bytes = sheet(&component(names)).unwrap().to_dxf();
             fs::write(path("away/new"), bytes).unwrap();
             fs::rename(path("away/new"), path(file)).unwrap();
@@ -189,7 +189,7 @@ fn one_session_takes_over_any_sequence_of_arrivals() {
         let mut chance = Chance(0x9e37_79b9_7f4a_7c15 ^ seed);
         let mut left = crate::steps() / 5;
         let step = move |place: &OnDisk| {
-            // Often one by one, sometimes several at once.
+            // Usually one change per step, sometimes several.
             for _ in 0..=(chance.below(3) / 2 * chance.below(3)) {
                 take_step(place, &mut chance);
             }
@@ -200,7 +200,7 @@ fn one_session_takes_over_any_sequence_of_arrivals() {
     }
 }
 
-/// The case in which the second file was taken for known: the first one made the directory's names be listed late.
+/// Regression test: the first file caused the directory's names to be listed late, so that the second one was taken for known.
 #[test]
 fn a_component_that_arrives_after_another_drawing_is_found() {
     for (first, second) in [(3, 0), (3, 2), (7, 5), (10, 8), (10, 9), (3, 1)] {
@@ -213,7 +213,7 @@ fn a_component_that_arrives_after_another_drawing_is_found() {
     }
 }
 
-/// Edits of a whole library, which make paths ambiguous, missing and cyclic.
+/// Edits of a whole library, which make paths ambiguous, missing or cyclic.
 #[test]
 fn one_session_takes_over_edits_of_a_library() {
     for seed in 0..2 {

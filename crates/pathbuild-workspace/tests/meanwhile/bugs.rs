@@ -1,5 +1,5 @@
-//! Bugs that show while a drawing is read or a directory is listed, and directories that cannot be listed: they are said of what shows them, and
-//! keep nothing else from being done.
+//! Bugs that are triggered by reading a drawing or listing a directory, and directories that cannot be listed: each is reported for the
+//! file or directory concerned, and does not affect anything else.
 
 use std::fs;
 use std::sync::Arc;
@@ -17,12 +17,12 @@ use pathbuild_workspace::{Inputs, Workspace, check, emit, list};
 use crate::mischief::{Event, Mischief};
 use crate::on_disk::{OnDisk, sorted};
 
-/// The files, with a bug that shows when this one is read, or listed, for the n-th time.
+/// A file system in which reading or listing the victim triggers a bug the n-th time.
 fn bug(place: &OnDisk, victim: &str, time: i64, lasts: bool) -> Arc<Mischief> {
     trouble(Event::Panic, place, victim, time, lasts)
 }
 
-/// The same of any trouble.
+/// Like [`bug`], for any event.
 fn trouble(event: Event, place: &OnDisk, victim: &str, time: i64, lasts: bool) -> Arc<Mischief> {
     Arc::new(Mischief {
         trigger: victim.to_owned(),
@@ -35,13 +35,13 @@ fn trouble(event: Event, place: &OnDisk, victim: &str, time: i64, lasts: bool) -
     })
 }
 
-/// A bug that one drawing shows is said of that drawing; all others are checked, and nothing of it is kept.
+/// A bug triggered by one drawing is reported for that drawing. All others are checked, and the bug is not cached.
 #[test]
 fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
     let workshop = Workshop::new(3);
     for victim in workshop.files().keys().filter(|path| Utf8Path::new(path).extension() == Some("dxf")) {
         for jobs in [None, Some(1)] {
-            // Nothing is kept yet: every drawing is read.
+            // Nothing is cached yet, so every drawing is read.
             let place = OnDisk::new(&workshop);
             let expected = place.check(Arc::new(OsSystem), false, None);
             let found = place.check(bug(&place, victim, 1, false), true, jobs);
@@ -55,7 +55,7 @@ fn a_bug_in_one_drawing_keeps_no_other_from_being_checked() {
     }
 }
 
-/// The same of a directory that cannot be listed for a bug.
+/// The same for a directory whose listing triggers a bug.
 #[test]
 fn a_bug_in_listing_a_directory_keeps_no_other_from_being_checked() {
     let workshop = Workshop::new(3);
@@ -87,10 +87,10 @@ fn paths(place: &OnDisk) -> Vec<(String, String)> {
     listed.paths.into_iter().map(|path| (path.name.as_str().to_owned(), path.drawing.into_string())).collect()
 }
 
-/// A command, and what it finds.
+/// A command, and a function that returns its findings.
 type Finding = (&'static str, fn(&Workspace, &Inputs) -> Vec<Diagnostic>);
 
-/// Each may list directories for reasons of its own.
+/// Commands that list directories for different reasons.
 const COMMANDS: [Finding; 5] = [
     ("check", |workspace, inputs| {
         let request = check::Request { inputs, with_all_values: false, changed: None };
@@ -122,14 +122,14 @@ fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic
     request.run(&mut request.session(workspace)).map(|made| made.diagnostics).unwrap_or_default()
 }
 
-/// Whatever shows a bug the first, second, ... time that it is listed, or each time: no command ends for it. It is said, or what is found is
-/// what is found without it, but for hints.
+/// No command is aborted by a bug in listing a directory, whether it occurs the first, second, ... time or always. The bug is reported, or
+/// the findings are the same as without it, except for hints.
 #[test]
 fn a_bug_in_listing_ends_no_command() {
     in_each_listing(Event::Panic, "InternalError");
 }
 
-/// Else a path that lies there would not be found, or would count as the only one of its name.
+/// Otherwise a path in it would not be found, or another one would count as the only one of that name.
 #[test]
 fn a_directory_that_cannot_be_listed_is_told() {
     in_each_listing(Event::Fail, "UnreadableFile");
@@ -172,7 +172,7 @@ fn in_each_listing(event: Event, code: &str) {
     assert!(troubles > 200, "only {troubles} showed");
 }
 
-/// Which drawings lie in a directory that cannot be listed is not known: a program that one of them may have become is left.
+/// The drawings in a directory that cannot be listed are unknown, so programs that may belong to one of them are not removed.
 #[test]
 fn a_bug_in_listing_removes_no_program() {
     let workshop = Workshop::new(3);

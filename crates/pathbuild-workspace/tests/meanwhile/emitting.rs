@@ -1,4 +1,4 @@
-//! Programs that are made while something happens.
+//! Programs that are generated while files change or the machine is busy.
 
 use std::fs;
 use std::sync::Arc;
@@ -23,7 +23,8 @@ fn place() -> OnDisk {
     OnDisk::configured(EMITTING, &[(DRAWING, drawn)])
 }
 
-/// What another makes of a program between its writing and the keeping of what is known is not taken for what was written.
+/// If another process changes a program after it was written but before the result is cached, the changed program does not count as up to
+/// date.
 #[test]
 fn a_program_that_another_changes_meanwhile_is_written_again() {
     for event in [Event::Change, Event::Replace, Event::Vanish] {
@@ -47,7 +48,8 @@ fn a_program_that_another_changes_meanwhile_is_written_again() {
     }
 }
 
-/// A file that a post inserts changes between two programs, whenever that is: what is known of the first is of the old bytes.
+/// A file that a post inserts changes between two programs: the cached result of the first one belongs to the old bytes. The change happens
+/// at each possible time.
 #[test]
 fn an_inserted_file_that_changes_meanwhile_is_noticed() {
     const POST: &str = "[post]\nname = \"mine\"\nextension = \"nc\"\n[text]\ncomment = '(~CommentText~)'\n\
@@ -88,7 +90,7 @@ fn an_inserted_file_that_changes_meanwhile_is_noticed() {
     assert!(outdated >= 2, "the file changed {outdated} times");
 }
 
-/// A machine on which what is begun when the clock is looked at for the n-th time has taken long already.
+/// A machine that is busy: work that begins with the n-th query of the clock appears to have taken too long.
 fn busy(time: i64) -> Arc<Mischief> {
     Arc::new(Mischief {
         trigger: String::new(),
@@ -101,7 +103,7 @@ fn busy(time: i64) -> Arc<Mischief> {
     })
 }
 
-/// A machine that is busy for a moment, whenever that is: a path is walked along for its check and for its program.
+/// The machine is busy once, at each possible time: a path is walked for its check and again for its program.
 #[test]
 fn no_program_lacks_what_took_too_long() {
     let drawn = long("8001.1P");
@@ -122,7 +124,7 @@ fn no_program_lacks_what_took_too_long() {
     assert!((1..10).filter(is_given_up).count() >= 2);
 }
 
-/// The same of a program on disk that is held against its drawing.
+/// The same for comparing a program on disk with its drawing.
 #[test]
 fn no_program_is_held_against_what_took_too_long() {
     let place = OnDisk::configured(EMITTING, &[(DRAWING, &long("8001.1P"))]);

@@ -1,4 +1,4 @@
-//! What is kept, when, and of which bytes.
+//! Which results are cached, when, and for which bytes.
 
 use std::fs::{self, File};
 use std::sync::Arc;
@@ -29,8 +29,8 @@ fn is_as_without_cache(place: &OnDisk) {
     assert_eq!(check(place), expected);
 }
 
-/// A file that changed shortly before it was read may change again without another stamp: no stamp of it is kept, and each run looks into it
-/// until it has rested.
+/// A file that changed shortly before it was read may change again without a new stamp. Therefore it is cached without a stamp, and every
+/// run reads it until it has been unchanged for a while.
 #[test]
 fn no_stamp_is_kept_of_what_has_not_rested() {
     const REST: Duration = Duration::from_millis(3_500);
@@ -44,11 +44,11 @@ fn no_stamp_is_kept_of_what_has_not_rested() {
     let rested = place.kept();
     check(&place);
     assert_eq!(place.kept(), rested, "all has rested: there is nothing to write");
-    // The system's own time of a change is the one that counts where somebody sets the other.
+    // Setting the modification time does not help: the system's own change time counts.
     for modified in [SystemTime::now(), SystemTime::now() - Duration::from_hours(1)] {
         let drawing = place.path().join(PLACES[0]);
         File::options().write(true).open(drawing).unwrap().set_modified(modified).unwrap();
-        // Clocks of file systems tick every two seconds at worst.
+        // File systems record times in steps of up to two seconds.
         sleep(Duration::from_millis(1_200));
         check(&place);
         let touched = place.kept();
@@ -62,7 +62,7 @@ fn no_stamp_is_kept_of_what_has_not_rested() {
     }
 }
 
-/// A component changes between the look at what is kept and the reading of the project that embeds it, and is what it was before again.
+/// A component changes between the verification of the cache and the reading of the project that embeds it, and is then changed back.
 #[test]
 fn what_is_made_of_other_bytes_is_not_kept_under_those_that_were_compared() {
     let place = place();
@@ -86,7 +86,7 @@ fn what_is_made_of_other_bytes_is_not_kept_under_those_that_were_compared() {
     is_as_without_cache(&place);
 }
 
-/// A drawing that comes after its directory was listed, for whatever reason, and before what was found is kept.
+/// A drawing is added after its directory was listed for any reason, but before the results are cached.
 #[test]
 fn a_directory_in_which_a_drawing_came_meanwhile_is_asked_again() {
     let found = |time| {
@@ -108,7 +108,7 @@ fn a_directory_in_which_a_drawing_came_meanwhile_is_asked_again() {
     assert!((1..4).any(found), "it came too early to be missed");
 }
 
-/// What is known of drawings that are gone is not kept for ever.
+/// Results of removed drawings do not stay in the cache.
 #[test]
 fn results_of_drawings_that_are_gone_go() {
     let place = place();
@@ -121,8 +121,8 @@ fn results_of_drawings_that_are_gone_go() {
     assert_eq!(size(&place), size(&alone));
 }
 
-/// Whether two drawings are one is told by where their directories really are: a link that leads elsewhere now, to drawings of the same names and
-/// bytes, makes two of one.
+/// Two names mean the same drawing if their directories have the same real path. If a link now leads to copies with the same names and
+/// bytes, one drawing becomes two.
 #[cfg(unix)]
 #[test]
 fn a_link_that_leads_to_a_copy_makes_drawings_ambiguous() {

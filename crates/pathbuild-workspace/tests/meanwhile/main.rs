@@ -1,6 +1,5 @@
-//! Files that change, go or cannot be read while a check goes on, at the moments that a [`System`] chooses: what later runs find with what was
-//! kept is what a run without it finds. `PATHBUILD_STEPS` says how many steps each of two libraries takes (60 without it).
-//! (docs/reliability.md)
+//! Files change, disappear or cannot be read during a check, at moments chosen by a [`System`]. Later runs with the cache must find the
+//! same as runs without it. `PATHBUILD_STEPS` sets the number of steps for each of two libraries (default: 60). (docs/reliability.md)
 
 #![expect(
     clippy::unwrap_used,
@@ -25,7 +24,7 @@ use pathbuild_testkit::Workshop;
 use mischief::{Event, Mischief};
 use on_disk::OnDisk;
 
-/// Numbers without a pattern, the same in every run (xorshift).
+/// Pseudorandom numbers, the same in every run (xorshift).
 struct Chance(u64);
 
 impl Chance {
@@ -45,14 +44,14 @@ fn steps() -> usize {
     std::env::var("PATHBUILD_STEPS").map_or(60, |steps| steps.parse().unwrap())
 }
 
-/// One library, step by step: an edit, a run in which something happens, and then two runs that must find the same.
+/// Tests one library. Each step is an edit, a run during which an event happens, and two runs that must find the same as one without cache.
 fn library(seed: u64) {
     let mut workshop = Workshop::new(seed);
     let place = OnDisk::new(&workshop);
     let mut chance = Chance(0x9e37_79b9_7f4a_7c15 ^ seed);
     let mut spoilt: Option<String> = None;
     for step in 0..steps() {
-        // What happened is put right again, or left, so that both ways are tried.
+        // The victim of the event is restored either at once or only now, so that both cases are tested.
         for path in workshop.edit().into_iter().chain(spoilt.take()) {
             place.put(&workshop, &path);
         }

@@ -1,4 +1,4 @@
-//! Files to which something happens while they are read or listed.
+//! A file system in which something happens to a file while it is read, listed or written.
 
 use std::fs;
 use std::ops::ControlFlow;
@@ -11,30 +11,30 @@ use pathbuild_db::system::Stamp;
 use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, WriteOutcome};
 use pathbuild_diagnostic::Value;
 
-/// What happens to a file.
+/// The event that happens to a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Event {
     /// It is removed.
     Vanish,
     /// Other bytes are written into it.
     Change,
-    /// Another file, as old as it, takes its name.
+    /// Another file with the same modification time takes its name.
     Replace,
-    /// It cannot be read, this once.
+    /// Reading it fails this once.
     Fail,
-    /// Whoever reads it shows a bug.
+    /// Reading it triggers a bug.
     Panic,
-    /// Nothing happens to it, but what is begun now has taken long already.
+    /// Nothing happens to it, but work that begins now appears to have taken too long already.
     Busy,
 }
 
-/// The files of the operating system, and one event: just before or after the file of a name is read, or a directory listed, or after the file is
+/// The operating system's files, with one event: just before or after a certain file is read or directory is listed, or after the file is
 /// written, for the n-th time.
 #[derive(Debug)]
 pub(crate) struct Mischief {
     pub(crate) trigger: String,
     pub(crate) countdown: AtomicI64,
-    /// Whether it happens again each time after that.
+    /// Whether the event happens every time after that as well.
     pub(crate) lasts: bool,
     pub(crate) is_before: bool,
     pub(crate) event: Event,
@@ -42,11 +42,11 @@ pub(crate) struct Mischief {
     pub(crate) bytes: Vec<u8>,
 }
 
-/// More than the limit of a path.
+/// Longer than the time limit for a path.
 const LONG: Duration = Duration::from_secs(61);
 
 impl Mischief {
-    /// Runs what reads a path; whether it must fail.
+    /// Reads a path, and lets the event happen before or after that if it is due.
     fn around<T>(
         &self,
         path: &Utf8Path,

@@ -1,4 +1,4 @@
-//! Libraries on disk, and what runs find in them.
+//! Libraries on disk, and functions that run commands on them.
 
 use std::fmt::Write;
 use std::fs;
@@ -16,10 +16,10 @@ use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
 
-/// A library of which programs are written.
+/// Configuration of a library whose programs are written.
 pub(crate) const EMITTING: &str = "library = [\"lib\"]\nfeed = 100\nrapid = 1000\nsweep-height = 20\nspindle = \"manual\"\n[emit]\ntargets = [\"8*\"]\n";
 
-/// A library on disk, with a place for what is kept of it.
+/// A library on disk, with a directory for its cache.
 pub(crate) struct OnDisk {
     directory: TempDir,
     caches: TempDir,
@@ -41,12 +41,12 @@ impl OnDisk {
         place
     }
 
-    /// One of these drawings, as lines of text.
+    /// Creates a library of these drawings, given in text form.
     pub(crate) fn of(drawings: &[(&str, &str)]) -> Self {
         Self::configured("library = [\"lib\"]\nfeed = 100\n", drawings)
     }
 
-    /// The same with this configuration.
+    /// Like [`of`](Self::of), with this configuration.
     pub(crate) fn configured(configuration: &str, drawings: &[(&str, &str)]) -> Self {
         let place = Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() };
         fs::write(place.path().join("pathbuild.toml"), configuration).unwrap();
@@ -57,12 +57,12 @@ impl OnDisk {
         place
     }
 
-    /// Draws a drawing anew.
+    /// Writes a drawing, replacing an existing one.
     pub(crate) fn draw(&self, file: &str, text: &str) {
         fs::write(self.path().join(file), sheet(text).unwrap().to_dxf()).unwrap();
     }
 
-    /// The files of kept results, each with when it was written and how large it is.
+    /// The files of cached results, with their modification times and sizes.
     pub(crate) fn kept(&self) -> Vec<(Utf8PathBuf, SystemTime, u64)> {
         let directory = Utf8Path::from_path(self.caches.path()).unwrap().join("kept");
         let entries = directory.read_dir_utf8().unwrap().map(|entry| entry.unwrap().into_path());
@@ -78,7 +78,7 @@ impl OnDisk {
         Utf8Path::from_path(self.directory.path()).unwrap()
     }
 
-    /// Makes a file what the library says it is.
+    /// Brings a file on disk to its state in the workshop, or removes it.
     pub(crate) fn put(&self, workshop: &Workshop, path: &str) {
         let on_disk = self.path().join(path);
         match workshop.files().get(path) {
@@ -90,12 +90,12 @@ impl OnDisk {
         }
     }
 
-    /// What a check of the library finds, each once, in order.
+    /// Checks the library. Returns the findings and the checked files, sorted and without duplicates.
     pub(crate) fn check(&self, system: Arc<dyn System>, is_kept: bool, jobs: Option<u16>) -> Vec<String> {
         self.check_of(&[], system, is_kept, jobs)
     }
 
-    /// The same of arguments; without any, of the library.
+    /// Like [`check`](Self::check), for these arguments; without any, for the library.
     pub(crate) fn check_of(
         &self,
         arguments: &[&str],
@@ -112,7 +112,7 @@ impl OnDisk {
         sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
     }
 
-    /// Writes the programs that the configuration names, and removes, if that is wanted, those that nothing gives any more.
+    /// Writes the programs that the configuration names; removes stale ones on request.
     pub(crate) fn emit(&self, system: Arc<dyn System>, is_kept: bool, removes_stale: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
@@ -127,7 +127,7 @@ impl OnDisk {
         request.run(&mut request.session(&workspace)).unwrap()
     }
 
-    /// The same through the post that the configuration names.
+    /// Like [`emit`](Self::emit), through the configured post-processor.
     pub(crate) fn emit_posted(&self, system: Arc<dyn System>, is_kept: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
@@ -143,7 +143,7 @@ impl OnDisk {
         request.run(&mut request.session(&workspace)).unwrap()
     }
 
-    /// What a run works in.
+    /// The workspace of a run.
     pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {
         let given = Overrides { config: Some(self.path().join("pathbuild.toml")), ..Overrides::default() };
         let (settings, faults) = config::load(&OsSystem::shared(), &given, inputs, self.path());
@@ -162,13 +162,13 @@ impl OnDisk {
     }
 }
 
-/// A path of so many segments that the walk along it looks at the clock.
+/// A path with enough segments for the walk to query the clock.
 pub(crate) fn long(name: &str) -> String {
     let segments: Vec<String> = (0..300).map(|x| format!("mill {x},0 {},0\n", x + 1)).collect();
     format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\n{}end 300,0", segments.concat())
 }
 
-/// Each once, in order.
+/// Sorts the findings and removes duplicates.
 pub(crate) fn sorted(mut found: Vec<String>) -> Vec<String> {
     found.sort();
     found.dedup();

@@ -1,4 +1,4 @@
-//! What was found while a library is watched and may pass by itself is tried again after the next change, whatever that is of.
+//! While a library is watched, drawings with transient findings are checked again after the next change of any file.
 
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -18,10 +18,12 @@ const OTHER: (&str, &str) =
     ("lib/1001.1P.dxf", "layer 1001.1P\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
 const VICTIM: &str = "lib/8001.1P.dxf";
 
-/// Where something is found at the beginning, changes a drawing, and another when that was tried again; ends soon after, or when it takes too long.
+/// Changes a drawing after the first check, and another one after the retry of the first findings. Ends watching soon after that, or on a
+/// timeout.
 struct Editor {
-    /// What changes, and whether what happened does not any more.
+    /// The drawing that is changed, with its new content.
     edit: (&'static str, String),
+    /// Whether the event no longer happens after the first check.
     passes: bool,
     place: OnDisk,
     mischief: Arc<Mischief>,
@@ -68,13 +70,13 @@ impl Listener for Editor {
         match self.told.borrow().len() {
             1 if self.passes && update.before.is_empty() => {}
             2 => self.place.draw(OTHER.0, OTHER.1),
-            // By then it would have been tried again.
+            // A further retry would happen within this time.
             _ => self.end_after(Duration::from_secs(1)),
         }
     }
 }
 
-/// Watches while something happens the n-th time, or from then on, until another drawing changes.
+/// Watches a library in which an event happens the n-th time, or from then on, until another drawing changes.
 fn watch(event: Event, time: i64, lasts: bool, emits: bool) -> Editor {
     watch_edit(event, time, lasts, emits, (OTHER.0, OTHER.1.replace("B0", "B1")), true)
 }
@@ -121,7 +123,7 @@ fn watch_place(
     editor
 }
 
-/// What passed, after what came of the edit was told; it is not tried any more.
+/// Returns the update in which the transient finding disappeared: it follows that of the edit, and there is no further retry.
 #[track_caller]
 fn tried_again(editor: &Editor) -> Update {
     let told = editor.told.borrow();
@@ -146,7 +148,7 @@ fn what_may_pass_is_tried_again_after_any_change() {
     }
 }
 
-/// A machine that is busy only while programs are made.
+/// The machine is busy only while programs are generated.
 #[test]
 fn a_program_that_was_given_up_is_tried_again() {
     let is_of_program = |time| {
@@ -160,7 +162,7 @@ fn a_program_that_was_given_up_is_tried_again() {
     assert!((1..10).any(is_of_program));
 }
 
-/// Else each save of a drawing that takes too long would take as long once more.
+/// Otherwise each save of a drawing that exceeds the time limit would take that time twice.
 #[test]
 fn what_was_just_tried_is_not_tried_again() {
     let edit = (VICTIM, long("8001.1P").replace("B0", "B1"));
@@ -170,13 +172,13 @@ fn what_was_just_tried_is_not_tried_again() {
     assert!(matches!(&**told, [only] if only.tried_again.is_empty() && only.now.len() == 1), "{told:#?}");
 }
 
-/// A drawing that embeds another one of its directory, which cannot be listed when it is looked for there.
+/// A drawing embeds another one in its directory, which cannot be listed when the embedded path is looked up.
 #[test]
 fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
     let project = "layer 8001.1P\nstart 0,0 \"T5 O2 I1 MX\"\nsubpath 0,0 40,0 \">1001.1P\"\nend 40,0";
     let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, project)]);
     let edit = (OTHER.0, OTHER.1.replace("B0", "B1"));
-    // The second time: the first is to find the drawings.
+    // The second time, because the first listing finds the drawings.
     let editor = watch_place(place, "lib", Event::Fail, 2, false, false, edit, true);
     assert_eq!(*editor.found.borrow(), [Code::UnreadableFile]);
     let told = editor.told.borrow();
@@ -185,7 +187,7 @@ fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
     assert!(before == [Code::UnreadableFile] && now.is_empty(), "{told:#?}");
 }
 
-/// Adds a drawing when all were checked, and ends when there were two batches.
+/// Adds a drawing after the first check, and ends watching after two batches.
 struct Adder {
     place: OnDisk,
     bell: RefCell<Option<Bell>>,
@@ -210,13 +212,13 @@ impl Listener for Adder {
     }
 }
 
-/// What lies in a directory that cannot be listed for a moment is not taken for gone; what came there is found once it can.
+/// Drawings in a directory that temporarily cannot be listed do not count as removed; new ones are found once it can be listed again.
 #[test]
 fn a_directory_that_cannot_be_listed_for_a_moment_loses_no_drawing() {
     let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, &long("8001.1P"))]);
     let mischief = Arc::new(Mischief {
         trigger: "lib".to_owned(),
-        // The first time is at the beginning.
+        // The first listing happens at the start.
         countdown: AtomicI64::new(2),
         lasts: false,
         is_before: false,
