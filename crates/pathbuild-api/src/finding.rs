@@ -1,4 +1,4 @@
-//! What is wrong with a drawing, and why a request has no result.
+//! Findings about drawings, and the errors of requests.
 
 use std::fmt;
 use std::ops::Range;
@@ -40,12 +40,12 @@ impl Finding {
         self.diagnostic.is_error()
     }
 
-    /// What is wrong.
+    /// The message: what is wrong.
     pub fn message(&self, lang: Lang) -> String {
         self.diagnostic.text(lang)
     }
 
-    /// What to do about it.
+    /// The help: what to do about it.
     pub fn help(&self, lang: Lang) -> Option<String> {
         self.diagnostic.help(lang)
     }

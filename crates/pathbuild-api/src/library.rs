@@ -233,7 +233,7 @@ impl Library {
             let inputs = whole_library(session);
             let request = watch::Request { inputs: &inputs, emits: false, lists: false, polls: false };
             let end = request.run(&absolute(workspace), &Reports::new(workspace, seen));
-            // What the session knew may be out of date.
+            // The session's results may be out of date.
             *session = new_session(workspace);
             match end {
                 watch::WatchEnd::Over => Ok(WatchEnd::Stopped),

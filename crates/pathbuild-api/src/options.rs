@@ -1,4 +1,4 @@
-//! How a library is opened, and how programs are written.
+//! Options for opening a library and for writing programs.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
 use crate::{Error, Library};
 
-/// How a library is opened. Without options, it is opened as the program opens it, but without the cache and the user's own configuration.
+/// Options for opening a library. By default, it is opened as the program opens it, but without the cache and the user's own configuration.
 ///
 /// ```
 /// # use pathbuild_api::{Error, LibraryOptions};
@@ -32,7 +32,7 @@ pub struct LibraryOptions {
     lang: Option<Lang>,
 }
 
-/// How programs are written.
+/// Options for writing programs.
 #[derive(Clone, Debug, Default)]
 pub struct EmitOptions {
     pub(crate) post: Option<String>,

@@ -24,13 +24,13 @@ pub struct Path {
     pub sweep_height: Option<f64>,
     /// Where the program's X0 Y0 lies in the drawing, in mm.
     pub zero: [f64; 2],
-    /// What is drawn on the layers of the path and of those that it embeds.
+    /// The elements on the layers of the path and of the paths that it embeds.
     pub elements: Vec<Element>,
     /// The moves of the tool, in order. Empty if the path has errors, except for cuts into its part, so that they can be shown.
     pub moves: Vec<Move>,
     /// Lengths and times; `None` if the path has errors, and then there is no program.
     pub statistics: Option<Statistics>,
-    /// What is wrong with the path, and with what it embeds.
+    /// Findings about the path and the paths that it embeds.
     pub findings: Vec<Finding>,
 }
 
@@ -62,7 +62,7 @@ pub struct Parameter {
     pub letter: char,
     /// Its value, as the drawing writes it, with variables replaced.
     pub value: String,
-    /// Where it comes from: `own`, `chain`, `path`, `lender`, `option` or `default`.
+    /// Its source: `own`, `chain`, `path`, `lender`, `option` or `default`.
     pub source: String,
 }
 
@@ -70,11 +70,11 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Move {
-    /// What it is for.
+    /// Its purpose.
     pub kind: MoveKind,
-    /// Where it begins: x, y, z in mm; `None` where the program does not say.
+    /// Its start: x, y, z in mm; `None` for a coordinate that the program does not state.
     pub from: [Option<f64>; 3],
-    /// Where it ends.
+    /// Its end.
     pub to: [Option<f64>; 3],
     /// Its arc; `None` for a straight move.
     pub arc: Option<Arc>,
@@ -88,7 +88,7 @@ pub struct Move {
     pub line: Option<u32>,
 }
 
-/// What a move is for.
+/// The purpose of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MoveKind {

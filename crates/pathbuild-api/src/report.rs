@@ -6,7 +6,7 @@ use pathbuild_workspace::list::{self, ListedPath};
 
 use crate::Finding;
 
-/// What was checked, and what was found.
+/// The outcome of a check.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CheckReport {
@@ -26,8 +26,8 @@ pub struct PathListing {
     pub paths: Vec<PathSummary>,
     /// Number of drawings that were searched.
     pub drawings: usize,
-    /// What is wrong with directories, with drawings by themselves, and with the inputs. What is wrong with paths is in
-    /// [`PathSummary::findings`]; [`Library::check`](crate::Library::check) gives all of it, each once.
+    /// Findings about directories, inputs, and drawings as a whole. Those about paths are in [`PathSummary::findings`];
+    /// [`Library::check`](crate::Library::check) gives all findings, without duplicates.
     pub findings: Vec<Finding>,
 }
 
@@ -53,7 +53,7 @@ pub struct PathSummary {
     pub minutes: Option<f64>,
     /// The program on disk.
     pub program: ProgramState,
-    /// What is wrong with the path, and with what it embeds: a fault of an embedded path is found in each path that embeds it.
+    /// Findings about the path and the paths that it embeds: a fault of an embedded path is listed for each path that embeds it.
     pub findings: Vec<Finding>,
 }
 
@@ -83,7 +83,7 @@ pub struct ProgramText {
     pub findings: Vec<Finding>,
 }
 
-/// What was written or compared, and what was found.
+/// The outcome of writing or comparing programs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EmitReport {
@@ -101,7 +101,7 @@ pub struct OutputFile {
     pub file: String,
     /// The path.
     pub path: String,
-    /// What became of it.
+    /// The outcome.
     pub state: FileState,
     /// Length of the program in mm.
     pub length: f64,
@@ -109,7 +109,7 @@ pub struct OutputFile {
     pub minutes: f64,
 }
 
-/// What became of a file.
+/// The outcome for a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FileState {

@@ -8,7 +8,7 @@ use pathbuild_workspace::verify::{self, CheckRecord, MoveComparison, Outcome, Ve
 
 use crate::{Error, Finding};
 
-/// How programs are verified.
+/// Options for verifying programs.
 #[derive(Clone, Debug, Default)]
 pub struct VerifyOptions {
     against: Option<String>,
@@ -89,7 +89,7 @@ impl VerifyOptions {
     }
 }
 
-/// What was verified, and what was found.
+/// The outcome of verifying programs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VerifyReport {
@@ -99,15 +99,15 @@ pub struct VerifyReport {
     pub programs: Vec<VerifiedProgram>,
 }
 
-/// What was verified of a program.
+/// A verified program.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VerifiedProgram {
     /// Its file.
     pub file: String,
-    /// What was checked, and what was not; empty if the program could not be read.
+    /// The checks, whether made or not; empty if the program could not be read.
     pub checks: Vec<ProgramCheck>,
-    /// What was compared with the drawing, if it was named.
+    /// The comparison with the drawing, if one was named.
     pub comparison: Option<DrawingComparison>,
 }
 

@@ -20,9 +20,9 @@ pub struct WatchReport {
     pub changed: Vec<String>,
     /// Those of them that no longer exist.
     pub removed: Vec<String>,
-    /// What was wrong before with the drawings that depend on them.
+    /// The earlier findings about the drawings that depend on these files.
     pub before: Vec<Finding>,
-    /// What is wrong with them now.
+    /// The current findings about these drawings.
     pub now: Vec<Finding>,
 }
 

@@ -265,7 +265,7 @@ pub fn check_drawings(
 /// A drawing, with the requested paths unless all are requested.
 type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
 
-/// Like [`check_drawings`], for drawings of which only some paths may be requested.
+/// Like [`check_drawings`], for drawings that may be requested with only some of their paths.
 fn check_paths(
     session: &mut Session<'_>,
     targets: &[NamedDrawing<'_>],

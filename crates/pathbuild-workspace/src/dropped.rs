@@ -20,11 +20,11 @@ pub struct DroppedProgram {
     pub name: String,
     /// Its text.
     pub text: Vec<u8>,
-    /// What the user typed in.
+    /// Values that the user typed in.
     pub assumptions: Assumptions,
 }
 
-/// What a user assumes about a program, as text; what is missing is taken from the program.
+/// Values that a user assumes for a program, as text; missing ones are taken from the program.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct Assumptions {
     /// Name of the dialect.

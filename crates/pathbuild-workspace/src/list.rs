@@ -64,7 +64,7 @@ pub struct ListedPath {
 }
 
 impl ListedPath {
-    /// A path of which only the error is known that kept it from being processed.
+    /// A path that could not be processed, with the error that prevented it.
     pub fn unknown(name: PathName, drawing: Utf8PathBuf, problem: Diagnostic) -> Self {
         Self {
             diagnostics: vec![problem.in_file(&drawing).in_path(name.as_str())],

@@ -74,7 +74,7 @@ pub struct Program {
     pub shown: Dialect,
     /// Steps and diagnostics.
     pub read: Interpretation,
-    /// How it was read, if by the definition that wrote it instead of a dialect.
+    /// The translation that was read, if the program was read by the definition that wrote it instead of a dialect.
     pub by_definition: Option<ByDefinition>,
     options: Options,
 }

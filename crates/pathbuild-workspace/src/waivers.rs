@@ -169,7 +169,7 @@ pub struct WaivedFinding {
     pub waiver: Waiver,
 }
 
-/// What a run covered: only what it covered can be found not to match any more.
+/// The files that a run covered. Only waivers for these files can be reported as matching nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Coverage {
     /// The files that were checked completely.

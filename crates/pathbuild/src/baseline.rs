@@ -155,7 +155,7 @@ impl Baseline {
     }
 }
 
-/// What a run covered.
+/// The files that a run covered.
 pub(crate) struct Run<'a> {
     system: &'a dyn System,
     working_directory: &'a Utf8Path,

@@ -1,4 +1,4 @@
-//! What a run takes from its environment: the working directory, the user's configuration, cache and language. (book: reference/configuration)
+//! The environment of a run: the working directory, the user's configuration, cache and language. (book: reference/configuration)
 #![expect(
     clippy::disallowed_methods,
     reason = "the environment tells where the user's own files are; no result depends on them"

@@ -32,7 +32,7 @@ pub fn conclude(context: &Context, args: &CheckArgs, checked: CheckOutcome, time
     }
 }
 
-/// What the run covered. Single paths cover no drawing, and some of the drawings are not all of them.
+/// The files that the run covered. A run on single paths covers no drawing completely, and one on some drawings not the whole library.
 fn coverage(context: &Context, args: &CheckArgs, checked: &[CheckedFile]) -> Coverage {
     let is_directory = |name: &Utf8Path| context.system.kind(name) == FileKind::Directory;
     let mut inputs = args.inputs.iter();

@@ -195,7 +195,7 @@ fn a_library_is_watched() {
         assert_eq!((&*first.changed, &*first.now), (&[][..], &[][..]));
         assert_eq!(second.changed, ["lib/8001.1P.dxf"]);
         assert!(second.before.is_empty() && second.now.iter().any(pathbuild_api::Finding::is_error));
-        // What the library knew before is forgotten.
+        // Earlier results are dropped.
         assert_eq!(library.check(&["lib/8001.1P.dxf"]).unwrap().findings, second.now);
     }
 }

@@ -7,7 +7,7 @@ use pathbuild_testkit::project;
 
 /// The public declarations of a file as rustfmt lays it out, one on a line, with the variants of public enums.
 fn public_items(source: &str) -> String {
-    // What precedes a declaration is listed with it: attributes, and the type whose functions follow.
+    // Lines that precede a declaration are listed with it: attributes, and the type whose functions follow.
     let (mut items, mut before, mut is_enum) = (String::new(), Vec::new(), false);
     let mut lines = source.lines();
     while let Some(line) = lines.next() {

@@ -13,7 +13,7 @@ use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
 use crate::system::{FileKind, Names, ReadError, join};
 
-/// The drawings of a directory by the path names that their file names admit.
+/// The drawings of a directory, by the path names that they may contain according to their file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameTable {
     names: Names,

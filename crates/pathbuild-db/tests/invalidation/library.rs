@@ -86,7 +86,7 @@ impl Library {
         open.pop();
     }
 
-    /// The files that define a path as seen from a file: that file itself, or those of the directories whose names admit it.
+    /// The files that define a path as seen from a file: that file itself, or those files of the directories whose names allow it.
     fn definitions<'a>(&'a self, from: &'a str, path: usize) -> Vec<&'a str> {
         if self.files[from].path == path {
             return vec![from];

@@ -20,7 +20,7 @@ pub enum Origin {
 pub struct SourcedValue<T> {
     /// The value.
     pub value: T,
-    /// What set the value.
+    /// The source that set the value.
     pub origin: Origin,
 }
 

@@ -260,7 +260,7 @@ fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
 /// reported by `check`.
 ///
 /// # Errors
-/// Which options are missing.
+/// The names of missing options.
 pub fn write(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,

@@ -1,4 +1,4 @@
-//! What programs depend on besides their paths: options that they need, and settings for writing them.
+//! The inputs of programs besides their paths: options that they need, and settings for writing them.
 
 use std::borrow::Borrow;
 use std::fmt::Debug;

@@ -21,7 +21,7 @@ use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_faul
 /// The target that each file was written for. File names are in lower case.
 pub type FileOwners = HashMap<String, Target>;
 
-/// What becomes of the paths of one program.
+/// The plan for the paths of one program.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Plan {
     /// Diagnostics of the paths and of the drawings that they use.
@@ -53,7 +53,7 @@ pub(super) struct Job {
     /// Whether another job writes one of these files, so that neither is generated.
     #[serde(skip)]
     pub(super) clashes: bool,
-    /// What became of it; `None` as long as it is not generated.
+    /// The outcome of the job; `None` until its files are generated.
     pub(super) outcome: Option<ProgramOutcome>,
 }
 
@@ -111,7 +111,7 @@ impl Job {
 /// Plans the programs of a request: as an earlier run did if that holds, otherwise from their checked paths.
 ///
 /// # Errors
-/// Which options are missing.
+/// The names of missing options.
 pub(super) fn plan(
     builder: &JobBuilder<'_>,
     task: Task,
@@ -168,7 +168,7 @@ pub(super) fn plan(
     refusal.map_or(Ok(plans), Err)
 }
 
-/// What the plan of checked paths depends on.
+/// The inputs of the plan of checked paths.
 fn inputs(checked: &[CheckedTarget]) -> Inputs {
     let traces: Vec<Trace> = checked.iter().filter_map(|checked| checked.trace.clone()).collect();
     // A check that was aborted has no trace.
@@ -354,7 +354,7 @@ pub(super) fn output_directory(out_dir: Option<&Utf8Path>, drawing: &Utf8Path) -
     out_dir.or(drawing.parent()).unwrap_or(Utf8Path::new("")).to_owned()
 }
 
-/// Marks jobs of which two would write the same file (PB514). Case is ignored, as some file systems do.
+/// Marks jobs that would write the same file (PB514). Case is ignored, as some file systems do.
 pub(super) fn mark_clashes<'p>(
     session: &Session<'_>,
     jobs: impl Iterator<Item = &'p mut Job>,

@@ -17,7 +17,7 @@ use crate::session::{Argument, ArgumentMatches, Selection, Session, several_path
 pub(super) struct TargetSelection {
     /// Each path; joined paths are listed as often as they were named.
     pub(super) targets: Vec<Target>,
-    /// Drawings of which all paths were considered.
+    /// Drawings whose paths were all considered.
     pub(super) covered: Vec<Answer<DrawingResult>>,
     /// Drawings that were named, or that may define a named path.
     pub(super) named: Vec<Answer<DrawingResult>>,

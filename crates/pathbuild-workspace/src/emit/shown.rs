@@ -1,4 +1,4 @@
-//! What other commands show of a path: its scene, the text of its program, its setup sheet.
+//! Views of a path for other commands: its scene, the text of its program, its setup sheet.
 
 use std::slice;
 
@@ -35,12 +35,12 @@ pub struct SceneReport {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Which program text is shown beside the moves.
+/// The program text that is shown beside the moves.
 #[derive(Clone, Copy, Debug)]
 pub enum ShownText<'a> {
     /// The native program.
     Native,
-    /// What `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
+    /// The program that `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
     Emitted(Option<&'a PostProcessor>),
 }
 

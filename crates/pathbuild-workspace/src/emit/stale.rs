@@ -73,7 +73,7 @@ impl StaleProgram {
     }
 }
 
-/// What became of programs of earlier runs.
+/// The outcome of searching for stale programs of earlier runs.
 #[derive(Debug, Default)]
 pub(super) struct StaleOutcome {
     /// Earlier programs of paths that could not be written now.
@@ -370,12 +370,12 @@ fn is_sheet(name: &str) -> bool {
     OutputKind::ALL.iter().any(|kind| kind.sheet().is_some() && name.ends_with(kind.suffix()))
 }
 
-/// Which drawings and paths may have written a program.
+/// The drawings and paths that may have produced a program.
 struct Writers {
     /// Paths of covered drawings for which the run generates nothing, because they have errors or are no targets. Existing files may still
     /// belong to them.
     idle: BTreeSet<Title>,
-    /// Drawings of which all paths are known.
+    /// Drawings whose paths are all known.
     covered: BTreeSet<Title>,
     /// Other existing drawings.
     others: BTreeSet<Title>,

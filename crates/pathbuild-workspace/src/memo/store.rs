@@ -23,15 +23,15 @@ use crate::workspace::Workspace;
 /// A result, of an earlier run or of this one.
 #[derive(Debug)]
 pub struct Answer<T> {
-    /// What it is about. It begins with the path of a drawing; anything more specific follows after a NUL.
+    /// The subject of the result. It begins with the path of a drawing; anything more specific follows after a NUL.
     pub subject: Box<str>,
     /// The result.
     pub value: T,
-    /// What this run computed it from; `None` if an earlier run did.
+    /// The inputs that this run computed it from; `None` if it was cached.
     pub inputs: Option<Inputs>,
 }
 
-/// What a result of this run was computed from, and which files were generated from it.
+/// The inputs of a result of this run, and the files that were generated from it.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
     /// The drawings and lookups that it depends on.

@@ -23,7 +23,7 @@ use super::{Session, library};
 use crate::config::types::Pattern;
 use crate::inputs::{Input, Inputs};
 
-/// What the arguments may refer to.
+/// The files and directories that the arguments may refer to.
 #[derive(Debug, Default)]
 pub struct ArgumentMatches {
     /// Each argument; without any, the directories of the library.
@@ -40,7 +40,7 @@ pub struct ArgumentMatches {
     pub(super) name_problems: Vec<Diagnostic>,
 }
 
-/// What one argument may refer to.
+/// The files or the directory that one argument may refer to.
 #[derive(Debug)]
 pub enum Argument {
     /// A directory.
@@ -168,7 +168,7 @@ impl Session<'_> {
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
-    /// Adds the paths of the library whose names match a pattern, and what is wrong with drawings of which no path is known.
+    /// Adds the paths of the library whose names match a pattern, and the findings of drawings without any known path.
     fn add_matching_paths(&self, pattern: &Pattern, found: &mut ArgumentMatches) {
         let paths = self.paths_of_library(usize::MAX);
         let (files, problems) = self.all_drawings();

@@ -169,7 +169,7 @@ impl Session<'_> {
     }
 }
 
-/// What one target embeds.
+/// The graph of the paths that one target embeds.
 struct TargetGraph {
     /// The first node is the target.
     nodes: Vec<Node>,

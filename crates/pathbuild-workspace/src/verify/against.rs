@@ -32,7 +32,7 @@ pub(super) struct ReferenceProgram {
     file: Utf8PathBuf,
     /// The clamps around it, if its drawings have any.
     clamps: Option<Clamps>,
-    /// What it depends on, if the session traces that.
+    /// The inputs that it depends on, if the session traces them.
     trace: Option<Trace>,
 }
 
@@ -83,7 +83,7 @@ impl ReferenceProgram {
         &self.file
     }
 
-    /// What it depends on, if the session traces that.
+    /// The inputs that it depends on, if the session traces them.
     pub(super) fn trace(&self) -> Option<&Trace> {
         self.trace.as_ref()
     }

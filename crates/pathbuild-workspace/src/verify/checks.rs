@@ -1,4 +1,4 @@
-//! What `verify` checked of a program, with which values, and what it did not. (book: program/reading)
+//! The checks that `verify` made of a program, with their values, and those that it could not make. (book: program/reading)
 
 use std::fmt::Write;
 
@@ -156,7 +156,7 @@ impl CheckRecord {
         }
     }
 
-    /// What would enable the check.
+    /// The option that would make the check possible.
     pub fn option(&self, reason: Reason) -> &'static Text {
         match (reason, self.requirement) {
             (Reason::NoDrawing, _) => &AGAINST,

@@ -64,14 +64,14 @@ pub enum Failure {
     Drawing(Vec<Diagnostic>),
 }
 
-/// What was found about a program.
+/// The findings about a program, and the checks that were made.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct VerifiedProgram {
-    /// What is wrong with it.
+    /// The findings.
     pub diagnostics: Vec<Diagnostic>,
-    /// What was checked; empty if the program could not be checked at all.
+    /// The checks; empty if the program could not be checked at all.
     pub checks: Vec<CheckRecord>,
-    /// What was compared with the drawing.
+    /// The comparison with the drawing, if one was named.
     pub comparison: Option<MoveComparison>,
 }
 
@@ -182,7 +182,7 @@ struct WrittenSteps<'m> {
     has_probed: bool,
 }
 
-/// What was found about the steps as they are written.
+/// Findings about the steps as they are written.
 struct WrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,
@@ -286,7 +286,7 @@ impl<'v> Examination<'v> {
         }
     }
 
-    /// What is found about the program.
+    /// Completes the findings about the program.
     ///
     /// # Errors
     /// The problem that prevents the verification.
@@ -318,7 +318,7 @@ impl<'v> Examination<'v> {
         rewritten.transpose()
     }
 
-    /// What the rules find.
+    /// The findings of the rules.
     fn findings(
         &self,
         written: WrittenFindings,
@@ -364,7 +364,7 @@ impl<'v> Examination<'v> {
         (found, comparison)
     }
 
-    /// What was checked. Adds to what was found an error for each check that is required and was not made.
+    /// The checks. Adds an error to the findings for each check that is required and was not made.
     fn checks(&self, found: &mut Vec<Diagnostic>) -> Vec<CheckRecord> {
         let mut is_limit_reached = false;
         for problem in found.iter_mut().filter(|problem| problem.code() == Code::LimitReached) {
@@ -379,7 +379,8 @@ impl<'v> Examination<'v> {
         records
     }
 
-    /// What is doubtful about the program's words. Where there is a drawing, doubts about something that it does not contain are errors.
+    /// Doubts about the program's words. With a drawing to compare with, doubts about something that the drawing does not contain are
+    /// errors.
     fn doubts(&self, rewritten: Option<&Rewritten>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
         let mut doubts = self.program.read.problems.clone();
         if rewritten.is_some_and(Rewritten::is_same) {

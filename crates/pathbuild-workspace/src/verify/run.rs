@@ -26,7 +26,7 @@ pub struct Request<'a> {
 pub struct Verification {
     /// The programs, in the order in which they were named.
     pub programs: Vec<(Utf8PathBuf, VerifiedProgram)>,
-    /// What is wrong with directories.
+    /// Findings about directories.
     pub problems: Vec<Diagnostic>,
 }
 

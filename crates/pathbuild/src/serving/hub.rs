@@ -47,13 +47,13 @@ struct PublishedDrawing {
 
 /// A request of a page for a picture or a scene.
 pub(super) struct Question {
-    /// What to show.
+    /// The subject of the scene or picture.
     pub(super) subject: Subject,
     /// Receives the answer; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
 }
 
-/// What a page wants to see.
+/// The subject of a request.
 pub(super) enum Subject {
     /// A drawing of the library.
     Drawing {
