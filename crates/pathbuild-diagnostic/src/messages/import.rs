@@ -80,8 +80,8 @@ messages! {
     }
     /// Axes without limits.
     NO_TRAVEL: UnusableValue {
-        en: "the limits of the axes do not make up a travel; they are not imported",
-        de: "die Grenzen der Achsen ergeben keinen Verfahrweg; sie werden nicht übernommen",
+        en: "the limits of the axes give no valid travel; they are not imported",
+        de: "die Grenzen der Achsen ergeben keinen gültigen Verfahrweg; sie werden nicht übernommen",
         help_en: "set `travel` in pathbuild.toml by hand",
         help_de: "`travel` in pathbuild.toml von Hand setzen",
     }

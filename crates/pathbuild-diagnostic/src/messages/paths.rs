@@ -236,8 +236,8 @@ messages! {
     TOO_DEEP: NestingTooDeep {
         en: "path {name} is embedded more than {limit} levels deep: {chain}",
         de: "Pfad {name} ist mehr als {limit} Ebenen tief eingebettet: {chain}",
-        help_en: "embed it in a project nearer to the outermost",
-        help_de: "in einem Projekt einbetten, das dem äußersten näher ist",
+        help_en: "embed it in a project with fewer levels above it",
+        help_de: "in einem Projekt einbetten, über dem weniger Ebenen liegen",
     }
     /// A path that embeds itself.
     CYCLE: SubpathCycle {

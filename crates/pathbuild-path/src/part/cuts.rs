@@ -27,7 +27,7 @@ pub struct PathCuts {
     pub bars: Vec<StandingBar>,
     /// Its start and its end.
     pub ends: (Xy, Xy),
-    /// The paths that it embeds, which may cut what it does not.
+    /// The paths that it embeds: their cuts count as well.
     pub embedded: Vec<EmbeddedPlace>,
 }
 
