@@ -24,7 +24,7 @@ fn every_dependency_says_what_it_is_for() {
     assert_eq!(listed.len(), used.len(), "a crate has two rows");
 }
 
-/// Without `--locked`, cargo may take versions of crates that nobody has tried.
+/// Without `--locked`, cargo may use untested versions of crates.
 #[test]
 fn every_documented_command_is_locked() {
     let project = project();

@@ -137,7 +137,7 @@ fn a_file_that_is_not_there_is_named() {
     assert_says(&one_error(&Place::new(), NAME), "PB001", NAME);
 }
 
-/// Tests may run as a user who may read everything, but nobody can read the beginning of a process's memory.
+/// Tests may run as a user who may read every file, but the beginning of a process's memory is unreadable for all users.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_file_that_cannot_be_read_is_an_error_of_its_own() {

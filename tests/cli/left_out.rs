@@ -1,5 +1,5 @@
-//! What is drawn on a path's layer and left out (PB111): programs, sheets and the last line of `emit` say so.
-//! (book: language/layers-and-names)
+//! Entities on a path's layer that are left out (PB111): programs, sheets and the last line of `emit` say so. (book:
+//! language/layers-and-names)
 
 use crate::support::{Place, Run};
 

@@ -109,7 +109,7 @@ fn what_took_too_long_is_compiled_again() {
     assert!(why(&place, "1111.1P").contains("up to date"));
 }
 
-/// Where links lead is a part of what is kept: as long as that and the files are the same, results hold.
+/// The targets of links are part of a cached result, which holds as long as they and the files are unchanged.
 #[cfg(unix)]
 #[test]
 fn results_hold_in_directories_with_links() {

@@ -1,4 +1,4 @@
-//! What is kept comes back as it was, and holds as long as what it was made from is as it was.
+//! A stored catalogue is loaded unchanged, and its results hold as long as their inputs are unchanged.
 
 #![allow(
     clippy::unwrap_used,
@@ -28,7 +28,7 @@ fn place() -> (TempDir, Utf8PathBuf) {
     (directory, path)
 }
 
-/// A result made from one drawing, and from the question which files may hold 1234.1P.
+/// A catalogue with one result, which depends on one drawing and on a lookup of 1234.1P.
 fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     let record = Record {
         subject: "a.dxf".into(),
@@ -47,7 +47,7 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     }
 }
 
-/// What comes of keeping a catalogue.
+/// Stores a catalogue and loads it again.
 fn stored(catalogue: &Catalogue) -> Catalogue {
     let (_directory, base) = place();
     let place = cache(&base);
@@ -64,13 +64,13 @@ fn covers(file: &str, path: &str) -> bool {
     file.get(..4).is_some_and(|begin| path.starts_with(begin))
 }
 
-/// Everything is looked at; of outputs all counts.
+/// A context that verifies everything and hashes whole output files.
 fn context<'a>(base: &'a Utf8Path, covers: pathbuild_cache::CoversFn<'a>) -> VerifyContext<'a> {
     let hash_output = &|_: &Utf8Path, bytes: &[u8]| *blake3::hash(bytes).as_bytes();
     VerifyContext { base, covers, is_requested: &|_| true, is_allowed: &|_| true, read: &read, hash_output }
 }
 
-/// A cache that is there.
+/// Creates a cache.
 fn cache(base: &Utf8Path) -> TreeStore {
     let place = TreeStore::of_tree(&Home::Named(base.join("cache")), base);
     place.make().unwrap();
@@ -118,7 +118,7 @@ fn a_catalogue_is_found_under_its_key_and_build_only() {
     assert_eq!(place.load(&Key::new("other", "question")), Err(CacheFault::Foreign));
 }
 
-/// A file, and the time when a run begins after it has rested.
+/// Writes a file, and returns it with the time at which a run begins after a pause.
 fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
     let file = base.join("a.dxf");
     fs::write(&file, "one").unwrap();
@@ -148,7 +148,7 @@ fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
 #[test]
 fn a_file_that_has_rested_is_known_by_its_stamp() {
     let (_directory, base) = place();
-    // A tick of the coarsest clock, and what a clock that counts seconds may hide.
+    // Longer than a tick of the coarsest clock plus a second.
     let (file, begun) = written(&base, Duration::from_millis(3200));
     let stamp = Stamp::of(&file).settled(begun);
     assert_ne!(stamp, Stamp::UNKNOWN);
@@ -162,7 +162,7 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
     assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
 
-/// A clock that is set back makes a file of now one of the past: it is the bytes' own stamp that is kept.
+/// Setting a file's time back must not make a new file look old: the stamp belongs to the bytes that were read.
 #[test]
 fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
     let (_directory, base) = place();
@@ -172,10 +172,10 @@ fn the_stamp_that_bytes_were_read_under_is_what_they_rest_under() {
         fs::File::options().write(true).open(&file).unwrap().set_modified(time).unwrap();
         Stamp::of(&file).settled(begun)
     };
-    // The time of the last change of what is known of it tells, where there is one.
+    // On Unix, the time of the last change of the file's metadata reveals this.
     assert_eq!(set(10) == Stamp::UNKNOWN, cfg!(unix));
     assert_eq!(set(2), Stamp::UNKNOWN);
-    // Windows replaces no file that is open.
+    // Windows does not replace an open file.
     let of_open = Stamp::of_open(&fs::File::open(&file).unwrap());
     assert_eq!(of_open, Stamp::of(&file));
     fs::write(base.join("b"), "one").unwrap();
@@ -209,7 +209,7 @@ fn where_links_decide_what_is_what_everything_is_asked_again() {
     assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
 }
 
-/// A result holds without what was written of it, and nothing is known of what nobody asks for.
+/// A result holds even if its output files have changed. Files of results that are not requested are not verified.
 #[test]
 fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
     let (_directory, base) = place();
@@ -243,7 +243,7 @@ fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
     assert_eq!(pathbuild_cache::verify(&snapshot, people, Listings::new()).files[1], restored("a.gcode"));
 }
 
-/// Files and results in no order, several of one file, with texts that begin alike and are no ASCII.
+/// A larger catalogue: unsorted, several results per file, and texts that have common prefixes and are not ASCII.
 fn larger(base: &Utf8Path) -> Catalogue {
     let names = ["b.dxf", "a.dxf", "ä.dxf", "a.dxf.dxf", "c/a.dxf"];
     let file = |(index, name): (u8, &&str)| FileFact {
@@ -291,7 +291,7 @@ fn what_is_kept_is_found_by_its_name() {
     assert_eq!(Catalogue::default().find("a.dxf", 0), None);
 }
 
-/// Neither a flipped bit, nor a part of a file, nor more than a file.
+/// Files with a flipped bit, a missing part, or additional bytes.
 #[test]
 fn a_file_that_is_not_whole_is_not_used() {
     let (_directory, base) = place();
@@ -317,7 +317,7 @@ fn a_file_that_is_not_whole_is_not_used() {
 /// The magic, the key, the checksum.
 const HEAD: usize = 16 + 64 + 32;
 
-/// Numbers that lead out of a file are refused even where a checksum says that somebody wrote them.
+/// Numbers out of bounds are refused even if the checksum is correct.
 #[test]
 fn numbers_out_of_bounds_are_refused() {
     let (_directory, base) = place();
@@ -335,7 +335,7 @@ fn numbers_out_of_bounds_are_refused() {
             forged[HEAD - 32..HEAD].copy_from_slice(&checksum);
             fs::write(&file, forged).unwrap();
             match place.load(&key) {
-                // What it says may be wrong, but can be looked at.
+                // Its facts may be wrong, but verifying them must not panic.
                 Ok(catalogue) => {
                     let catalogue = catalogue.unwrap();
                     let verdict =

@@ -1,4 +1,4 @@
-//! Where results lie: only the user's own files, never through links.
+//! The directory of cached results: only the user's own files, never through links.
 #![cfg(unix)]
 #![expect(
     clippy::unwrap_used,
@@ -77,7 +77,7 @@ fn files_that_are_too_large_are_not_read() {
     let place = TreeStore::of_tree(&Home::Named(base.join("named")), &base);
     store(&place);
     let key = Key::new("build", "question");
-    // Without content: they take no room on disk.
+    // Empty files take no space on disk.
     for name in [key.file_name(), "CACHEDIR.TAG".to_owned()] {
         fs::File::create(place.directory().join(name)).unwrap().set_len(1 << 42).unwrap();
     }
@@ -116,13 +116,13 @@ fn nothing_is_pruned_through_a_link_or_among_other_things() {
     let place = TreeStore::of_tree(&Home::Named(base.join("one")), &base);
     fs::write(base.join("one/.bashrc"), "precious").unwrap();
     assert!(place.prune(&build).is_err() && old.exists());
-    // Without the others it is what a killed run may leave.
+    // Without other files, a killed run may have left this.
     fs::remove_file(base.join("one/.bashrc")).unwrap();
     assert!(place.prune(&build).unwrap() == 1 && !old.exists());
     assert_eq!(TreeStore::of_tree(&Home::Named(base.join("none")), &base).prune(&build).unwrap(), 0);
 }
 
-/// Others mark their caches by the same signature, and call their files as they like.
+/// Other programs mark their caches with the same signature, and may use any file names.
 #[test]
 fn only_what_pathbuild_makes_is_removed() {
     let (_directory, base) = world();
@@ -159,7 +159,7 @@ fn only_what_pathbuild_makes_is_removed() {
     assert!(of_others.iter().all(|name| base.join("one").join(name).exists()));
 }
 
-/// Without its mark, a directory is pathbuild's only if nothing but what it makes is in it.
+/// Without its mark, a directory belongs to pathbuild only if it contains nothing but files that pathbuild creates.
 #[test]
 fn a_directory_without_a_mark_may_be_anybodys() {
     let (_directory, base) = world();
@@ -188,7 +188,7 @@ fn a_directory_without_a_mark_may_be_anybodys() {
     }
 }
 
-/// Another tree's directory that is somebody else's does not keep the others from being looked after.
+/// If the directory of one tree belongs to another user, those of other trees are still pruned.
 #[test]
 fn one_directory_that_is_refused_keeps_no_other_from_being_pruned() {
     let (_directory, base) = world();

@@ -984,7 +984,7 @@ fn calls_that_cannot_be_followed_are_reported() {
         assert_eq!(unfollowed(Mach3, program), 1, "{program}");
     }
     assert_eq!(unfollowed(Fanuc, "O7\nG0 X1.\nM98 P7\nM30"), 1, "the main program");
-    // A subprogram that nobody calls is text behind the end.
+    // A subprogram that is never called is text after the end.
     assert_eq!(wrong_of(Mach3, "M30\nO5\nG0 X1\nM99").len(), 1);
 }
 

@@ -333,7 +333,7 @@ fn wrong_direction(program: &Program) -> Option<Changes> {
     Some(vec![(line, Some(word.replace(&program.lines[line], other).into()))])
 }
 
-/// What is found of a mistake in the programs.
+/// The findings for one kind of mistake in all programs.
 #[derive(Default)]
 struct Outcome {
     codes: BTreeMap<String, usize>,

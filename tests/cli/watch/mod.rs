@@ -327,7 +327,7 @@ fn difference(said: &[String]) -> i64 {
     counts.collect::<BTreeMap<_, _>>().values().sum()
 }
 
-/// The system does not tell that a drawing can be read again if its link leads through a directory that nobody else may look into.
+/// The system does not report that a drawing can be read again if its link leads through a directory without access for others.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_may_have_passed_is_tried_again_with_the_next_change() {

@@ -63,7 +63,7 @@ fn what_leads_to_the_working_directory_may_be_replaced() {
     watch.until("parts/1001.dxf: changed");
 }
 
-/// Where nothing is named from it, nobody needs the working directory.
+/// The working directory is not needed if no argument is relative to it.
 #[test]
 fn a_working_directory_that_nothing_is_named_from_may_go() {
     let place = library_in("work").file("elsewhere/a.txt", "");
