@@ -186,6 +186,16 @@ fn a_radius_that_is_too_short_is_no_half_circle() {
     assert_eq!(found("9.999"), FINE);
 }
 
+/// The S of a layer starts its spindle, and nothing stops it: S0 would cut with the spindle at rest.
+#[test]
+fn a_layer_of_xpertmill_needs_a_speed_above_zero() {
+    let layer = |speed: &str| faults(Xpertmill, &format!("G71\nM06 02 {speed}\nG00 Z5\nM30"));
+    assert_eq!(layer("S0"), ["2 value-out-of-range"]);
+    assert_eq!(layer("S1"), [""; 0]);
+    // Elsewhere S0 before M3 is what controls begin with.
+    assert_eq!(faults(Grbl, "G21\nS0\nM30"), [""; 0]);
+}
+
 /// XpertMILL knows no G91.
 #[test]
 fn arcs_that_leave_their_plane_are_doubtful_where_helices_are_unknown() {

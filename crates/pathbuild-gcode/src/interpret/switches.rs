@@ -315,6 +315,10 @@ impl Interpreter<'_> {
         if slot.value < 0.0 {
             return self.out_of_range(block, "S", slot, &limits::NOT_NEGATIVE);
         }
+        // XpertMILL starts the spindle of a layer by its S, and has no M5: 0 would cut with the spindle at rest.
+        if self.rules.layers && slot.value == 0.0 {
+            return self.out_of_range(block, "S", slot, &limits::POSITIVE);
+        }
         self.state.spindle.speed = slot.value;
         if !self.rules.layers {
             return;
