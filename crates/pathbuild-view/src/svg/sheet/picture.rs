@@ -36,7 +36,7 @@ pub(super) struct PlacedPicture {
     /// Whether it has a true-size inset.
     has_inset: bool,
     height: f64,
-    /// Whether it shows the stock when it is done instead of the moves.
+    /// Whether it shows the stock after milling instead of the moves.
     is_stock: bool,
     /// The position of the lower left corner if the picture is rotated to landscape.
     turned: Option<Point>,
@@ -81,7 +81,7 @@ pub(super) fn larger(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     (placed.scale.0 > on_first.scale.0).then_some(placed)
 }
 
-/// The stock when it is done, on a whole page; `None` if nothing is cut.
+/// The stock after milling, on a whole page; `None` if nothing is cut.
 pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
     let [low, high] = cleared(sheet).filter(|_| has_stock(&sheet.scene))?;
@@ -190,8 +190,8 @@ impl PlacedPicture {
         canvas.open(&format!("id=\"stock-legend\" fill=\"{INK}\""));
         let scale = self.scale.text();
         let title = Words(lang).either(
-            format!("when it is done, scale {scale}"),
-            format!("wenn es fertig ist, Maßstab {scale}"),
+            format!("after milling, scale {scale}"),
+            format!("nach dem Fräsen, Maßstab {scale}"),
         );
         canvas.text([self.area.left, top], 11.0, Anchor::Start, "font-weight=\"bold\"", &title);
         let right = self.area.left + self.area.width;
