@@ -13,6 +13,15 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::workspace::Workspace;
 
+/// A file other than a drawing that a result depends on.
+#[derive(Clone, Debug)]
+pub struct ExtraInput {
+    /// Its path.
+    pub path: Utf8PathBuf,
+    /// Hash of the bytes that were read; `None` if reading failed.
+    pub hash: Option<[u8; 32]>,
+}
+
 /// Whether a file exists under this name and is not a directory. Unreadable files are reported when they are read.
 pub fn is_there(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())

@@ -22,7 +22,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::config::types::Extent;
 use crate::config::{Origin, Settings, is_file_name, types};
-use crate::memo::ExtraInput;
+use crate::files::ExtraInput;
 use crate::workspace::Workspace;
 
 /// A post definition with everything that its output depends on besides the program.

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Settings;
 use crate::config::types::SheetFormat;
-use crate::memo::{ExtraInput, GeneratedFile, OutputState};
+use crate::files::ExtraInput;
+use crate::memo::{GeneratedFile, OutputState};
 use crate::session::OutputKind;
 
 /// What to do with the generated files.

@@ -14,9 +14,8 @@ use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, Shee
 use super::options::{OutputSettings, SheetSettings, total};
 use super::outcome::cannot_write;
 use super::plan::Job;
-use super::shown::finished_parts;
 use crate::config::types::SheetFormat;
-use crate::session::{OutputKind, WriteSettings, program_scene};
+use crate::session::{OutputKind, WriteSettings, finished_parts, program_scene};
 
 /// Content of a job's sheet; `None` if a drawing changed in the meantime.
 ///

@@ -4,15 +4,13 @@ use std::slice;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Database, PlacedPart, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
-    other_layers, path_names, placed_keep_outs, placed_parts, traced_program,
+    Database, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
+    other_layers, path_names, placed_keep_outs, traced_program,
 };
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_path::{KeepOut, PathName};
-use pathbuild_view::{
-    self as view, BilingualText, EmittedText, FinishedPart, PartSource, Scene, ScenePath, Sheet,
-};
+use pathbuild_view::{self as view, BilingualText, EmittedText, Scene, ScenePath, Sheet};
 
 use super::build::{Built, build};
 use super::options::{self, OutputSettings, writing};
@@ -23,7 +21,9 @@ use crate::config::Origin;
 use crate::config::types::SheetFormat;
 use crate::findings::Findings;
 use crate::posting::PostProcessor;
-use crate::session::{CheckedTarget, NamedPaths, NotOnePath, Session, drawn_source, examples, program_scene};
+use crate::session::{
+    CheckedTarget, NamedPaths, NotOnePath, Session, drawn_source, examples, finished_parts, program_scene,
+};
 use crate::workspace::Workspace;
 
 /// A scene, with the diagnostics of its paths.
@@ -154,24 +154,6 @@ impl Session<'_> {
         let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(self.db(), file, drawn, &parameters)));
         (drawn, diagnostics, Vec::new())
     }
-}
-
-/// The finished parts that the program of a target cuts.
-pub(super) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart> {
-    let part = |part: PlacedPart<'_>| {
-        view::finished_part(&PartSource {
-            part: part.drawn,
-            left: part.left,
-            lost_bars: part.lost_bars,
-            gouges: &part.gouges,
-            placement: &part.placement,
-            is_loose: part.is_loose,
-            radius: part.radius,
-            top: part.top,
-            tolerance: part.tolerance,
-        })
-    };
-    placed_parts(db, target).into_iter().map(part).collect()
 }
 
 /// The message of a diagnostic in both languages.

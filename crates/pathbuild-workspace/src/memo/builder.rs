@@ -16,7 +16,8 @@ use pathbuild_path::PathName;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Memo;
-use super::store::{Answer, ExtraInput, FreshResult, GeneratedFile, Inputs, Store};
+use super::store::{Answer, FreshResult, GeneratedFile, Inputs, Store};
+use crate::files::ExtraInput;
 use crate::session::{MOST_UNKNOWN, Session};
 
 impl Store {

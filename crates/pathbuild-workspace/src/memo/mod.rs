@@ -19,9 +19,7 @@ use crate::memo::store::Scope;
 pub use builder::{DrawingResult, is_transient};
 pub(crate) use builder::{find, read_drawings, subject};
 use store::Store;
-pub use store::{
-    Answer, Dependencies, ExtraInput, FreshResult, GeneratedFile, Inputs, OutputState, hash_output,
-};
+pub use store::{Answer, Dependencies, FreshResult, GeneratedFile, Inputs, OutputState, hash_output};
 pub use store::{BUILD, Coverage, CoveredPaths};
 
 /// Results of earlier runs of a command, if there are any.

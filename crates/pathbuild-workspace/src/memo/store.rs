@@ -17,6 +17,7 @@ use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 use serde::Serialize;
 
 use crate::config::ResultKind;
+use crate::files::ExtraInput;
 use crate::session::{ArgumentMatches, OutputKind, Session, without_values};
 use crate::workspace::Workspace;
 
@@ -76,15 +77,6 @@ pub(super) struct Store {
     pub(super) verdict: Verdict,
     /// Index of the record that is likely requested next, since requests come in order.
     pub(super) next: Cell<usize>,
-}
-
-/// A file other than a drawing that a result depends on.
-#[derive(Clone, Debug)]
-pub struct ExtraInput {
-    /// Its path.
-    pub path: Utf8PathBuf,
-    /// Hash of the bytes that were read; `None` if reading failed.
-    pub hash: Option<[u8; 32]>,
 }
 
 /// A generated file.

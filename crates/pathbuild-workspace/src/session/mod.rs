@@ -30,7 +30,7 @@ pub use library::{ProgramMatches, by_name, by_place};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_places, without_values};
 pub(crate) use resolve::MOST_UNKNOWN;
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths};
-pub(crate) use scene::{drawn_source, examples, program_scene};
+pub(crate) use scene::{drawn_source, examples, finished_parts, program_scene};
 pub use settings::{limits, reading};
 pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pairs};
 

@@ -2,15 +2,18 @@
 
 use camino::Utf8Path;
 use pathbuild_db::{
-    Db, DrawnPath, Settings, SourceFile, TracedProgram, assigned_texts, drawn_path, in_force, keep_outs,
-    other_layers, path_names, program,
+    Database, Db, DrawnPath, PlacedPart, Settings, SourceFile, Target, TracedProgram, assigned_texts,
+    drawn_path, in_force, keep_outs, other_layers, path_names, placed_parts, program,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{ElementParameters, PathName, PathRole};
 use pathbuild_toolpath::{Correction, PlannedMove, ProgramStep};
-use pathbuild_view::{self as view, DrawnSource, EmittedText, Example, ProgramSource, Scene, ScenePath};
+use pathbuild_view::{
+    self as view, DrawnSource, EmittedText, Example, FinishedPart, PartSource, ProgramSource, Scene,
+    ScenePath,
+};
 
 use super::work::about;
 use super::{CheckedTarget, Session, WriteSettings};
@@ -32,8 +35,7 @@ impl Session<'_> {
     /// Scenes of the geometry in some drawings, without programs; `None` for a drawing that triggers a bug.
     pub fn drawn_scenes(&self, files: &[&Utf8Path]) -> Vec<Option<Scene>> {
         let files: Vec<SourceFile> = files.iter().map(|file| self.file(file)).collect();
-        let scenes =
-            self.map_guarded(&files, |db: &pathbuild_db::Database, file: &SourceFile| drawn_scene(db, *file));
+        let scenes = self.map_guarded(&files, |db: &Database, file: &SourceFile| drawn_scene(db, *file));
         scenes.into_iter().map(Result::ok).collect()
     }
 
@@ -44,7 +46,7 @@ impl Session<'_> {
             names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
         let checked =
             self.map_with_checker(&paths, |checker, (file, name)| checker.check_leniently(*file, name));
-        let hash = |db: &pathbuild_db::Database, checked: &CheckedTarget| {
+        let hash = |db: &Database, checked: &CheckedTarget| {
             program(db, checked.target)
                 .as_deref()
                 .map(|program| Provenance::of_programs(&[program], &[], None).moves)
@@ -152,4 +154,22 @@ pub(crate) fn drawn_source<'db>(
 ) -> DrawnSource<'db> {
     let DrawnPath { raw, positions } = drawn;
     DrawnSource { file: file.path(db).as_str(), raw, positions, texts: assigned_texts(db, file), in_force }
+}
+
+/// The finished parts that the program of a target cuts.
+pub(crate) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart> {
+    let part = |part: PlacedPart<'_>| {
+        view::finished_part(&PartSource {
+            part: part.drawn,
+            left: part.left,
+            lost_bars: part.lost_bars,
+            gouges: &part.gouges,
+            placement: &part.placement,
+            is_loose: part.is_loose,
+            radius: part.radius,
+            top: part.top,
+            tolerance: part.tolerance,
+        })
+    };
+    placed_parts(db, target).into_iter().map(part).collect()
 }

@@ -5,7 +5,8 @@ use pathbuild_db::catch_bugs;
 use pathbuild_diagnostic::Diagnostic;
 
 use super::{Failure, VerifiedProgram, Verifier, VerifyOptions};
-use crate::memo::{Answer, ExtraInput, Inputs, Memo, is_transient};
+use crate::files::ExtraInput;
+use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;
 use crate::session::Session;
 use crate::workspace::Workspace;

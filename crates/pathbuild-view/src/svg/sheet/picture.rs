@@ -189,10 +189,8 @@ impl PlacedPicture {
         let top = self.bottom() - LEGEND + 12.0;
         canvas.open(&format!("id=\"stock-legend\" fill=\"{INK}\""));
         let scale = self.scale.text();
-        let title = Words(lang).either(
-            format!("after milling, scale {scale}"),
-            format!("nach dem Fräsen, Maßstab {scale}"),
-        );
+        let title = Words(lang)
+            .either(format!("after milling, scale {scale}"), format!("nach dem Fräsen, Maßstab {scale}"));
         canvas.text([self.area.left, top], 11.0, Anchor::Start, "font-weight=\"bold\"", &title);
         let right = self.area.left + self.area.width;
         stock.legend(canvas, VisibleParts::all(lang), [self.area.left, top + 17.0], right);
