@@ -10,7 +10,7 @@ const [MOST_PICTURES, MOST_PIXELS] = [16, 24_000_000];
 
 interface Picture {
   target: THREE.WebGLRenderTarget;
-  /** How many strokes it has. */
+  /** How many strokes are done in it. */
   count: number;
 }
 
@@ -21,27 +21,27 @@ export class Kept {
   private total: number;
   private wanted = 0;
   private shown: Picture | null = null;
-  /** Pictures of the first part, of the first two, and so on. */
+  /** Pictures without strokes that are done, of the first part, of the first two, and so on. */
   private parts: Picture[] = [];
   private view = new THREE.Matrix4();
   private size = new THREE.Vector2();
 
-  /** With a colour all strokes have it, and there is one picture: of all of them. */
+  /** With a colour for strokes that are not done yet, these are to be seen beneath the others. */
   constructor(
     pieces: Pieces,
-    private color?: number,
+    private ahead?: number,
   ) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(pieces.points, 3));
     geometry.setAttribute("color", new THREE.Float32BufferAttribute(pieces.colors, 3));
-    this.lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: color ?? 0xffffff, vertexColors: color === undefined, depthTest: false, depthWrite: false }));
+    this.lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: true, depthTest: false, depthWrite: false }));
     this.lines.frustumCulled = false;
     this.total = pieces.step.length;
     this.object = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), sheet());
     this.object.frustumCulled = false;
   }
 
-  /** The first so many are to be seen. */
+  /** The first so many are done. */
   draw(count: number): void {
     this.wanted = count;
   }
@@ -49,7 +49,7 @@ export class Kept {
   /** Makes the picture, before it is shown. */
   prepare(renderer: THREE.WebGLRenderer, camera: THREE.Camera): void {
     const shown = this.begun(renderer, camera);
-    const most = this.color !== undefined ? 1 : Math.min(MOST_PICTURES, Math.floor(MOST_PIXELS / (this.size.x * this.size.y)));
+    const most = Math.min(MOST_PICTURES, Math.floor(MOST_PIXELS / (this.size.x * this.size.y)));
     const part = Math.ceil(this.total / Math.max(most, 1));
     this.resume(renderer, shown);
     while (shown.count < this.wanted) {
@@ -58,7 +58,7 @@ export class Kept {
       this.lines.geometry.setDrawRange(shown.count * 2, (until - shown.count) * 2);
       paint(renderer, shown.target, this.lines, camera, false);
       shown.count = until;
-      if (until === last * part && this.parts.length < last && last < most) this.parts.push(this.copy(renderer, shown));
+      if (until === last * part && this.parts.length === last && last < most) this.parts.push(this.copy(renderer, shown));
     }
     this.object.material.uniforms.picture.value = shown.target.texture;
   }
@@ -70,23 +70,35 @@ export class Kept {
     this.lines.material.dispose();
   }
 
-  /** The picture that is shown, empty if the former one was seen from elsewhere. */
+  /** The picture that is shown, begun anew if the former one was seen from elsewhere. */
   private begun(renderer: THREE.WebGLRenderer, camera: THREE.Camera): Picture {
     const view = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     const size = renderer.getDrawingBufferSize(new THREE.Vector2());
     if (!this.view.equals(view) || !this.size.equals(size)) this.forget();
     [this.view, this.size] = [view, size];
-    this.shown ??= { target: new THREE.WebGLRenderTarget(size.x, size.y, { depthBuffer: false, magFilter: THREE.NearestFilter, minFilter: THREE.NearestFilter }), count: Infinity };
-    return this.shown;
+    if (this.shown) return this.shown;
+    const target = new THREE.WebGLRenderTarget(size.x, size.y, { depthBuffer: false, magFilter: THREE.NearestFilter, minFilter: THREE.NearestFilter });
+    paint(renderer, target, new THREE.Object3D(), camera, true);
+    if (this.ahead !== undefined) this.paintAhead(renderer, target, camera, this.ahead);
+    this.parts = [{ target, count: 0 }];
+    return (this.shown = this.copy(renderer, this.parts[0]));
+  }
+
+  private paintAhead(renderer: THREE.WebGLRenderer, target: THREE.WebGLRenderTarget, camera: THREE.Camera, color: number): void {
+    const { material, geometry } = this.lines;
+    this.lines.material = new THREE.LineBasicMaterial({ color, depthTest: false, depthWrite: false });
+    geometry.setDrawRange(0, Infinity);
+    paint(renderer, target, this.lines, camera, false);
+    this.lines.material.dispose();
+    this.lines.material = material;
   }
 
   /** Goes back to where what is wanted can be drawn on top, or goes on from where that is nearer. */
   private resume(renderer: THREE.WebGLRenderer, shown: Picture): void {
-    const before = this.parts.filter((part) => part.count <= this.wanted).at(-1);
-    const count = before?.count ?? 0;
-    if (shown.count >= count && shown.count <= this.wanted) return;
-    this.put(renderer, before ?? null, shown.target);
-    shown.count = count;
+    const before = this.parts.filter((part) => part.count <= this.wanted).at(-1)!;
+    if (shown.count >= before.count && shown.count <= this.wanted) return;
+    this.put(renderer, before, shown.target);
+    shown.count = before.count;
   }
 
   private copy(renderer: THREE.WebGLRenderer, picture: Picture): Picture {
@@ -95,13 +107,10 @@ export class Kept {
     return { target, count: picture.count };
   }
 
-  /** Puts a picture, or nothing, into a target. */
-  private put(renderer: THREE.WebGLRenderer, picture: Picture | null, target: THREE.WebGLRenderTarget): void {
-    if (picture) this.object.material.uniforms.picture.value = picture.target.texture;
-    const { visible } = this.object;
-    this.object.visible = picture !== null;
+  /** Puts a picture into a target. */
+  private put(renderer: THREE.WebGLRenderer, picture: Picture, target: THREE.WebGLRenderTarget): void {
+    this.object.material.uniforms.picture.value = picture.target.texture;
     paint(renderer, target, this.object, new THREE.Camera(), true);
-    this.object.visible = visible;
   }
 
   private forget(): void {

@@ -75,6 +75,8 @@ export class Stage {
   /** From where labels were put into their places, and how large the picture was; `null`: they were not. */
   private labelled: [THREE.Matrix4, number, number] | null = null;
   private isDue = false;
+  /** Width and height of the picture in px. */
+  private size: Point = [0, 0];
   private layer = 0;
   private unit = 1;
   private watcher: ResizeObserver;
@@ -88,7 +90,7 @@ export class Stage {
   ) {
     this.labels = new Labels(labels);
     const canvas = document.createElement("canvas");
-    const context = canvas.getContext("webgl2", { antialias: isThick });
+    const context = canvas.getContext("webgl2", { antialias: isThick, alpha: false });
     if (!context) throw new Error("no WebGL2");
     this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: isThick });
     host.append(canvas);
@@ -124,7 +126,8 @@ export class Stage {
     this.holes = this.discs(model.holes);
     this.rapids = this.strokes(model.rapids, 1.1);
     this.rapidArrows = this.strokes(model.rapidArrows, 1.2);
-    this.cuts = this.strokes(model.cuts, CUT_WIDTH);
+    const { renderOrder } = this.ahead.object;
+    this.cuts = model.cuts.step.length > MOST_THICK ? this.kept(new Kept(model.cuts, hex("ahead")), renderOrder) : this.strokes(model.cuts, CUT_WIDTH);
     this.arrows = this.strokes(model.arrows, 1.4);
     this.progress = this.fat(colored([0, 0, 0, 0, 0, 0], "error"), CUT_WIDTH);
     this.mark = this.fat(colored([0, 0, 0, 0, 0, 0], "error"), 5);
@@ -158,7 +161,7 @@ export class Stage {
     // The stock shows bars and grooves at their true width: lines as wide as usual would cover them.
     this.bars.visible = this.holes.object.visible = !stock;
     if (this.cuts.object instanceof LineSegments2) this.cuts.object.material.linewidth = stock ? 0.8 : CUT_WIDTH;
-    else this.cuts.object.visible = this.ahead.object.visible = !stock;
+    else this.cuts.object.visible = !stock;
     this.draw();
   }
 
@@ -229,7 +232,7 @@ export class Stage {
   /** The zoom at which all of the drawing is seen from above. */
   private whole(): number {
     const { low, high } = this.model;
-    const { clientWidth: width, clientHeight: height } = this.host;
+    const [width, height] = this.size;
     const least = this.unit / 20;
     const [wide, tall] = [Math.max(high[0] - low[0], least), Math.max(high[1] - low[1], least)];
     return 0.86 * Math.min(width / wide, height / tall);
@@ -292,7 +295,7 @@ export class Stage {
     let [best, found] = [REACH, null as number | null];
     const a = new THREE.Vector3();
     const matrix = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
-    const { clientWidth: width, clientHeight: height } = this.host;
+    const [width, height] = this.size;
     const place = (points: number[], index: number): Point => {
       a.set(points[index], points[index + 1], points[index + 2]).applyMatrix4(matrix);
       return [((a.x + 1) / 2) * width, ((1 - a.y) / 2) * height];
@@ -310,7 +313,7 @@ export class Stage {
 
   /** The point of the plane Z = 0 under a place of the picture, drawn to the end of a move nearby. */
   plane(x: number, y: number, count: number): Point {
-    const { clientWidth: width, clientHeight: height } = this.host;
+    const [width, height] = this.size;
     const step = this.pick(x, y, count);
     if (step !== null) {
       const { path, move } = this.model.steps[step];
@@ -329,7 +332,7 @@ export class Stage {
 
   project(at: [number, number, number]): Point {
     const seen = new THREE.Vector3(...at).project(this.camera);
-    return [((seen.x + 1) / 2) * this.host.clientWidth, ((1 - seen.y) / 2) * this.host.clientHeight];
+    return [((seen.x + 1) / 2) * this.size[0], ((1 - seen.y) / 2) * this.size[1]];
   }
 
   draw(): void {
@@ -348,7 +351,7 @@ export class Stage {
   /** Puts labels where they belong, unless they are there. */
   private label(): void {
     const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
-    const { clientWidth: width, clientHeight: height } = this.host;
+    const [width, height] = this.size;
     const [before, ...size] = this.labelled ?? [];
     if (width === 0 || (before?.equals(view) && size[0] === width && size[1] === height)) return;
     this.hearScale(this.controls.enableRotate ? null : this.camera.zoom);
@@ -358,6 +361,7 @@ export class Stage {
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
+    this.size = [width, height];
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
@@ -367,28 +371,22 @@ export class Stage {
   }
 
   private strokes(pieces: Pieces, width: number): Strokes {
-    if (pieces.step.length <= MOST_THICK) {
-      const lines = this.fat(pieces, width);
-      return { object: lines, draw: (count) => (lines.geometry.instanceCount = count) };
-    }
-    const kept = new Kept(pieces);
-    kept.object.renderOrder = ++this.layer;
+    if (pieces.step.length > MOST_THICK) return this.kept(new Kept(pieces), ++this.layer);
+    const lines = this.fat(pieces, width);
+    return { object: lines, draw: (count) => (lines.geometry.instanceCount = count) };
+  }
+
+  private kept(kept: Kept, order: number): Kept {
+    kept.object.renderOrder = order;
     return kept;
   }
 
-  /** Cuts that are still to come: faint, and behind those that are done. */
+  /** Cuts that are still to come: faint, and behind everything that is done. Of very many, the picture of the cuts has them. */
   private strokesAhead(pieces: Pieces): Strokes {
-    const order = ++this.layer;
-    if (pieces.step.length > MOST_THICK) {
-      const kept = new Kept(pieces, hex("ahead"));
-      kept.object.renderOrder = order;
-      kept.draw(pieces.step.length);
-      return { object: kept.object, draw: () => {}, prepare: (renderer, camera) => kept.prepare(renderer, camera), dispose: () => kept.dispose() };
-    }
-    const lines = this.thin(pieces.points, hex("ahead"));
+    const lines = this.thin(pieces.step.length > MOST_THICK ? [] : pieces.points, hex("ahead"));
     lines.material.depthTest = lines.material.depthWrite = false;
     lines.frustumCulled = false;
-    lines.renderOrder = order;
+    lines.renderOrder = ++this.layer;
     return { object: lines, draw: (count) => lines.geometry.setDrawRange(count * 2, Infinity) };
   }
 

@@ -59,6 +59,8 @@ const shown = { stock: true, rapids: true, arrows: true, order: true, texts: inn
 let isNative = false;
 let lines: string[] = [];
 let linesOf: number | null = null;
+/** The rows of it that are on the page: the first one, and the one behind the last. */
+let listedRows: [number, number] = [0, 0];
 /** The path of each step, and its steps by line of G-code. */
 let byLine: Map<number, number>[] = [];
 let pathOf: number[] = [];
@@ -414,12 +416,13 @@ function middle(shape: { from: [number, number]; centre: [number, number]; clock
 function go(to: number, part = 0): void {
   count = Math.min(Math.max(to, 0), made.steps.length);
   share = count < made.steps.length ? part : 0;
+  // First, since it asks where things are: after a change of the page that would cost a layout.
+  listing(true);
   slider.value = String(count);
   stage?.show(count, share);
   cutStock();
   mark(operationAt(share > 0 ? count : count - 1) ?? operationAt(count));
   readout();
-  listing(true);
 }
 
 /** Says where the tool is, how fast, and since when. */
@@ -451,6 +454,8 @@ function listing(follow: boolean): void {
   const path = pathOf[share > 0 ? count : Math.max(count - 1, 0)] ?? 0;
   if (linesOf !== path) {
     linesOf = path;
+    listedRows = [0, 0];
+    rows.replaceChildren();
     lines = listed(scene.paths[path]).split("\n");
     whose(scene.paths[path]);
     code.hidden = !scene.paths.some((it) => it.gcode);
@@ -465,16 +470,20 @@ function listing(follow: boolean): void {
   }
   const first = Math.max(0, Math.floor(code.scrollTop / ROW) - 5);
   const last = Math.min(lines.length, first + Math.ceil(code.clientHeight / ROW) + 10);
-  const visible: HTMLElement[] = [];
-  for (let index = first; index < last; index++) {
-    const row = text("div", "", "row");
-    row.append(text("i", String(index + 1)), text("span", lines[index]));
-    row.style.top = `${index * ROW}px`;
-    row.dataset.line = String(index + 1);
-    if (index + 1 === line) row.classList.add("now");
-    visible.push(row);
+  if (listedRows[0] !== first || listedRows[1] !== last) {
+    listedRows = [first, last];
+    rows.replaceChildren(...lines.slice(first, last).map((content, index) => codeRow(first + index, content)));
   }
-  rows.replaceChildren(...visible);
+  rows.querySelector(".now")?.classList.remove("now");
+  if (line !== null) rows.children[line - 1 - first]?.classList.add("now");
+}
+
+function codeRow(index: number, content: string): HTMLElement {
+  const row = text("div", "", "row");
+  row.append(text("i", String(index + 1)), text("span", content));
+  row.style.top = `${index * ROW}px`;
+  row.dataset.line = String(index + 1);
+  return row;
 }
 
 /** What there is to say of a move and its element. */
@@ -539,15 +548,24 @@ function summary(): void {
   fill(list);
 }
 
-/** From where to where a program cuts. */
-function extent({ moves }: Path): string {
-  const ends = moves.filter(({ kind }) => isCut(kind)).flatMap((move) => pointsOfMove(move));
-  const range = (axis: number) => {
-    const values = ends.map((end) => end[axis]);
-    const [least, most] = [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
-    return least > most ? "" : `${"XYZ"[axis]} ${mm(least)} … ${mm(most)}`;
-  };
-  return [0, 1, 2].map(range).filter((part) => part !== "").join(", ");
+const extents = new WeakMap<Path, string>();
+
+/** From where to where a program cuts; of a long one it takes a while to find. */
+function extent(path: Path): string {
+  const known = extents.get(path);
+  if (known !== undefined) return known;
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (const move of path.moves.filter(({ kind }) => isCut(kind))) {
+    for (const end of pointsOfMove(move)) {
+      end.forEach((value, axis) => {
+        low[axis] = Math.min(low[axis], value);
+        high[axis] = Math.max(high[axis], value);
+      });
+    }
+  }
+  const ranges = [0, 1, 2].filter((axis) => low[axis] <= high[axis]).map((axis) => `${"XYZ"[axis]} ${mm(low[axis])} … ${mm(high[axis])}`);
+  extents.set(path, ranges.join(", "));
+  return ranges.join(", ");
 }
 
 function fill(list: [string, string][]): void {

@@ -166,17 +166,19 @@ export class Heights {
   private touched(pieces: Float32Array, from: number, to: number): Texels | null {
     const { top } = this.cutting;
     const [left, lower] = this.cutting.box;
-    let box = EMPTY;
+    // Plain numbers: a jump asks for hundreds of thousands of pieces.
+    let [x0, y0, x1, y1] = EMPTY;
     for (let at = from * WIDTH; at < to * WIDTH; at += WIDTH) {
       if (Math.min(pieces[at + 2], pieces[at + 5]) >= top) continue;
       const radius = pieces[at + 6];
-      for (const end of [at, at + 3]) {
-        box = joined(box, [pieces[end] - radius, pieces[end + 1] - radius, pieces[end] + radius, pieces[end + 1] + radius]);
-      }
+      x0 = Math.min(x0, pieces[at] - radius, pieces[at + 3] - radius);
+      y0 = Math.min(y0, pieces[at + 1] - radius, pieces[at + 4] - radius);
+      x1 = Math.max(x1, pieces[at] + radius, pieces[at + 3] + radius);
+      y1 = Math.max(y1, pieces[at + 1] + radius, pieces[at + 4] + radius);
     }
     const first = (side: number, origin: number) => Math.max(0, Math.floor((side - origin) / this.texel) - 1);
     const behind = (side: number, origin: number, most: number) => Math.min(most, Math.ceil((side - origin) / this.texel) + 1);
-    const texels: Texels = [first(box[0], left), first(box[1], lower), behind(box[2], left, this.columns), behind(box[3], lower, this.rows)];
+    const texels: Texels = [first(x0, left), first(y0, lower), behind(x1, left, this.columns), behind(y1, lower, this.rows)];
     return texels[0] < texels[2] && texels[1] < texels[3] ? texels : null;
   }
 

@@ -1,19 +1,28 @@
-// The stock in the WebGL picture. Script finds heights and colours; the GPU follows a ray for each pixel through the texels.
+// The stock in the WebGL picture. Script finds heights and colours. From above the GPU shows the colours; in space it follows a ray for each
+// pixel through the texels.
 
 import * as THREE from "three";
 
 import { Heights, Texels } from "./heights.js";
 import { PLATE, RAPID } from "./shading.js";
 
-/** Draws over the whole window what a ray through each pixel meets first. */
+/** Part of a texel by which rays may lean over the whole depth and still count as vertical. */
+const VERTICAL = 0.01;
+
+/** Draws what a ray through each pixel of the stock's box meets first. */
 export class StockPicture {
-  readonly object: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
+  readonly object: THREE.Mesh<THREE.BoxGeometry, THREE.ShaderMaterial>;
+  private above: THREE.ShaderMaterial;
+  private space: THREE.ShaderMaterial;
   private textures: THREE.DataTexture[];
   /** The same memory, of which parts are uploaded into the textures. */
   private sources: THREE.DataTexture[];
   private changed: Texels[] = [];
 
-  constructor(map: Heights, colors: Uint8ClampedArray) {
+  constructor(
+    private map: Heights,
+    colors: Uint8ClampedArray,
+  ) {
     const { columns, rows, texel, cutting } = map;
     const make = () => [
       new THREE.DataTexture(map.heights, columns, rows, THREE.RedFormat, THREE.FloatType),
@@ -25,27 +34,28 @@ export class StockPicture {
     shaded.magFilter = shaded.minFilter = THREE.LinearFilter;
     for (const texture of [...this.textures, ...this.sources]) texture.unpackAlignment = 1;
     for (const texture of this.textures) texture.needsUpdate = true;
-    const material = new THREE.ShaderMaterial({
-      glslVersion: THREE.GLSL3,
-      uniforms: {
-        heights: { value: heights },
-        rapid: { value: rapid },
-        shaded: { value: shaded },
-        size: { value: new THREE.Vector2(columns, rows) },
-        corner: { value: new THREE.Vector2(cutting.box[0], cutting.box[1]) },
-        texel: { value: texel },
-        range: { value: new THREE.Vector2(Math.min(cutting.low, 0), cutting.top) },
-        eye: { value: new THREE.Vector3() },
-        across: { value: new THREE.Vector3() },
-        upwards: { value: new THREE.Vector3() },
-        way: { value: new THREE.Vector3() },
-      },
-      vertexShader: "out vec2 at; void main() { at = position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }",
-      fragmentShader: FRAGMENT,
-      depthTest: false,
-      depthWrite: false,
-    });
-    this.object = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material);
+    const [left, lower] = cutting.box;
+    const [low, high] = [Math.min(cutting.low, 0), cutting.top];
+    const uniforms = {
+      heights: { value: heights },
+      rapid: { value: rapid },
+      shaded: { value: shaded },
+      size: { value: new THREE.Vector2(columns, rows) },
+      corner: { value: new THREE.Vector2(left, lower) },
+      texel: { value: texel },
+      range: { value: new THREE.Vector2(low, high) },
+      eye: { value: new THREE.Vector3() },
+      across: { value: new THREE.Vector3() },
+      upwards: { value: new THREE.Vector3() },
+      way: { value: new THREE.Vector3() },
+    };
+    const material = (fragmentShader: string) =>
+      // Of a box, the faces turned away cover each of its pixels once.
+      new THREE.ShaderMaterial({ glslVersion: THREE.GLSL3, uniforms, vertexShader: VERTEX, fragmentShader: HEAD + fragmentShader, side: THREE.BackSide, depthTest: false, depthWrite: false });
+    [this.above, this.space] = [material(FROM_ABOVE), material(IN_SPACE)];
+    const [wide, tall] = [columns * texel, rows * texel];
+    const box = new THREE.BoxGeometry(wide, tall, high - low).translate(left + wide / 2, lower + tall / 2, (low + high) / 2);
+    this.object = new THREE.Mesh(box, this.above);
     this.object.frustumCulled = false;
     this.object.renderOrder = -1;
   }
@@ -61,7 +71,7 @@ export class StockPicture {
       const region = new THREE.Box2(new THREE.Vector2(x0, y0), new THREE.Vector2(x1, y1));
       this.textures.forEach((texture, index) => renderer.copyTextureToTexture(this.sources[index], texture, region, region.min));
     }
-    const { eye, across, upwards, way, range } = this.object.material.uniforms;
+    const { eye, across, upwards, way, range } = this.space.uniforms;
     const toward = new THREE.Vector3();
     camera.matrixWorld.extractBasis(across.value, upwards.value, toward);
     way.value.copy(toward).negate();
@@ -70,18 +80,27 @@ export class StockPicture {
     eye.value.copy(camera.position).addScaledVector(way.value, away);
     across.value.multiplyScalar(camera.right / camera.zoom);
     upwards.value.multiplyScalar(camera.top / camera.zoom);
+    const lean = Math.hypot(way.value.x, way.value.y) * (range.value.y - range.value.x);
+    this.object.material = lean < VERTICAL * this.map.texel * Math.abs(way.value.z) ? this.above : this.space;
   }
 
   dispose(): void {
     for (const texture of this.textures) texture.dispose();
     this.object.geometry.dispose();
-    this.object.material.dispose();
+    for (const material of [this.above, this.space]) material.dispose();
   }
 }
 
 const vec3 = (color: number[]) => `vec3(${color.map((part) => (part / 255).toFixed(3)).join(",")})`;
 
-const FRAGMENT = `
+const VERTEX = `
+out vec2 at;
+void main() {
+  gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+  at = gl_Position.xy;
+}`;
+
+const HEAD = `
 precision highp float;
 precision highp int;
 uniform highp sampler2D heights;
@@ -92,16 +111,24 @@ uniform vec3 eye, across, upwards, way;
 in vec2 at;
 out vec4 color;
 
+void found(vec4 it) {
+  if (it.a < 0.5) discard;
+  color = vec4(it.rgb, 1);
+}
+`;
+
+const FROM_ABOVE = `
+void main() {
+  vec3 from = eye + across * at.x + upwards * at.y;
+  found(texture(shaded, (from.xy - corner) / texel / size));
+}`;
+
+const IN_SPACE = `
 const vec3 LIGHT = vec3(-0.42, 0.55, 0.72);
 const vec3 WALL = vec3(0.62, 0.46, 0.27);
 
 float heightAt(ivec2 i) {
   return texelFetch(heights, clamp(i, ivec2(0), ivec2(size) - 1), 0).x;
-}
-
-void found(vec4 it) {
-  if (it.a < 0.5) discard;
-  color = vec4(it.rgb, 1);
 }
 
 // Which way a wall faces: the gradient of the heights around it. The sides of its texels would make stripes on round walls.
@@ -125,11 +152,6 @@ void main() {
   vec3 leave = from + way * ((range.x - from.z) / way.z);
   vec2 begin = (enter.xy - corner) / texel;
   vec2 run = (leave.xy - enter.xy) / texel;
-  if (dot(run, run) < 1e-4) {
-    if (any(lessThan(begin, vec2(0))) || any(greaterThan(begin, size))) discard;
-    found(texture(shaded, begin / size));
-    return;
-  }
   // The part of the ray over the map, and the side on which it enters.
   float first = 0.0, last = 1.0;
   int axis = -1;
@@ -151,29 +173,27 @@ void main() {
   if (abs(run.x) < 1e-6) next.x = 1e9;
   if (abs(run.y) < 1e-6) next.y = 1e9;
   float share = first, drop = range.x - range.y;
-  bool isEdge = axis >= 0;
+  bool isEdge = axis >= 0, isFloor = false, isSide = false;
   int most = int(size.x + size.y);
+  // Only the search is in the loop: software evaluates all of a loop for every texel of a ray.
   for (int k = 0; k < most; k++) {
-    float height = heightAt(i);
-    if (axis >= 0 && range.y + drop * share < height - 1e-4) {
-      ivec2 before = i - (axis == 0 ? ivec2(turn.x, 0) : ivec2(0, turn.y));
-      // A low step belongs to a slope, which has the colour of its floor.
-      if (!isEdge && height - heightAt(before) < 2.0 * texel) found(texelFetch(shaded, i, 0));
-      else wall(i, axis == 0 ? vec2(-turn.x, 0) : vec2(0, -turn.y), isEdge);
-      return;
-    }
-    float until = min(next.x, next.y);
-    if (range.y + drop * min(until, last) <= height) {
-      found(texelFetch(shaded, i, 0));
-      return;
-    }
-    if (until >= last) break;
+    float height = heightAt(i), until = min(next.x, next.y);
+    isSide = axis >= 0 && range.y + drop * share < height - 1e-4;
+    isFloor = range.y + drop * min(until, last) <= height;
+    if (isSide || isFloor || until >= last) break;
     isEdge = false;
     share = until;
     axis = next.x < next.y ? 0 : 1;
-    if (axis == 0) { i.x += turn.x; next.x += each.x; }
-    else { i.y += turn.y; next.y += each.y; }
+    ivec2 onward = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
+    i += turn * onward;
+    next += each * vec2(onward);
   }
-  if (last < 1.0 || heightAt(i) < range.x - 1.0) discard;
-  color = vec4(${vec3(PLATE)}, 1);
+  if (isSide) {
+    ivec2 back = axis == 0 ? ivec2(-turn.x, 0) : ivec2(0, -turn.y);
+    // A low step belongs to a slope, which has the colour of its floor.
+    if (isEdge || heightAt(i) - heightAt(i + back) >= 2.0 * texel) wall(i, vec2(back), isEdge);
+    else found(texelFetch(shaded, i, 0));
+  } else if (isFloor) found(texelFetch(shaded, i, 0));
+  else if (last < 1.0 || heightAt(i) < range.x - 1.0) discard;
+  else color = vec4(${vec3(PLATE)}, 1);
 }`;

@@ -24,28 +24,44 @@ function normal(x: number, y: number, z: number): Color {
   return [x / length, y / length, z / length];
 }
 
+/** The height beside a texel. Beyond the edge of the stock there is no wall to draw. */
+function beside(neighbour: number, height: number): number {
+  return neighbour === NOTHING ? height : neighbour;
+}
+
 /** Paints these texels and their neighbours. Returns the texels that were painted. */
 export function shade(map: Heights, marked: Uint8Array, [x0, y0, x1, y1]: Texels, into: Uint8ClampedArray): Texels {
   const { heights, tops, through, rapid, columns, rows, texel, cutting } = map;
   const painted: Texels = [Math.max(0, x0 - REACH), Math.max(0, y0 - REACH), Math.min(columns, x1 + REACH), Math.min(rows, y1 + REACH)];
+  const colors = new Uint32Array(into.buffer);
   const depth = Math.max(cutting.top - cutting.low, 1e-6);
   for (let row = painted[1]; row < painted[3]; row++) {
-    const [down, up] = [row > 0 ? -columns : 0, row < rows - 1 ? columns : 0];
+    const [down, up] = [row > 0 ? columns : 0, row < rows - 1 ? columns : 0];
+    let wasLevel = false;
     for (let column = painted[0]; column < painted[2]; column++) {
       const at = row * columns + column;
       const height = heights[at];
-      const out = at * 4;
       if (height === NOTHING) {
-        into[out + 3] = 0;
+        colors[at] = 0;
+        wasLevel = false;
         continue;
       }
-      // Beyond the edge of the stock there is no wall to draw.
-      const near = (step: number) => (heights[at + step] === NOTHING ? height : heights[at + step]);
-      const [l, r, d, u] = [near(column > 0 ? -1 : 0), near(column < columns - 1 ? 1 : 0), near(down), near(up)];
+      const l = beside(heights[column > 0 ? at - 1 : at], height);
+      const r = beside(heights[column < columns - 1 ? at + 1 : at], height);
+      const d = beside(heights[at - down], height);
+      const u = beside(heights[at + up], height);
       const steep = Math.max(Math.abs(l - height), Math.abs(r - height), Math.abs(d - height), Math.abs(u - height));
+      // Most of a stock is level: there, a texel has the colour of the one before it.
+      const isLevel = steep === 0;
+      const isAsBefore = isLevel && wasLevel && marked[at] === marked[at - 1] && rapid[at] === rapid[at - 1] && through[at] === through[at - 1] && tops[at] === tops[at - 1];
+      wasLevel = isLevel;
+      if (isAsBefore) {
+        colors[at] = colors[at - 1];
+        continue;
+      }
       const isWall = steep > WALL_STEEP * texel && steep > WALL_HIGH;
       let light = LIGHT[2];
-      if (!isWall && steep > 0) {
+      if (!isWall && !isLevel) {
         const [nx, ny, nz] = [l - r, d - u, 2 * texel];
         light = Math.max(0, (nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2]) / Math.sqrt(nx * nx + ny * ny + nz * nz));
       }
@@ -60,9 +76,9 @@ export function shade(map: Heights, marked: Uint8Array, [x0, y0, x1, y1]: Texels
       for (let part = 0; part < 3; part++) {
         const base = isThrough ? PLATE[part] : isUntouched ? UNTOUCHED[part] : SHALLOW[part] + (DEEP[part] - SHALLOW[part]) * share;
         const lit = base * light;
-        into[out + part] = overlay ? lit * 0.25 + overlay[part] * 0.75 : lit;
+        into[at * 4 + part] = overlay ? lit * 0.25 + overlay[part] * 0.75 : lit;
       }
-      into[out + 3] = 255;
+      into[at * 4 + 3] = 255;
     }
   }
   return painted;
