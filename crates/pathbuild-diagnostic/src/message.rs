@@ -186,7 +186,7 @@ impl<S: AsRef<str>> FromIterator<S> for Value {
     }
 }
 
-/// Fills in the placeholders of a template. A `{name}` without an argument is left as it is, so that tests can find it.
+/// Fills in the placeholders of a template. A `{name}` without an argument is left as it is; tests end there.
 pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: Lang) -> String {
     let mut filled = String::with_capacity(template.len() + 32);
     let mut rest = template;
@@ -206,12 +206,20 @@ pub(crate) fn fill(template: &str, arguments: &[(&'static str, Value)], lang: La
                 filled.push_str(&point.apart_from(&others));
             }
             Some((_, value)) => filled.push_str(&value.render(lang)),
-            None => _ = write!(filled, "{{{name}}}"),
+            None => {
+                debug_assert!(!is_placeholder(name), "{template:?} lacks {name:?}");
+                _ = write!(filled, "{{{name}}}");
+            }
         }
         rest = &rest[open + length + 1..];
     }
     filled.push_str(rest);
     filled
+}
+
+/// Whether the text between braces names an argument. Messages about control texts quote braces of these.
+fn is_placeholder(name: &str) -> bool {
+    !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_')
 }
 
 /// Deserializes the values in a message.

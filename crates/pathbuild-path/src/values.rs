@@ -375,5 +375,9 @@ pub(crate) fn check_doubts(
     let milling_feed = value(Letter::F).filter(|_| is_milled);
     let chips = chip_load.zip(milling_feed).and_then(|(limits, feed)| limits.check(feed, None));
     let chips = chips.map(|problem| own.underline(Letter::F, problem));
-    [below, infeed, feed, chips].into_iter().flatten().collect()
+    let lowered = value(Letter::H).filter(|height| above(0.0, *height)).map(|height| {
+        let problem = Diagnostic::new(&messages::LOWERED).with("value", height).with("depth", -height);
+        own.underline(Letter::H, problem)
+    });
+    [below, infeed, feed, chips, lowered].into_iter().flatten().collect()
 }

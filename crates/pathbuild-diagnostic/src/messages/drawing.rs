@@ -198,8 +198,8 @@ messages! {
     }
     /// An element outside of the XY plane.
     OFF_PLANE: OffPlane {
-        en: "the element is not in the plane: Z is {z} mm; elements of this path that are not: {count}",
-        de: "das Element liegt nicht in der Ebene: Z ist {z} mm; Elemente dieses Pfads außerhalb der Ebene: {count}",
+        en: "the element is not in the plane: Z is {z} mm; elements outside of the plane: {count}",
+        de: "das Element liegt nicht in der Ebene: Z ist {z} mm; Elemente außerhalb der Ebene: {count}",
         help_en: "depths are given by texts, never by Z coordinates; flatten the drawing (in many CADs: FLATTEN, or set Z and elevation to 0)",
         help_de: "Tiefen werden mit Texten angegeben, nie mit Z-Koordinaten; die Zeichnung einebnen (in vielen CADs: FLATTEN oder Z und Erhebung auf 0 setzen)",
     }

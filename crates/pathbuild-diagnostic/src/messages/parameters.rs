@@ -120,6 +120,13 @@ messages! {
         help_en: "heights are measured from the plate upwards: {depth} mm deep in T{thickness} is B{example}; where {depth} mm below the plate is meant, `below-plate` under [warnings] allows more than {limit} mm",
         help_de: "Höhen werden von der Platte nach oben gemessen: {depth} mm tief bei T{thickness} ist B{example}; sind {depth} mm unter der Platte gemeint, erlaubt `below-plate` unter [warnings] mehr als {limit} mm",
     }
+    /// An embedded path that is lowered instead of raised.
+    LOWERED: DoubtfulValue {
+        en: "H is {value}: the embedded path is milled {depth} mm lower, into the plate",
+        de: "H ist {value}: der eingebettete Pfad wird {depth} mm tiefer gefräst, in die Platte",
+        help_en: "H is the height of the shims under the material, and raises the path; B of the embedded path gives its depth",
+        help_de: "H ist die Höhe der Unterlagen unter dem Material und hebt den Pfad an; seine Tiefe steht als B im eingebetteten Pfad",
+    }
     /// Sweepless milling that begins above the surface.
     FIRST_DEPTH_IN_AIR: DoubtfulValue {
         en: "W is {value}, above the surface T of {thickness}: the first pass cuts air",

@@ -85,9 +85,7 @@ impl Reading<'_> {
             // The missing part may belong to an outline, or be its text.
             return Vec::new();
         }
-        for entity in entities {
-            self.check_plane(*entity);
-        }
+        self.check_plane(entities);
         let outlines = self.outlines(entities);
         let heights = self.heights(entities, &outlines);
         let clamp = |(closed, height): (ClosedOutline, Option<f64>)| {
@@ -118,18 +116,25 @@ impl Reading<'_> {
         self.problems.append(&mut problems);
     }
 
-    fn check_plane(&mut self, entity: usize) {
+    /// PB110 at the first entity outside of the plane. A polyline is many entities.
+    fn check_plane(&mut self, entities: &[usize]) {
+        let off_plane = |entity: &usize| Some((*entity, self.off_plane(*entity)?));
+        let off_plane: Vec<(usize, Point3)> = entities.iter().filter_map(off_plane).collect();
+        let Some((entity, point)) = off_plane.first() else { return };
+        let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z).with("count", off_plane.len());
+        let problem = self.at(*entity, xy(*point), problem);
+        self.report(problem);
+    }
+
+    /// A point of the entity that is not at Z 0.
+    fn off_plane(&self, entity: usize) -> Option<Point3> {
         let points: &[Point3] = match &self.drawing.entities[entity].geometry {
             Geometry::Line(line) => &[line.start, line.end],
             Geometry::Arc(arc) => &[arc.centre],
             Geometry::Circle(circle) => &[circle.centre],
             Geometry::Text(_) | Geometry::MText(_) => &[],
         };
-        if let Some(point) = points.iter().find(|point| !near(point.z, 0.0)) {
-            let problem = Diagnostic::new(&messages::OFF_PLANE).with("z", point.z);
-            let problem = self.at(entity, xy(*point), problem);
-            self.report(problem);
-        }
+        points.iter().find(|point| !near(point.z, 0.0)).copied()
     }
 
     /// The closed outlines; PB117 for all others.

@@ -34,6 +34,15 @@ fn the_bottom_is_not_far_below_the_plate() {
     assert_eq!(said(&path("T5 O2 I1 B-3", "mill 0,0 40,0\nend 40,0"), higher), [""; 0]);
 }
 
+/// Shims raise the material: a negative H would mill into the plate.
+#[test]
+fn an_embedded_path_is_not_lowered() {
+    let embedding =
+        |text: &str| said(&path("T5 O2 I1", &format!("subpath 0,0 40,0 \"{text}\"\nend 40,0")), MACHINE);
+    assert_eq!(embedding(">2050.1P T5 O2 H0"), [""; 0]);
+    assert_eq!(embedding(">2050.1P T5 O2 H-0.1"), ["PB211 H-0.1"]);
+}
+
 #[test]
 fn a_bottom_without_effect_is_no_doubt() {
     assert_eq!(said(&path("T5 O2 I1 D4", "mark 0,0 40,0 \"B-3\"\nend 40,0"), MACHINE), [""; 0]);

@@ -158,8 +158,16 @@ fn an_outline_that_does_not_close_is_an_error() {
 fn a_curve_that_is_not_understood_is_an_error() {
     let drawing = format!("{SQUARE}spline control 0,0 10,10 20,5 30,0\n");
     assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not supported"]);
-    let [(code, _)] = &wrong("layer clamps\ncircle 0,0 d 20 z 5\ntext -3,-1 \"Z25\"\n")[..] else { panic!() };
-    assert_eq!(*code, Code::OffPlane);
+}
+
+/// The four sides of a polyline are one finding.
+#[test]
+fn a_clamp_lies_in_the_plane() {
+    for (outline, count) in [("circle 0,0 d 20 z 5", 1), ("polyline -5,-5 5,-5 5,5 -5,5 closed z 5", 4)] {
+        let found = wrong(&format!("layer clamps\n{outline}\ntext -3,-1 \"Z25\"\n"));
+        let [(Code::OffPlane, text)] = &found[..] else { panic!("{found:?}") };
+        assert!(text.ends_with(&format!("elements outside of the plane: {count}")), "{text}");
+    }
 }
 
 #[test]
