@@ -346,6 +346,29 @@ fn findings_have_their_places() {
     assert_eq!(scene["paths"][0]["elements"].as_array().unwrap().len(), 4);
 }
 
+/// A finding about a parameter text is circled on it; one about the way is circled where that breaks off.
+#[test]
+fn a_wrong_text_is_circled_itself() {
+    let drawing = |text: &str, end: &str| {
+        format!("layer 1234.1P\nstart 5,5 \"T2 O2 I1 B0 F150\"\nmill 5,5 25,5 {text}\nend {end}\n")
+    };
+    for (drawing, code, expected) in [
+        (drawing("\"B1mm\"", "25,5"), "PB205", None),
+        (drawing("\"B1\"", "45,5"), "PB403", Some([45.0, 5.0])),
+    ] {
+        let place = Place::new().file("1234.1P.dxf", sheet(&drawing).unwrap().to_dxf());
+        let out = place.path().join("scene.json");
+        let scene = scene(&place.run(&format!("view 1234.1P --no-cache -o {}", out.display())));
+        let [finding] = scene["findings"].as_array().unwrap().as_slice() else { panic!("{scene}") };
+        assert_eq!(finding["code"], code);
+        let point = |at: &Value| [0, 1].map(|axis| at[axis].as_f64().unwrap());
+        let texts = scene["paths"][0]["texts"].as_array().unwrap();
+        let text = texts.iter().find(|text| text["text"] == "B1mm").map(|text| point(&text["at"]));
+        let (at, expected) = (point(&finding["at"]), expected.or(text).unwrap());
+        assert!((0..2).all(|axis| (at[axis] - expected[axis]).abs() < 1e-5), "{at:?} {expected:?}");
+    }
+}
+
 #[test]
 fn a_program_is_seen_without_elements() {
     let place =

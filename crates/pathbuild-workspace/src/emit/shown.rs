@@ -48,7 +48,7 @@ impl SceneReport {
     /// Completes the scene with its findings, according to the configured severities. `file` is the drawing that is shown.
     pub fn with_findings(self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
         let (mut scene, findings) = (self.scene, workspace.findings(self.diagnostics));
-        scene.findings = view::findings(&findings.diagnostics, file);
+        scene.set_findings(&findings.diagnostics, file);
         (scene, findings)
     }
 }
