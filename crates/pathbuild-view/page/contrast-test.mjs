@@ -31,6 +31,8 @@ for (const [theme, colors] of Object.entries({ light, dark })) {
   const texts = TEXTS.flatMap((name) => ["paper", "panel"].map((on) => check(name, on, 4.5)));
   texts.push(check("ink", "now", 4.5), check("ink", "edge", 4.5), check("soft", "now", 4.5), check("error", "now", 4.5));
   const lines = LINES.map((name) => check(name, "paper", 3));
+  // On the stock as well: the moves that are its own, and the outline of a part.
+  for (const name of ["rapid", "outline"]) check(name, "uncut", 3);
   // The deeper, the darker.
   for (let stop = 1; stop < 5; stop++) assert.ok(luminance(colors[`depth${stop}`]) > luminance(colors[`depth${stop + 1}`]), `${theme}: depth ${stop}`);
   console.log(`contrast, ${theme}: texts at least ${Math.min(...texts).toFixed(2)}, lines at least ${Math.min(...lines).toFixed(2)}`);
@@ -41,12 +43,3 @@ for (const name of ["style.css", "live.css", "local.css"]) {
   const rules = read(name).replace(/:root\{[^}]*\}|\[data-theme=dark\]\{[^}]*\}/g, "");
   assert.deepEqual(rules.match(/#[0-9a-f]{3,8}\b(?=[;}\s,)])/g) ?? [], [], name);
 }
-
-// The stock is painted without a document; the legend shows its colours.
-const shading = read("src/stock/shading.ts");
-const hex = (parts) => `#${parts.split(",").map((part) => Number(part).toString(16).padStart(2, "0")).join("")}`;
-const constant = (pattern) => hex(pattern.exec(shading)[1]);
-assert.equal(constant(/UNTOUCHED: Color = \[([^\]]*)\]/), light.uncut);
-assert.equal(constant(/PLATE: Color = \[([^\]]*)\]/), light.plate);
-assert.equal(constant(/RAPID: Color = \[([^\]]*)\]/), light.crash);
-assert.equal(constant(/\[RAPID, \[([^\]]*)\]\]/), light.leftover);

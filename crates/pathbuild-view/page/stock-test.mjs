@@ -11,6 +11,8 @@ const directory = mkdtempSync(join(tmpdir(), "pathbuild-stock-"));
 await build({ entryPoints: ["src/stock/stock.ts"], bundle: true, format: "esm", outfile: join(directory, "stock.mjs"), logLevel: "error" });
 const { Stock } = await import(join(directory, "stock.mjs"));
 const given = { tool: null, thickness: null, surface: null };
+const paints = { uncut: [219, 189, 133], shallow: [189, 148, 92], deep: [115, 77, 41], plate: [204, 214, 224], wrong: [229, 13, 26], leftover: [150, 40, 200], loose: [230, 159, 0] };
+const stockOf = (scene, assumed = given) => Stock.of(scene, assumed, paints);
 
 function sceneOf(path) {
   const file = join(directory, "scene.json");
@@ -97,7 +99,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   let [programs, worst] = [0, 0];
   for (const { path: name } of paths) {
     const scene = sceneOf(name);
-    const stock = Stock.of(scene, given);
+    const stock = stockOf(scene);
     assert.ok(stock, name);
     stock.seek(stock.map.cutting.until.length);
     const { columns, rows, texel, heights, tops, cutting } = stock.map;
@@ -122,12 +124,12 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 {
   // Jumps to and fro leave the same heights and colours as fresh maps.
   const scene = sceneOf("8001.1P");
-  const stock = Stock.of(scene, given);
+  const stock = stockOf(scene);
   const total = stock.map.cutting.until.length;
   for (let jump = 0; jump < 60; jump++) {
     const to = Math.floor(random() * (total + 1));
     stock.seek(to);
-    const fresh = Stock.of(scene, given);
+    const fresh = stockOf(scene);
     fresh.seek(to);
     assert.ok(Buffer.from(stock.colors.buffer).equals(Buffer.from(fresh.colors.buffer)), `jump ${jump} to move ${to}`);
     assert.ok(Buffer.from(stock.map.heights.buffer).equals(Buffer.from(fresh.map.heights.buffer)), `heights after jump ${jump}`);
@@ -137,7 +139,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
     stock.seek(Math.floor(random() * total), random());
     const to = Math.floor(random() * (total + 1));
     stock.seek(to);
-    const fresh = Stock.of(scene, given);
+    const fresh = stockOf(scene);
     fresh.seek(to);
     assert.ok(Buffer.from(stock.colors.buffer).equals(Buffer.from(fresh.colors.buffer)), `after a share, jump ${jump} to move ${to}`);
   }
@@ -148,7 +150,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   // A bar 3 mm long between two cuts of a cutter of 2 mm, whose centres are 5 mm apart.
   const z = -0.2;
   const scene = plain(2, 2, [move("plunge", [0, 0, 5], [0, 0, z]), move("mill", [0, 0, z], [20, 0, z]), move("mill", [20, 0, z], [20, 0, 1]), move("mill", [20, 0, 1], [25, 0, 1]), move("mill", [25, 0, 1], [25, 0, z]), move("mill", [25, 0, z], [45, 0, z])]);
-  const stock = Stock.of(scene, given);
+  const stock = stockOf(scene);
   stock.seek(6);
   const { texel } = stock.map;
   let wide = 0;
@@ -160,7 +162,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 
 {
   // Half of a move cuts half of its way.
-  const stock = Stock.of(plain(2, 2, [move("mill", [0, 0, 0], [20, 0, 0]), move("mill", [20, 0, 0], [20, 20, 0])]), given);
+  const stock = stockOf(plain(2, 2, [move("mill", [0, 0, 0], [20, 0, 0]), move("mill", [20, 0, 0], [20, 20, 0])]));
   stock.seek(1, 0.5);
   assert.deepEqual([[20, 9], [20, 12], [10, 0]].map((at) => stock.map.at(...at)), [0, 2, 0]);
   stock.seek(0, 0.25);
@@ -171,16 +173,16 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   // A rapid move through material is marked; along the floor of a cut it is not.
   const cut = [move("plunge", [0, 0, 5], [0, 0, -1]), move("mill", [0, 0, -1], [20, 0, -1])];
   const marks = (scene) => {
-    const stock = Stock.of(scene, given);
+    const stock = stockOf(scene);
     stock.seek(scene.paths[0].moves.length);
     return stock.map.rapid.reduce((sum, it) => sum + (it ? 1 : 0), 0);
   };
   assert.equal(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [0, 0, -1])])), 0);
   assert.ok(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [20, 1, -1])])) > 0);
-  assert.equal(Stock.of(plain(null, 2, cut), given), null, "without a cutter there is no stock");
-  const typed = Stock.of(plain(null, null, cut), { tool: 2, thickness: 3, surface: null });
+  assert.equal(stockOf(plain(null, 2, cut)), null, "without a cutter there is no stock");
+  const typed = stockOf(plain(null, null, cut), { tool: 2, thickness: 3, surface: null });
   assert.equal(typed.map.cutting.top, 3, "a cutter and a thickness that are typed count");
-  const [blank] = Stock.of(plain(null, null, cut), { tool: 2, thickness: 3, surface: 1 }).map.cutting.blanks;
+  const [blank] = stockOf(plain(null, null, cut), { tool: 2, thickness: 3, surface: 1 }).map.cutting.blanks;
   assert.deepEqual([blank.top, Number(blank.through.toFixed(3))], [1, -1.999], "the surface is where it is typed");
 }
 
@@ -188,7 +190,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   // A cut goes through at the plate or below: not if Z0 is the upper face, and for a raised component where that lies.
   const cut = (z) => [move("plunge", [0, 0, 9], [0, 0, z]), move("mill", [0, 0, z], [20, 0, z])];
   const isThrough = (scene) => {
-    const stock = Stock.of(scene, given);
+    const stock = stockOf(scene);
     stock.seek(scene.paths[0].moves.length);
     const { columns, rows, heights, through } = stock.map;
     const middle = (rows >> 1) * columns + (columns >> 1);
@@ -207,30 +209,47 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 }
 
 {
-  // A cut into a part and material left at one are coloured, and nothing else: the opening may be cut with either of its two rings.
+  // The regions of findings are coloured, and nothing else: a cut into a part, a bar that is cut away, and material that is left. An
+  // opening that is cut by its inner ring is as drawn.
   const line = (from, to) => ({ type: "line", from, to });
   const ring = ([x0, y0], [x1, y1]) => [line([x0, y0], [x1, y0]), line([x1, y0], [x1, y1]), line([x1, y1], [x0, y1]), line([x0, y1], [x0, y0])];
   const rings = [ring([0, 0], [40, 20]), ring([10, 6], [18, 14]), ring([11, 7], [17, 13])];
-  const parts = [{ rings, top: 2, tolerance: 0.02, left: [{ outline: [line([40, 20], [0, 20])], reach: 0.5 }] }];
+  const findings = { left: [{ outline: [line([40, 20], [0, 20])], reach: 0.5 }], gouges: [line([41, -0.5], [-1, -0.5])], lost_bars: [line([-1, 4], [-1, 7])] };
   const along = (...points) => points.slice(1).map((to, index) => move("mill", [...points[index], 0], [...to, 0]));
   const scene = plain(2, 2, [...along([-1, -1], [-1, 21.5], [41, 21.5], [41, -0.5], [-1, -0.5]), ...along([11, 7], [17, 7], [17, 13], [11, 13], [11, 7])]);
-  scene.paths[0].parts = parts;
-  const stock = Stock.of(scene, given);
-  stock.seek(scene.paths[0].moves.length);
-  const { columns, texel, cutting, through, heights } = stock.map;
-  const [counts, wrong] = [{ gouge: 0, left: 0 }, []];
-  for (let at = 0; at < heights.length; at++) {
-    const [x, y] = [cutting.box[0] + ((at % columns) + 0.5) * texel, cutting.box[1] + (Math.floor(at / columns) + 0.5) * texel];
-    const [red, green, blue] = stock.colors.subarray(at * 4, at * 4 + 3);
-    const what = red > 150 && green < 80 && blue < 90 ? "gouge" : blue > 140 && green < 90 ? "left" : null;
-    if (!what) continue;
-    counts[what] += texel * texel;
-    const isRight = what === "gouge" ? x > 0 && x < 40 && y > 0 && y < 0.5 + texel && heights[at] <= through[at] : y > 20 && y < 20.5 + texel;
-    if (!isRight) wrong.push([what, x, y]);
-  }
-  assert.deepEqual(wrong.slice(0, 3), []);
-  assert.ok(Math.abs(counts.gouge - 40 * 0.5) < 2, `${counts.gouge} mm² cut into the part`);
-  assert.ok(Math.abs(counts.left - 40 * 0.5) < 2, `${counts.left} mm² left`);
+  /** Areas of the colours of findings in mm², where these regions may be. */
+  const colored = (findings) => {
+    scene.paths[0].parts = [{ rings, top: 2, left: [], ...findings }];
+    const stock = stockOf(scene);
+    const { columns, texel, cutting, through, heights } = stock.map;
+    const [counts, wrong] = [{ cut: 0, left: 0, loose: 0 }, []];
+    const begun = stock.colors.slice();
+    stock.seek(scene.paths[0].moves.length);
+    for (let at = 0; at < heights.length; at++) {
+      const [x, y] = [cutting.box[0] + ((at % columns) + 0.5) * texel, cutting.box[1] + (Math.floor(at / columns) + 0.5) * texel];
+      const is = (colors) => {
+        const [red, green, blue] = colors.subarray(at * 4, at * 4 + 3);
+        return red > 150 && green < 80 && blue < 90 ? "cut" : blue > 140 && green < 90 ? "left" : blue < 0.42 * red ? "loose" : null;
+      };
+      assert.notEqual(is(begun), "cut", "before anything is cut");
+      const what = is(stock.colors);
+      // The dark side of a wall may look like anything.
+      if (!what || (what === "loose" && !findings.is_loose)) continue;
+      counts[what] += texel * texel;
+      const isInside = x > 0 && x < 40 && y > 0 && y < 20;
+      const isCut = heights[at] <= through[at] && ((isInside && y < 0.5 + texel) || (x > -2 - texel && x < texel && y > 4 - texel && y < 7 + texel));
+      const isRight = { cut: isCut, left: y > 20 && y < 20.5 + texel, loose: isInside && heights[at] > through[at] }[what];
+      if (!isRight) wrong.push([what, x, y]);
+    }
+    assert.deepEqual(wrong.slice(0, 3), []);
+    return counts;
+  };
+  const { cut, left } = colored(findings);
+  assert.ok(Math.abs(cut - 40 * 0.5 - 3 * 2) < 2, `${cut} mm² cut into the part and its bar`);
+  assert.ok(Math.abs(left - 40 * 0.5) < 2, `${left} mm² left`);
+  const { loose } = colored({ is_loose: true });
+  assert.ok(loose > 600 && loose < 40 * 20 - 8 * 8, `${loose} mm² of a loose part`);
+  assert.deepEqual(colored({}), { cut: 0, left: 0, loose: 0 });
 }
 
 {
@@ -246,7 +265,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
     return performance.now() - begun;
   };
   let stock;
-  const made = timed(() => (stock = Stock.of(plain(2, 0, moves), given)));
+  const made = timed(() => (stock = stockOf(plain(2, 0, moves))));
   const first = timed(() => stock.seek(200_000));
   const spread = (steps) => steps.map((to) => timed(() => stock.seek(to))).sort((a, b) => a - b);
   const said = (all) => `median ${all[all.length >> 1].toFixed(0)} ms, worst ${all.at(-1).toFixed(0)} ms`;

@@ -1,5 +1,6 @@
 // The list of keys, which "?" opens.
 
+import { $, node } from "./dom.js";
 import { Lang, Word, say } from "./words.js";
 
 /** Keys in English and German, and what they do. */
@@ -25,17 +26,16 @@ const KEYS: [string, string, Word][] = [
   ["?", "?", "keyHelp"],
 ];
 
-const dialog = document.getElementById("help") as HTMLDialogElement;
+const dialog = $<HTMLDialogElement>("help");
 
 /** Writes the list in a language. */
 export function sayKeys(lang: Lang): void {
-  const node = (tag: string, text: string) => Object.assign(document.createElement(tag), { textContent: text });
   const rows = KEYS.map(([english, german, word]) => {
     const row = document.createElement("tr");
     row.append(node("th", lang === "de" ? german : english), node("td", say(word, lang)));
     return row;
   });
-  document.getElementById("key-list")!.replaceChildren(...rows);
+  $("key-list").replaceChildren(...rows);
 }
 
 /** Opens the list, or closes it. */

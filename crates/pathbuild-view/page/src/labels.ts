@@ -1,4 +1,4 @@
-// Labels in the picture: none stands over another, none is cut off at its edge.
+// Labels in the picture: none stands over another or over the legend, none is cut off at its edge.
 
 import { Point } from "./scene.js";
 
@@ -28,7 +28,11 @@ export class Labels {
   private labels: Label[] = [];
   private isMeasured = false;
 
-  constructor(private host: HTMLElement) {}
+  /** The legend lies over the picture as well. */
+  constructor(
+    private host: HTMLElement,
+    private legend: HTMLElement,
+  ) {}
 
   /** Shows these instead of what was shown before. */
   set(spots: Spot[]): void {
@@ -42,6 +46,8 @@ export class Labels {
   place(project: (at: [number, number, number]) => Point, width: number, height: number): void {
     if (!this.isMeasured) this.measure();
     const taken = new Map<number, Box[]>();
+    const take = (place: Box) => cells(place).forEach((cell) => taken.set(cell, [...(taken.get(cell) ?? []), place]));
+    if (!this.legend.hidden) take(this.boxOf(this.legend));
     for (const { at, node, rank, box } of this.labels) {
       const [x, y] = project(at);
       const isSeen = x >= 0 && x <= width && y >= 0 && y <= height;
@@ -51,17 +57,18 @@ export class Labels {
       node.style.visibility = place ? "" : "hidden";
       const [left, top] = place ? [place[0] - box[0], place[1] - box[1]] : [x, y];
       node.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-      for (const cell of place ? cells(place) : []) taken.set(cell, [...(taken.get(cell) ?? []), place!]);
+      if (place) take(place);
     }
   }
 
   private measure(): void {
-    const host = this.host.getBoundingClientRect();
-    for (const label of this.labels) {
-      const { left, top, right, bottom } = label.node.getBoundingClientRect();
-      label.box = [left - host.left, top - host.top, right - host.left, bottom - host.top];
-    }
-    this.isMeasured = host.width > 0;
+    for (const label of this.labels) label.box = this.boxOf(label.node);
+    this.isMeasured = this.host.clientWidth > 0;
+  }
+
+  private boxOf(node: HTMLElement): Box {
+    const [host, own] = [this.host.getBoundingClientRect(), node.getBoundingClientRect()];
+    return [own.left - host.left, own.top - host.top, own.right - host.left, own.bottom - host.top];
   }
 }
 

@@ -1,37 +1,42 @@
 // The legend of the picture: a scale of lengths, one of depths, and what the colours mean.
 
+import { $ } from "./dom.js";
 import { Model } from "./model.js";
+import { FinishedPart } from "./scene.js";
 import { Lang, Word, mm, say } from "./words.js";
 
 /** Length in px that the scale may have at most. */
 const LONGEST = 130;
 
-const host = document.getElementById("legend")!;
-const scale = document.getElementById("scale")!;
-const depths = document.getElementById("depths")!;
-const items = document.getElementById("meanings")!;
+const host = $("legend");
+const scale = $("scale");
+const depths = $("depths");
+const items = $("meanings");
 
+/** What the picture shows besides cuts. */
 export interface Shown {
   rapids: boolean;
   stock: boolean;
-  parts: boolean;
   clamps: boolean;
+  parts: FinishedPart[];
 }
 
 /** Says what is to be seen. */
 export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   const hasCuts = Number.isFinite(model.deepest);
   depths.hidden = !hasCuts;
-  document.getElementById("shallowest")!.textContent = hasCuts ? `Z${mm(model.shallowest)}` : "";
-  document.getElementById("deepest")!.textContent = hasCuts ? `Z${mm(model.deepest)}` : "";
+  $("shallowest").textContent = hasCuts ? `Z${mm(model.shallowest)}` : "";
+  $("deepest").textContent = hasCuts ? `Z${mm(model.deepest)}` : "";
+  depths.classList.toggle("single", model.shallowest === model.deepest);
   const all: [boolean, string, Word][] = [
     [hasCuts, "ahead", "legendAhead"],
     [shown.rapids, "rapid", "rapids"],
     [shown.stock, "uncut", "legendUncut"],
     [shown.stock, "plate", "legendThrough"],
-    [shown.stock, "crash", "legendCrash"],
-    [shown.parts, "outline", "legendOutline"],
-    [shown.parts && shown.stock, "leftover", "legendLeft"],
+    [shown.stock, "wrong", "legendWrong"],
+    [shown.parts.length > 0, "outline", "legendOutline"],
+    [shown.stock && shown.parts.some(({ left }) => left.length > 0), "leftover", "legendLeft"],
+    [shown.stock && shown.parts.some((part) => part.is_loose), "loose", "legendLoose"],
     [shown.clamps, "clamp", "legendClamp"],
   ];
   items.replaceChildren(

@@ -1,6 +1,6 @@
 // Rows of a library, of which only those that can be seen are made.
 
-import { visible } from "./visible.js";
+import { node } from "./dom.js";
 import { LibraryRow } from "./source.js";
 import { lang } from "./viewer.js";
 import { Word, say } from "./words.js";
@@ -11,7 +11,7 @@ const [WIDE, NARROW] = [26, 44];
 /** Below this width a row has two lines. */
 const LEAST = 900;
 
-const STATES = { errors: "stateErrors", stale: "stateStale", current: "stateCurrent", ok: "stateOk" } as const satisfies Record<string, Word>;
+const STATES = { errors: "manyErrors", stale: "stateStale", current: "stateCurrent", ok: "stateOk" } as const satisfies Record<string, Word>;
 
 export class List {
   private rows: LibraryRow[] = [];
@@ -124,10 +124,7 @@ export class List {
 }
 
 function part(content: string, className = ""): HTMLElement {
-  const made = document.createElement("span");
-  made.textContent = visible(content);
-  made.className = className;
-  return made;
+  return node("span", content, className);
 }
 
 function number(value: number | null | undefined, digits: number): string {

@@ -1,14 +1,12 @@
 // The page of a library: what is listed, and one path of it that is looked at.
 
-import { visible } from "./visible.js";
+import { $, node, tableRow } from "./dom.js";
 import { List } from "./list.js";
 import { DroppedProgram, ProgramSettings, fragmentOf, settingsIn } from "./programs.js";
 import { Finding } from "./scene.js";
 import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
 import { assume, hide, lang, onAssume, onSpeak, otherLang, show, speak, theme } from "./viewer.js";
 import { Word, say } from "./words.js";
-
-const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 /** What may be looked at: a path, or all of a drawing. */
 interface Wanted {
@@ -21,7 +19,7 @@ type Filter = "all" | "errors" | "stale" | "current" | "ok" | "warnings";
 
 const FILTERS: [Filter, Word][] = [
   ["all", "all"],
-  ["errors", "stateErrors"],
+  ["errors", "manyErrors"],
   ["stale", "stateStale"],
   ["current", "stateCurrent"],
   ["ok", "stateOk"],
@@ -200,7 +198,7 @@ class Page {
     const pending = all.filter((row) => row.state === undefined).length;
     const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
     const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
-    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "onePath" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
+    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
   }
 
   /** Everything that is said in words. */
@@ -376,20 +374,9 @@ function inOrder(files: Iterable<string>): string[] {
   return keyed.sort(([a], [b]) => (a < b ? -1 : 1)).map(([, file]) => file);
 }
 
-function node(tag: string, content: string): HTMLElement {
-  const made = document.createElement(tag);
-  made.textContent = visible(content);
-  return made;
-}
-
 function table(rows: string[][], heads: string[] = []): HTMLElement {
   const made = document.createElement("table");
-  const row = (tag: string, cells: string[]) => {
-    const line = document.createElement("tr");
-    line.append(...cells.map((cell) => node(tag, cell)));
-    return line;
-  };
-  if (heads.length > 0) made.append(row("th", heads));
-  made.append(...rows.map((cells) => row("td", cells)));
+  if (heads.length > 0) made.append(tableRow("th", heads));
+  made.append(...rows.map((cells) => tableRow("td", cells)));
   return made;
 }

@@ -2,6 +2,7 @@
 
 import { zipSync } from "fflate";
 import { Compiler, Files, IndexRow, Options, Place } from "./compiler.js";
+import { $, node } from "./dom.js";
 import { Given, MOST_BYTES, MOST_FILES, TooMuch, dropped, joined, picked } from "./files.js";
 import { live } from "./live.js";
 import { EXAMPLE, EXAMPLE_NAME } from "./example.js";
@@ -10,8 +11,6 @@ import { Finding, Scene } from "./scene.js";
 import { LibraryNews, LibraryRow, Refused, Source, Statistics } from "./source.js";
 import { lang, onSpeak, speak } from "./viewer.js";
 import { Word, say } from "./words.js";
-
-const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 /** So often, in ms, what was checked is shown. */
 const PAUSE = 100;
@@ -186,13 +185,7 @@ async function unpacked(id: string): Promise<ArrayBuffer> {
 
 /** Says something below the bar, in lines; nothing: takes it away. */
 function tell(lines: string[]): void {
-  $("said").replaceChildren(
-    ...lines.map((line) => {
-      const shown = document.createElement("p");
-      shown.textContent = line;
-      return shown;
-    }),
-  );
+  $("said").replaceChildren(...lines.map((line) => node("p", line)));
   $("said").hidden = lines.length === 0;
 }
 
@@ -312,7 +305,7 @@ function label(): void {
     ["post", "post", ""],
     ["feed", "feedF", "mm/min"],
     ["sweep-height", "sweepHeight", "mm"],
-    ["rapid", "rapidSpeed", "mm/min"],
+    ["rapid", "sweep", "mm/min"],
     ["probe-feed", "probeFeed", "mm/min"],
   ];
   for (const [id, word, unit] of names) $(id).title = unit;

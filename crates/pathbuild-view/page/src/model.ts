@@ -68,7 +68,10 @@ export function model(scene: Scene): Model {
   );
   const hasElements = scene.paths.some((path) => path.elements.length > 0);
   flat.forEach((points, index) => {
-    if (isCut(steps[index].move.kind) || !hasElements) points.forEach(grow);
+    const { path, move } = steps[index];
+    const radius = isCut(move.kind) ? (toolOf(path, move) ?? 0) / 2 : 0;
+    if (!isCut(move.kind) && hasElements) return;
+    for (const [x, y, z] of points) for (const side of [-radius, radius]) grow([x + side, y + side, z]);
   });
   if (!Number.isFinite(made.low[0])) {
     made.low = [0, 0, 0];
@@ -84,17 +87,19 @@ export function model(scene: Scene): Model {
     const points = flat[index];
     for (let piece = 1; piece < points.length; piece++) push(into, points[piece - 1], points[piece], color, index);
     arrow(cuts ? made.arrows : made.rapidArrows, points, color, index, extent);
-    if (isHole(path, move)) disc(made.holes, points.at(-1)!, toolOf(path, move)! / 2, color, index);
+    if (isHole(path, move, steps[index + 1]?.move)) disc(made.holes, points.at(-1)!, (toolOf(path, move) ?? extent * DOT) / 2, color, index);
     for (const pieces of [made.holes, made.cuts, made.rapids, made.arrows, made.rapidArrows]) pieces.until.push(pieces.step.length);
   });
   return made;
 }
 
-/** Whether a plunge is the whole of its element; without elements it looks like one. */
-function isHole(path: Path, move: Move): boolean {
-  const { kind, element, to } = move;
-  const isAlone = element === undefined || path.elements[element].shape.type === "circle";
-  return kind === "plunge" && toolOf(path, move) !== null && to[0] !== null && to[1] !== null && isAlone;
+/** Diameter of a hole's disc where the cutter is unknown, as a share of the picture. */
+const DOT = 0.012;
+
+/** Whether a plunge is the whole of its element; without elements, whether nothing is milled from where it ends. */
+function isHole({ elements }: Path, { kind, element, to }: Move, next: Move | undefined): boolean {
+  const isAlone = element === undefined ? next?.kind !== "mill" : elements[element].shape.type === "circle";
+  return kind === "plunge" && to[0] !== null && to[1] !== null && isAlone;
 }
 
 /** So many triangles are a disc. */

@@ -1,5 +1,7 @@
 // The colours of the picture. They stand in style.css, where a test measures their contrast.
 
+import type { StockColors } from "./stock/shading.js";
+
 /** Red, green and blue from 0 to 1. */
 export type Color = [number, number, number];
 
@@ -12,6 +14,12 @@ export function color(name: string): Color {
 /** The same as a number. */
 export function hex(name: string): number {
   return color(name).reduce((sum, part) => sum * 256 + Math.round(part * 255), 0);
+}
+
+/** The colours of the stock. */
+export function stockColors(): StockColors {
+  const names = ["uncut", "shallow", "deep", "plate", "wrong", "leftover", "loose"] as const;
+  return Object.fromEntries(names.map((name) => [name, color(name).map((part) => Math.round(part * 255))])) as StockColors;
 }
 
 /** Colours of depths, from the upper face to the deepest cut. */

@@ -99,8 +99,10 @@ export interface Path {
 export interface FinishedPart {
   rings: Shape[][];
   top: number;
-  tolerance: number;
   left: { outline: Shape[]; reach: number }[];
+  gouges?: Shape[];
+  lost_bars?: Shape[];
+  is_loose?: boolean;
 }
 
 export interface KeepOut {

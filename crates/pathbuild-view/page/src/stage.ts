@@ -84,11 +84,12 @@ export class Stage {
   constructor(
     private host: HTMLElement,
     labels: HTMLElement,
+    legend: HTMLElement,
     readonly isThick: boolean,
     /** Hears of px for each mm of the plane; `null`: they differ by direction. */
     private hearScale: (perMm: number | null) => void,
   ) {
-    this.labels = new Labels(labels);
+    this.labels = new Labels(labels, legend);
     const canvas = document.createElement("canvas");
     const context = canvas.getContext("webgl2", { antialias: isThick, alpha: false });
     if (!context) throw new Error("no WebGL2");
@@ -156,7 +157,7 @@ export class Stage {
   showStock(stock: Stock | null): void {
     if (this.stock) this.scene.remove(this.stock.object);
     this.stock?.dispose();
-    this.stock = stock && new StockPicture(stock.map, stock.colors);
+    this.stock = stock && new StockPicture(stock);
     if (this.stock) this.scene.add(this.stock.object);
     // The stock shows bars and grooves at their true width: lines as wide as usual would cover them.
     this.bars.visible = this.holes.object.visible = !stock;
@@ -286,6 +287,11 @@ export class Stage {
 
   setSpots(spots: Spot[]): void {
     this.labels.set(spots);
+    this.placeLabels();
+  }
+
+  /** Finds places for the labels anew: other things lie over the picture now. */
+  placeLabels(): void {
     this.labelled = null;
     this.draw();
   }

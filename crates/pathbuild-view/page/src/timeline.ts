@@ -14,21 +14,26 @@ export class Timeline {
   readonly ends: Float64Array;
   /** Whether the speeds of all moves are known. */
   readonly isKnown: boolean;
+  /** Seconds for everything but rapid moves; `null` if the feed of any of it is unknown. */
+  readonly cutting: number | null;
 
   /** `rapid` is the speed of rapid moves in mm/min where a program does not give it. */
   constructor(model: Model, rapid: number | null) {
     this.ends = new Float64Array(model.steps.length);
     let [seconds, isKnown] = [0, true];
+    let cutting: number | null = 0;
     model.steps.forEach(({ path, move }, index) => {
       const isRapid = move.kind === "sweep" || move.kind === "lift";
       const speed = isRapid ? (path.rapid ?? rapid) : (move.feed ?? null);
       if (move.length > 0) {
         isKnown &&= speed !== null;
-        seconds += (60 * SLOWER * move.length) / (speed ?? (isRapid ? ASSUMED_RAPID : ASSUMED_FEED));
+        const took = (60 * SLOWER * move.length) / (speed ?? (isRapid ? ASSUMED_RAPID : ASSUMED_FEED));
+        seconds += took;
+        if (!isRapid) cutting = speed === null || cutting === null ? null : cutting + took;
       }
       this.ends[index] = seconds;
     });
-    this.isKnown = isKnown;
+    [this.isKnown, this.cutting] = [isKnown, cutting];
   }
 
   /** Seconds for all moves. */

@@ -1,5 +1,6 @@
 // What shows a scene: the picture, its G-code, and what goes between them.
 
+import { $, node, tableRow } from "./dom.js";
 import { sayKeys, toggleHelp } from "./help.js";
 import { Spot } from "./labels.js";
 import { sayLegend, sayScale, showLegend } from "./legend.js";
@@ -10,12 +11,12 @@ import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
 import { Stock } from "./stock/stock.js";
+import { stockColors } from "./palette.js";
 import { FIELDS, ProgramSettings, fragmentOf } from "./programs.js";
 import { Timeline, clock, wayUpTo } from "./timeline.js";
 import { visible } from "./visible.js";
 import { Lang, Word, mm, say, sayKind, sayOption } from "./words.js";
 
-const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const slider = $<HTMLInputElement>("slider");
 const speed = $<HTMLSelectElement>("speed");
 const picture = $("picture");
@@ -109,7 +110,7 @@ function placeProgram(): void {
   $<HTMLInputElement>("assumedTool").placeholder = [...new Set(program.cutters.map(({ diameter }) => mm(diameter)))].join(", ");
   $<HTMLInputElement>("assumedSurface").placeholder = program.surface === null ? "" : mm(program.surface);
   $<HTMLAnchorElement>("settings").href = `#${fragmentOf(settings())}`;
-  const checks = program.checks.map(({ outcome, text: said }) => text("li", said[lang], outcome));
+  const checks = program.checks.map(({ outcome, text: said }) => node("li", said[lang], outcome));
   $("checks").replaceChildren(...checks);
 }
 
@@ -205,13 +206,6 @@ function found({ path, handle, turn }: Mark): number | null {
   return null;
 }
 
-function text(tag: string, content: string, className = ""): HTMLElement {
-  const node = document.createElement(tag);
-  node.textContent = visible(content);
-  node.className = className;
-  return node;
-}
-
 /** Starts or starts again: colours are part of the buffers. */
 function start(keepsView: boolean): void {
   made = model(scene);
@@ -222,7 +216,7 @@ function start(keepsView: boolean): void {
       stage.dispose();
       stage = null;
     }
-    stage ??= new Stage(picture, $("labels"), isThick(made), sayScale);
+    stage ??= new Stage(picture, $("labels"), $("legend"), isThick(made), sayScale);
     stage.load(made, scene);
   } catch {
     stage = null;
@@ -260,7 +254,7 @@ function placeStock(): void {
   $("typeRapid").hidden = scene.paths.every(({ rapid, moves }) => moves.length === 0 || rapid);
   $("assumed").hidden = $("typeTool").hidden && $("typeRapid").hidden;
   $("stock").hidden = !cuts.some(({ tool, tools }) => tool !== null || tools || hasTool);
-  if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed());
+  if (shown.stock && stock === undefined) stock = Stock.of(scene, assumed(), stockColors());
   stage?.showStock(shown.stock ? stock! : null);
   $("flat").hidden = stage !== null || !shown.stock || !stock;
   picture.classList.toggle("still", stage === null);
@@ -270,8 +264,9 @@ function placeStock(): void {
 
 function legend(): void {
   const hasStock = shown.stock && !!stock;
-  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, parts: scene.paths.some(({ parts }) => parts?.length), clamps: scene.keep_outs.length > 0 }, lang);
+  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0 }, lang);
   showLegend(shown.explain);
+  stage?.placeLabels();
 }
 
 /** Times of the moves, and the table of operations. */
@@ -282,16 +277,11 @@ function placeWork(): void {
   working = null;
   $("work").hidden = work.length === 0 || work.length > MOST_OPERATIONS;
   $("workCount").textContent = String(work.length);
-  const cells = (tag: string, texts: string[]) => {
-    const row = document.createElement("tr");
-    row.append(...texts.map((content) => text(tag, content)));
-    return row;
-  };
-  $("workHead").replaceChildren(cells("th", [say("number", lang), say("what", lang), "Z", "mm", ...(timeline.isKnown ? [say("duration", lang)] : [])]));
+  $("workHead").replaceChildren(tableRow("th", [say("number", lang), say("what", lang), "Z", "mm", ...(timeline.isKnown ? [say("time", lang)] : [])]));
   if ($("work").hidden) return $("operations").replaceChildren();
   const rows = work.map((it, index) => {
     const what = [sayKind(it.kind, lang), it.name, scene.paths.length > 1 ? made.steps[it.moves[0]].path.name : ""].filter((part) => part !== "");
-    const row = cells("td", [String(index + 1), what.join(" · "), it.depth === null ? "" : mm(it.depth), it.length.toFixed(0), ...(timeline.isKnown ? [clock(it.seconds)] : [])]);
+    const row = tableRow("td", [String(index + 1), what.join(" · "), it.depth === null ? "" : mm(it.depth), it.length.toFixed(0), ...(timeline.isKnown ? [clock(it.seconds)] : [])]);
     row.tabIndex = 0;
     row.addEventListener("click", () => choose(index));
     row.addEventListener("keydown", (event) => {
@@ -374,32 +364,32 @@ function spots(): void {
         // A number in the disc of a drilled hole would make a ring of it.
         const reach = (path.tool ?? 0) / 2;
         const isHole = shape.type === "circle" && shape.radius <= 1.05 * reach;
-        add(place(isHole ? [at[0] + reach, at[1]] : at), 0, text("span", String(order), isHole ? "order beside" : "order"));
+        add(place(isHole ? [at[0] + reach, at[1]] : at), 0, node("span", String(order), isHole ? "order beside" : "order"));
       }
     }
     if (shown.texts) {
-      for (const label of path.texts) if (label.path === 0) add(place(label.at), 0, text("span", label.text, "text"));
-      for (const inner of path.embedded.slice(1)) add(place(inner.ends[0]), 0, text("span", inner.name, "name"));
+      for (const label of path.texts) if (label.path === 0) add(place(label.at), 0, node("span", label.text, "text"));
+      for (const inner of path.embedded.slice(1)) add(place(inner.ends[0]), 0, node("span", inner.name, "name"));
     }
     for (const probe of path.probes) {
-      add(place(probe.at), probe.height, text("span", `#${probe.number} ${probe.label ?? ""}`, "probe"));
+      add(place(probe.at), probe.height, node("span", `#${probe.number} ${probe.label ?? ""}`, "probe"));
     }
     const zero = path.elements.find((element) => element.path === 0 && element.kind === "start");
-    if (zero || path.moves.length > 0) add(place([0, 0]), 0, text("span", "X0 Y0", "zero"));
+    if (zero || path.moves.length > 0) add(place([0, 0]), 0, node("span", "X0 Y0", "zero"));
   }
   for (const { outline, height } of scene.keep_outs) {
     const corners = outline.flatMap((shape) => pointsOfShape(shape).slice(1));
     const mean = (axis: 0 | 1) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length;
-    add([mean(0), mean(1)], height, text("span", `Z${mm(height)}`, "clamp"));
+    add([mean(0), mean(1)], height, node("span", `Z${mm(height)}`, "clamp"));
   }
   for (const finding of scene.findings) {
     if (!finding.at) continue;
-    const node = text("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
-    node.title = visible(`${finding.code}: ${finding.message[lang]}`);
-    node.addEventListener("click", () => goTo(finding));
-    add(finding.at, 0, node);
+    const circle = node("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
+    circle.title = visible(`${finding.code}: ${finding.message[lang]}`);
+    circle.addEventListener("click", () => goTo(finding));
+    add(finding.at, 0, circle);
   }
-  for (const at of measured ?? []) add(at, 0, text("span", "+", "cross"));
+  for (const at of measured ?? []) add(at, 0, node("span", "+", "cross"));
   stage?.setSpots(all.slice(-MOST_SPOTS));
 }
 
@@ -437,11 +427,16 @@ function readout(): void {
   const [x, y] = path.zero;
   const end = wayUpTo(step, share > 0 ? share : count === 0 ? 0 : 1).at(-1);
   const place = end ? [end[0] - x, end[1] - y, end[2]] : count === 0 ? move.from : move.to;
-  $("place").textContent = ["X", "Y", "Z"].map((axis, index) => (place[index] === null ? "" : `${axis}${place[index]!.toFixed(2)}`)).join(" ");
+  $("place").textContent = coordinates(place, (value) => value.toFixed(2));
   const rapid = move.kind === "sweep" || move.kind === "lift";
   $("pace").textContent = rapid ? say("sweep", lang) : move.feed ? `F${mm(move.feed)} mm/min` : "";
   const seconds = timeline.seconds(count, share);
   $("clock").textContent = timeline.isKnown ? `${clock(seconds)} ${say("elapsed", lang)} · ${clock(timeline.total - seconds)} ${say("remaining", lang)}` : "";
+}
+
+/** The known coordinates of a place. */
+function coordinates(place: (number | null)[], format: (value: number) => string): string {
+  return place.flatMap((value, axis) => (value === null ? [] : [`${"XYZ"[axis]}${format(value)}`])).join(" ");
 }
 
 /** The line of G-code that is being run. */
@@ -479,8 +474,8 @@ function listing(follow: boolean): void {
 }
 
 function codeRow(index: number, content: string): HTMLElement {
-  const row = text("div", "", "row");
-  row.append(text("i", String(index + 1)), text("span", content));
+  const row = node("div", "", "row");
+  row.append(node("i", String(index + 1)), node("span", content));
   row.style.top = `${index * ROW}px`;
   row.dataset.line = String(index + 1);
   return row;
@@ -492,9 +487,7 @@ function describe(at: number | null): void {
   if (at === null) return summary();
   const { path, move } = made.steps[at];
   const list: [string, string][] = [[say("step", lang), `${at + 1}: ${sayKind(move.kind, lang)}`]];
-  const place = (values: (number | null)[]) =>
-    ["X", "Y", "Z"].map((axis, index) => (values[index] === null ? "" : `${axis}${mm(values[index]!)}`)).join(" ");
-  list.push(["→", place(move.to)]);
+  list.push(["→", coordinates(move.to, mm)]);
   if (move.feed) list.push([say("feed", lang), `${mm(move.feed)} mm/min`]);
   const line = lineOf[at];
   if (line !== null) list.push(["G-code", `${line}: ${listed(path).split("\n", line)[line - 1] ?? ""}`]);
@@ -508,7 +501,7 @@ function describe(at: number | null): void {
     list.push([say("element", lang), `${element.entity} ${element.handle ?? ""} · ${sayKind(element.kind, lang)}`]);
     list.push([say("layer", lang), element.layer]);
     if (element.line !== null) list.push([say("line", lang), `${inside?.file ?? path.file}:${element.line}`]);
-    list.push([say("text", lang), joined(own)]);
+    list.push([say("fromOwn", lang), joined(own)]);
     list.push([`${say("pathText", lang)} ${inside?.name ?? path.name}`, joined(ofPath)]);
     for (const parameter of element.parameters ?? []) list.push([parameter.letter, `${parameter.value} · ${provider(parameter)}`]);
   }
@@ -531,13 +524,15 @@ function summary(): void {
     if (scene.program) list.push([say("readAs", lang), scene.program.read_as[lang]]);
     if (box) list.push([say("extent", lang), box]);
     if (path.tools) list.push([say("tools", lang), path.tools.map(({ diameter }) => mm(diameter)).join(", ")]);
-    if (path.tool !== null) list.push([say("tool", lang), mm(path.tool)]);
+    if (path.tool !== null) list.push([say("cutterO", lang), mm(path.tool)]);
     if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
-    if (path.material) list.push([say("material", lang), path.material]);
+    if (path.material) list.push([say("materialM", lang), path.material]);
     const { totals } = path;
     if (totals && path.moves.length > 0) {
-      for (const kind of ["milling", "drilling", "sweeps"] as const) list.push([say(kind, lang), `${totals[kind].toFixed(0)} mm`]);
+      for (const kind of Object.keys(TOTALS) as (keyof typeof TOTALS)[]) list.push([say(TOTALS[kind], lang), `${totals[kind].toFixed(0)} mm`]);
+      const { cutting } = timeline;
       if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
+      else if (cutting !== null && scene.paths.length === 1) list.push([say("time", lang), `${Math.ceil(cutting / 60)} min ${say("withoutRapids", lang)}`]);
     }
     const examples = path.examples ?? [];
     const known = examples.filter(({ value }) => value !== null).map(({ name, value }) => `${name} ${value}`);
@@ -547,6 +542,9 @@ function summary(): void {
   }
   fill(list);
 }
+
+/** Words for lengths that a program adds up to. */
+const TOTALS = { milling: "mill", drilling: "drilling", sweeps: "sweep" } as const;
 
 const extents = new WeakMap<Path, string>();
 
@@ -571,10 +569,10 @@ function extent(path: Path): string {
 function fill(list: [string, string][]): void {
   details.replaceChildren(
     ...list.flatMap(([name, value]) => {
-      const said = text("dd", "");
+      const said = node("dd", "");
       // A number stays on one line with its sign and its letter.
-      value.split(" ").forEach((word, index) => said.append(index > 0 ? " " : "", text("span", word, word.length <= 24 ? "whole" : "")));
-      return [text("dt", name), said];
+      value.split(" ").forEach((word, index) => said.append(index > 0 ? " " : "", node("span", word, word.length <= 24 ? "whole" : "")));
+      return [node("dt", name), said];
     }),
   );
 }
@@ -582,14 +580,14 @@ function fill(list: [string, string][]): void {
 /** A click on a finding that has a place goes there. */
 function findings(): void {
   const list = scene.findings.map((it) => {
-    const item = text("li", "", it.is_error ? "error" : "");
+    const item = node("li", "", it.is_error ? "error" : "");
     const place = scene.program && it.line ? `${say("lineShort", lang)} ${it.line} · ` : "";
     const words = `${it.number} · ${place}${it.code}: ${it.message[lang]}`;
-    const line = text(it.at && stage ? "button" : "span", words);
+    const line = node(it.at && stage ? "button" : "span", words);
     if (it.at && stage) line.addEventListener("click", () => goTo(it));
     item.append(line);
-    for (const note of it.notes ?? []) item.append(text("small", note[lang]));
-    if (it.help[lang]) item.append(text("small", it.help[lang]));
+    for (const note of it.notes ?? []) item.append(node("small", note[lang]));
+    if (it.help[lang]) item.append(node("small", it.help[lang]));
     item.dataset.number = String(it.number);
     return item;
   });
@@ -696,6 +694,7 @@ const acts = {
   theme: () => {
     dark = !dark;
     paint();
+    stock = undefined;
     if (isOpen) start(true);
     if (isOpen) describe(chosen);
   },

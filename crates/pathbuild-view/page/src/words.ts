@@ -18,18 +18,14 @@ const words = {
   stop: ["Stop", "Anhalten"],
   step: ["Move", "Bewegung"],
   of: ["of", "von"],
-  tool: ["cutter O", "Fräser O"],
   thickness: ["thickness T", "Dicke T"],
-  material: ["material M", "Material M"],
-  milling: ["milling", "Fräsen"],
   drilling: ["plunging", "Eintauchen"],
-  sweeps: ["rapid", "Eilgang"],
   time: ["time", "Zeit"],
+  withoutRapids: ["without rapid moves", "ohne Eilgänge"],
   findings: ["Findings", "Befunde"],
   element: ["Element", "Element"],
   layer: ["layer", "Layer"],
   line: ["line in the file", "Zeile in der Datei"],
-  text: ["its text", "eigener Text"],
   pathText: ["text of path", "Text des Pfads"],
   none: ["none", "keiner"],
   fromOwn: ["own text", "eigener Text"],
@@ -63,9 +59,10 @@ const words = {
   legendAhead: ["cuts ahead", "noch zu fräsen"],
   legendUncut: ["uncut stock", "ungeschnittenes Rohteil"],
   legendThrough: ["cut through", "durchgefräst"],
-  legendCrash: ["rapid in material, cut into a part", "Eilgang im Material, Schnitt ins Teil"],
+  legendWrong: ["rapid in material, cut into a part or bar", "Eilgang im Material, Schnitt in Teil oder Steg"],
   legendOutline: ["outline of a part", "Kontur eines Teils"],
   legendLeft: ["material left", "stehengebliebenes Material"],
+  legendLoose: ["loose part", "loses Teil"],
   legendClamp: ["clamp", "Spannmittel"],
   dialect: ["dialect", "Dialekt"],
   surface: ["surface Z", "Oberseite Z"],
@@ -87,7 +84,6 @@ const words = {
   number: ["No.", "Nr."],
   what: ["what", "was"],
   depth: ["depth", "Tiefe"],
-  duration: ["time", "Zeit"],
   nowebgl: [
     "This browser has no WebGL2: the picture stands still.",
     "Dieser Browser hat kein WebGL2: Das Bild steht still.",
@@ -95,7 +91,6 @@ const words = {
   library: ["Library", "Bibliothek"],
   search: ["Search  ( / )", "Suche  ( / )"],
   statistics: ["Statistics", "Statistik"],
-  onePath: ["path", "Pfad"],
   paths: ["paths", "Pfade"],
   path: ["path", "Pfad"],
   drawing: ["drawing", "Zeichnung"],
@@ -106,7 +101,6 @@ const words = {
   min: ["min", "min"],
   state: ["state", "Zustand"],
   all: ["all", "alle"],
-  stateErrors: ["errors", "Fehler"],
   stateStale: ["program not current", "Programm nicht aktuell"],
   stateCurrent: ["program current", "Programm aktuell"],
   stateOk: ["ok", "in Ordnung"],
@@ -145,7 +139,6 @@ const words = {
   asConfigured: ["(pathbuild.toml)", "(pathbuild.toml)"],
   feedF: ["feed F", "Vorschub F"],
   sweepHeight: ["sweep height S", "Leerfahrthöhe S"],
-  rapidSpeed: ["rapid", "Eilgang"],
   probeFeed: ["probe feed", "Vorschub Probe"],
   downloadAll: ["Download all", "Alle herunterladen"],
   download: ["Download program", "Programm herunterladen"],
@@ -198,7 +191,7 @@ export function sayKind(kind: string, lang: Lang): string {
 
 /** The name of an option that nothing gives. */
 export function sayOption(name: string, lang: Lang): string {
-  return name === "feed" ? say("feedF", lang) : name === "rapid" ? say("rapidSpeed", lang) : name;
+  return name === "feed" ? say("feedF", lang) : name === "rapid" ? say("sweep", lang) : name;
 }
 
 export function mm(value: number): string {

@@ -1,18 +1,18 @@
-// The finished parts in the map of heights: where a cut would go into one, and where material is left at one.
+// What is wrong about finished parts, as regions of the map of heights: the same regions that still pictures fill.
 
 import { FinishedPart, Path, Point, Scene, Shape, pointsOfShape } from "../scene.js";
 import { Heights } from "./heights.js";
 import { SAGITTA } from "./pieces.js";
 
-/** Marks of a texel: a cut through it goes into a part; stock that stands there is left at a part. */
-export const [INSIDE, BESIDE] = [1, 2];
+/** Marks of a texel: a cut through it is wrong; stock that stands there is left at a part, or belongs to a part that nothing holds. */
+export const [FORBIDDEN, BESIDE, LOOSE] = [1, 2, 4];
 
 /** Width in texels on either side of an outline that belongs to neither side, since a texel's height is that of its centre. */
 const BAND = 0.75;
 
 type Segment = [Point, Point];
 
-/** A mark for each texel. */
+/** The marks of each texel. */
 export function marks(map: Heights, scene: Scene): Uint8Array {
   const marked = new Uint8Array(map.columns * map.rows);
   for (const path of scene.paths) for (const part of path.parts ?? []) mark(map, path, part, marked);
@@ -21,17 +21,17 @@ export function marks(map: Heights, scene: Scene): Uint8Array {
 
 function mark(map: Heights, path: Path, part: FinishedPart, marked: Uint8Array): void {
   const segments = (shapes: Shape[]) => shapes.flatMap((shape) => segmentsOf(map, shape, path.zero));
-  const rings = part.rings.map(segments);
   const inside = new Uint8Array(marked.length);
   // Rings inside an opening never make a part: they leave it open.
-  rings.forEach((ring, number) => fill(map, ring, inside, number === 0 ? INSIDE : 0));
-  for (let at = 0; at < marked.length; at++) if (inside[at] === INSIDE) marked[at] = INSIDE;
-  for (const { outline, reach } of part.left) {
-    near(map, segments(outline), reach / map.texel + BAND, (at) => {
-      if (inside[at] !== INSIDE) marked[at] = BESIDE;
-    });
-  }
-  near(map, rings.flat(), Math.max(part.tolerance / map.texel, BAND), (at) => (marked[at] &= ~INSIDE));
+  part.rings.forEach((ring, number) => fill(map, segments(ring), inside, number === 0 ? 1 : 0));
+  const put = (mark: number, isInside: number) => (at: number) => {
+    if (inside[at] === isInside) marked[at] |= mark;
+  };
+  const radius = (path.tool ?? 0) / 2 / map.texel;
+  near(map, segments(part.gouges ?? []), radius, put(FORBIDDEN, 1));
+  near(map, segments(part.lost_bars ?? []), radius, (at) => (marked[at] |= FORBIDDEN), false);
+  for (const { outline, reach } of part.left) near(map, segments(outline), reach / map.texel + BAND, put(BESIDE, 0));
+  if (part.is_loose) inside.forEach((_, at) => put(LOOSE, 1)(at));
 }
 
 /** A shape in texels, whose centres have whole numbers. */
@@ -56,8 +56,8 @@ function fill({ columns, rows }: Heights, ring: Segment[], into: Uint8Array, val
   });
 }
 
-/** Calls back for each texel within a distance, in texels, of segments. */
-function near({ columns, rows }: Heights, segments: Segment[], reach: number, found: (at: number) => void): void {
+/** Calls back for each texel within a distance, in texels, of segments; beyond their ends only if these are round. */
+function near({ columns, rows }: Heights, segments: Segment[], reach: number, found: (at: number) => void, isRound = true): void {
   for (const [[ax, ay], [bx, by]] of segments) {
     const [dx, dy] = [bx - ax, by - ay];
     const square = dx * dx + dy * dy;
@@ -65,7 +65,9 @@ function near({ columns, rows }: Heights, segments: Segment[], reach: number, fo
     const upper = Math.min(rows - 1, Math.floor(Math.max(ay, by) + reach));
     for (let row = Math.max(0, Math.ceil(Math.min(ay, by) - reach)); row <= upper; row++) {
       for (let column = left; column <= right; column++) {
-        const share = square === 0 ? 0 : Math.min(1, Math.max(0, ((column - ax) * dx + (row - ay) * dy) / square));
+        const along = square === 0 ? 0 : ((column - ax) * dx + (row - ay) * dy) / square;
+        const share = Math.min(1, Math.max(0, along));
+        if (share !== along && !isRound) continue;
         const [x, y] = [column - ax - dx * share, row - ay - dy * share];
         if (x * x + y * y <= reach * reach) found(row * columns + column);
       }

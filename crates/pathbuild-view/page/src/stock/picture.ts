@@ -4,7 +4,8 @@
 import * as THREE from "three";
 
 import { Heights, Texels } from "./heights.js";
-import { PLATE, RAPID } from "./shading.js";
+import { Color } from "./shading.js";
+import { Stock } from "./stock.js";
 
 /** Part of a texel by which rays may lean over the whole depth and still count as vertical. */
 const VERTICAL = 0.01;
@@ -19,10 +20,10 @@ export class StockPicture {
   private sources: THREE.DataTexture[];
   private changed: Texels[] = [];
 
-  constructor(
-    private map: Heights,
-    colors: Uint8ClampedArray,
-  ) {
+  private map: Heights;
+
+  constructor({ map, colors, paints }: Stock) {
+    this.map = map;
     const { columns, rows, texel, cutting } = map;
     const make = () => [
       new THREE.DataTexture(map.heights, columns, rows, THREE.RedFormat, THREE.FloatType),
@@ -48,6 +49,9 @@ export class StockPicture {
       across: { value: new THREE.Vector3() },
       upwards: { value: new THREE.Vector3() },
       way: { value: new THREE.Vector3() },
+      wallColor: { value: vector(paints.shallow) },
+      plateColor: { value: vector(paints.plate) },
+      wrongColor: { value: vector(paints.wrong) },
     };
     const material = (fragmentShader: string) =>
       // Of a box, the faces turned away cover each of its pixels once.
@@ -91,7 +95,9 @@ export class StockPicture {
   }
 }
 
-const vec3 = (color: number[]) => `vec3(${color.map((part) => (part / 255).toFixed(3)).join(",")})`;
+function vector(color: Color): THREE.Vector3 {
+  return new THREE.Vector3(...color).divideScalar(255);
+}
 
 const VERTEX = `
 out vec2 at;
@@ -107,7 +113,7 @@ uniform highp sampler2D heights;
 uniform sampler2D rapid, shaded;
 uniform vec2 size, corner, range;
 uniform float texel;
-uniform vec3 eye, across, upwards, way;
+uniform vec3 eye, across, upwards, way, wallColor, plateColor, wrongColor;
 in vec2 at;
 out vec4 color;
 
@@ -125,7 +131,6 @@ void main() {
 
 const IN_SPACE = `
 const vec3 LIGHT = vec3(-0.42, 0.55, 0.72);
-const vec3 WALL = vec3(0.62, 0.46, 0.27);
 
 float heightAt(ivec2 i) {
   return texelFetch(heights, clamp(i, ivec2(0), ivec2(size) - 1), 0).x;
@@ -142,8 +147,8 @@ vec2 facing(ivec2 i) {
 void wall(ivec2 i, vec2 side, bool isEdge) {
   vec2 normal = isEdge ? side : facing(i);
   if (dot(normal, normal) < 0.5) normal = side;
-  color = vec4(WALL * (clamp(dot(vec3(normal, 0), normalize(LIGHT)), 0.0, 1.0) * 0.7 + 0.42), 1);
-  if (texelFetch(rapid, i, 0).r > 0.5) color.rgb = mix(color.rgb, ${vec3(RAPID)}, 0.75);
+  color = vec4(wallColor * (clamp(dot(vec3(normal, 0), normalize(LIGHT)), 0.0, 1.0) * 0.6 + 0.36), 1);
+  if (texelFetch(rapid, i, 0).r > 0.5) color.rgb = mix(color.rgb, wrongColor, 0.75);
 }
 
 void main() {
@@ -195,5 +200,5 @@ void main() {
     else found(texelFetch(shaded, i, 0));
   } else if (isFloor) found(texelFetch(shaded, i, 0));
   else if (last < 1.0 || heightAt(i) < range.x - 1.0) discard;
-  else color = vec4(${vec3(PLATE)}, 1);
+  else color = vec4(plateColor, 1);
 }`;

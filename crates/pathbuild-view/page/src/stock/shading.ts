@@ -1,16 +1,13 @@
 // Colours of the stock as seen from above, for the GPU's texture and for a 2D canvas alike.
 
 import { Heights, NOTHING, Texels } from "./heights.js";
-import { BESIDE, INSIDE } from "./parts.js";
+import { BESIDE, FORBIDDEN, LOOSE } from "./parts.js";
 
-type Color = [number, number, number];
+/** Red, green and blue from 0 to 255. */
+export type Color = [number, number, number];
 
-const UNTOUCHED: Color = [219, 189, 133];
-const [SHALLOW, DEEP]: Color[] = [[189, 148, 92], [115, 77, 41]];
-export const PLATE: Color = [204, 214, 224];
-export const RAPID: Color = [229, 13, 26];
-/** Cuts into a part, and material left at one. */
-const [GOUGE, LEFT]: Color[] = [RAPID, [150, 40, 200]];
+/** The colours of the stock: uncut, cut a little, cut deep, cut through; and of what is wrong about it. */
+export type StockColors = Record<"uncut" | "shallow" | "deep" | "plate" | "wrong" | "leftover" | "loose", Color>;
 
 /** Direction of the light. */
 const LIGHT = normal(-0.42, 0.55, 0.72);
@@ -30,7 +27,7 @@ function beside(neighbour: number, height: number): number {
 }
 
 /** Paints these texels and their neighbours. Returns the texels that were painted. */
-export function shade(map: Heights, marked: Uint8Array, [x0, y0, x1, y1]: Texels, into: Uint8ClampedArray): Texels {
+export function shade(map: Heights, marked: Uint8Array, paint: StockColors, [x0, y0, x1, y1]: Texels, into: Uint8ClampedArray): Texels {
   const { heights, tops, through, rapid, columns, rows, texel, cutting } = map;
   const painted: Texels = [Math.max(0, x0 - REACH), Math.max(0, y0 - REACH), Math.min(columns, x1 + REACH), Math.min(rows, y1 + REACH)];
   const colors = new Uint32Array(into.buffer);
@@ -70,13 +67,13 @@ export function shade(map: Heights, marked: Uint8Array, [x0, y0, x1, y1]: Texels
       const share = Math.min(Math.max((cutting.top - height) / depth, 0), 1);
       const isThrough = height <= through[at];
       const isUntouched = height >= tops[at] - 1e-4;
-      const isGouge = isThrough && marked[at] === INSIDE;
-      const isLeft = !isThrough && marked[at] === BESIDE;
-      const overlay = rapid[at] ? RAPID : isGouge ? GOUGE : isLeft ? LEFT : null;
+      const isWrong = rapid[at] > 0 || (isThrough && (marked[at] & FORBIDDEN) > 0);
+      const overlay = isWrong ? paint.wrong : isThrough ? null : marked[at] & BESIDE ? paint.leftover : marked[at] & LOOSE ? paint.loose : null;
+      const strength = overlay === paint.loose ? 0.45 : 0.75;
       for (let part = 0; part < 3; part++) {
-        const base = isThrough ? PLATE[part] : isUntouched ? UNTOUCHED[part] : SHALLOW[part] + (DEEP[part] - SHALLOW[part]) * share;
+        const base = isThrough ? paint.plate[part] : isUntouched ? paint.uncut[part] : paint.shallow[part] + (paint.deep[part] - paint.shallow[part]) * share;
         const lit = base * light;
-        into[at * 4 + part] = overlay ? lit * 0.25 + overlay[part] * 0.75 : lit;
+        into[at * 4 + part] = overlay ? lit * (1 - strength) + overlay[part] * strength : lit;
       }
       into[at * 4 + 3] = 255;
     }

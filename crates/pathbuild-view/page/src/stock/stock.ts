@@ -4,7 +4,7 @@ import { Scene } from "../scene.js";
 import { Heights, Texels } from "./heights.js";
 import { marks } from "./parts.js";
 import { Assumed, cutting } from "./pieces.js";
-import { shade } from "./shading.js";
+import { StockColors, shade } from "./shading.js";
 
 export class Stock {
   readonly colors: Uint8ClampedArray<ArrayBuffer>;
@@ -12,23 +12,24 @@ export class Stock {
   private constructor(
     readonly map: Heights,
     private marked: Uint8Array,
+    readonly paints: StockColors,
   ) {
     this.colors = new Uint8ClampedArray(map.columns * map.rows * 4);
-    shade(map, marked, map.whole(), this.colors);
+    shade(map, marked, paints, map.whole(), this.colors);
   }
 
   /** The uncut stock; `null` if no cutter is known or nothing is cut. */
-  static of(scene: Scene, assumed: Assumed): Stock | null {
+  static of(scene: Scene, assumed: Assumed, paints: StockColors): Stock | null {
     const cuts = cutting(scene, assumed);
     if (!cuts) return null;
     const map = new Heights(cuts);
-    return new Stock(map, marks(map, scene));
+    return new Stock(map, marks(map, scene), paints);
   }
 
   /** Cuts the first so many moves, and a share of the next one. Returns the texels that were painted anew. */
   seek(moves: number, share = 0): Texels | null {
     const changed = this.map.seek(moves, share);
-    return changed && shade(this.map, this.marked, changed, this.colors);
+    return changed && shade(this.map, this.marked, this.paints, changed, this.colors);
   }
 
   /** Paints the stock on a 2D canvas, for browsers without WebGL2. */
