@@ -3,7 +3,7 @@ import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { chromium } from "playwright-core";
+import { launch } from "./browser.mjs";
 import { serve } from "./serving.mjs";
 
 const [pathbuild, library] = process.argv.slice(2).map((argument) => resolve(argument));
@@ -11,10 +11,7 @@ const place = mkdtempSync(join(tmpdir(), "pathbuild-bench-"));
 const TURNS = 9;
 const MOVES = 200_000;
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch();
 
 /** The middle of some figures, and the largest. */
 function told(what, figures, unit) {

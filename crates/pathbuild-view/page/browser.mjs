@@ -4,12 +4,23 @@ import playwright, { chromium } from "playwright-core";
 
 export const isFirefox = process.env.BROWSER === "firefox";
 
+/** The browser with WebGL by software; Chromium with more arguments. */
 export function launch(...args) {
-  if (isFirefox) {
-    const firefoxUserPrefs = { "webgl.force-enabled": true };
-    // Over WebDriver BiDi, which every Firefox speaks.
-    return playwright._bidiFirefox.launch({ channel: "moz-firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: !process.env.DISPLAY, firefoxUserPrefs, env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: "1" } });
-  }
-  const software = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: [...software, ...args] });
+  if (isFirefox) return launchFirefox({ "webgl.force-enabled": true });
+  return launchChromium("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...args);
+}
+
+/** The browser without WebGL. */
+export function launchWithoutWebGL() {
+  if (isFirefox) return launchFirefox({ "webgl.disabled": true });
+  return launchChromium("--disable-gpu", "--disable-3d-apis", "--disable-webgl", "--disable-webgl2");
+}
+
+function launchFirefox(firefoxUserPrefs) {
+  // Over WebDriver BiDi, which every Firefox speaks.
+  return playwright._bidiFirefox.launch({ channel: "moz-firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: !process.env.DISPLAY, firefoxUserPrefs, env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: "1" } });
+}
+
+function launchChromium(...args) {
+  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", ...args] });
 }

@@ -1,9 +1,10 @@
-// The page of a library that is watched, in a browser: node live-test.mjs PATHBUILD LIBRARY [PICTURES]. Needs Debian's chromium.
+// The page of a library that is watched, in a browser: node live-test.mjs PATHBUILD LIBRARY [PICTURES]; BROWSER=firefox tries
+// Firefox.
 import { copyFileSync, cpSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import assert from "node:assert/strict";
-import { chromium } from "playwright-core";
+import { isFirefox, launch, launchWithoutWebGL } from "./browser.mjs";
 import { serve } from "./serving.mjs";
 
 const [pathbuild, library, pictures] = process.argv.slice(2).map((argument) => resolve(argument));
@@ -11,17 +12,17 @@ const place = join(mkdtempSync(join(tmpdir(), "pathbuild-live-")), "library");
 cpSync(library, place, { recursive: true });
 const directories = ["components", "mistakes", "projects"];
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch();
 
 /** Opens the page; errors and requests to elsewhere fail the test. */
 async function open(address, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, locale: "en", ...options });
   const faults = [];
-  page.on("pageerror", (error) => faults.push(String(error)));
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  // In Firefox, a picture is taken by means of a style element, which the page's policy refuses.
+  const isOfPicture = (fault) => isFirefox && pictures && fault.includes("blocked an inline style");
+  const note = (fault) => isOfPicture(fault) || faults.push(fault);
+  page.on("pageerror", (error) => note(String(error)));
+  page.on("console", (message) => message.type() === "error" && note(message.text()));
   page.on("request", (request) => request.url().startsWith(new URL("/", address).href) || /^(data|blob):/.test(request.url()) || faults.push(request.url()));
   await page.goto(address);
   await page.waitForSelector(".item");
@@ -29,7 +30,7 @@ async function open(address, options = {}) {
 }
 
 async function shot(page, name) {
-  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}${isFirefox ? "-firefox" : ""}.png`) });
 }
 
 const text = (page, selector) => page.locator(selector).innerText();
@@ -185,10 +186,7 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
 }
 {
   // Without WebGL the picture stands still, as an image: nothing of a drawing becomes part of the page.
-  const still = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--disable-webgl", "--disable-webgl2"],
-  });
+  const still = await launchWithoutWebGL();
   const page = await still.newPage({ viewport: { width: 1280, height: 800 } });
   await page.goto(`${address}#${new URLSearchParams({ file: "projects/8001.1P.dxf", path: "8001.1P" })}`);
   await page.waitForFunction(() => document.querySelector("#still img")?.naturalWidth > 100);
@@ -235,4 +233,4 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
 }
 await browser.close();
 rmSync(join(place, ".."), { recursive: true });
-console.log("live page: all passed");
+console.log(`live page${isFirefox ? ", in Firefox" : ""}: all passed`);

@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import assert from "node:assert/strict";
 import { unzipSync } from "fflate";
-import { chromium } from "playwright-core";
+import { launch } from "./browser.mjs";
 
 const [pathbuild, given, html, pictures] = process.argv.slice(2).map((argument) => resolve(argument));
 const place = mkdtempSync(join(tmpdir(), "pathbuild-web-"));
@@ -13,10 +13,7 @@ const library = join(place, "library");
 cpSync(given, library, { recursive: true });
 rmSync(join(library, "gcode"), { recursive: true, force: true });
 
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
+const browser = await launch();
 
 /** Opens the page from a file; errors and requests to elsewhere fail the test. */
 async function open(options = {}, file = html) {
