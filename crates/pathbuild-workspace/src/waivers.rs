@@ -5,52 +5,35 @@ use std::fmt;
 use std::str::FromStr;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use chrono::{DateTime, Datelike, NaiveDate};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, Value};
-use toml::value::Datetime;
 
 /// A day of the Gregorian calendar. Days change at midnight UTC, so that a run has the same result everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Date {
-    year: u16,
-    month: u8,
-    day: u8,
-}
+pub struct Date(NaiveDate);
 
 impl Date {
     /// The day of a time in seconds since 1970-01-01; `None` after the year 9999.
     pub fn of_unix_time(seconds: u64) -> Option<Self> {
-        // Counts in eras of 400 years that begin on 1 March, so that a leap day is the last day of its year.
-        let days = seconds / 86_400 + 719_468;
-        let (era, day_of_era) = (days / 146_097, days % 146_097);
-        let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-        let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-        let month = (5 * day_of_year + 2) / 153;
-        let day = day_of_year - (153 * month + 2) / 5 + 1;
-        let (month, carry) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
-        let year = era.checked_mul(400)?.checked_add(year_of_era + carry)?;
-        let year = u16::try_from(year).ok().filter(|year| *year <= 9999)?;
-        Some(Self { year, month: month.try_into().ok()?, day: day.try_into().ok()? })
+        let date = DateTime::from_timestamp(seconds.try_into().ok()?, 0)?.date_naive();
+        (date.year() <= 9999).then_some(Self(date))
     }
 }
 
-/// Parses `2026-12-31`, with nothing before or after it.
+/// Parses `2026-12-31`, in this form only: `chrono` also accepts spaces, signs and single digits.
 impl FromStr for Date {
     type Err = ();
 
     fn from_str(text: &str) -> Result<Self, ()> {
-        match text.parse() {
-            Ok(Datetime { date: Some(date), time: None, offset: None }) => {
-                Ok(Self { year: date.year, month: date.month, day: date.day })
-            }
-            _ => Err(()),
-        }
+        let date = text.parse().map(Self).map_err(|_| ())?;
+        if date.to_string() == text { Ok(date) } else { Err(()) }
     }
 }
 
 impl fmt::Display for Date {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:04}-{:02}-{:02}", self.year, self.month, self.day)
+        self.0.fmt(f)
     }
 }
 
