@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Lang};
-use pathbuild_workspace::Workspace;
+use pathbuild_workspace::{Failure, Workspace};
 
 /// An error or a warning, with its place. (book: reference/diagnostics)
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -135,6 +135,13 @@ pub enum Error {
 }
 
 impl Error {
+    pub(crate) fn of(workspace: &Workspace, failure: Failure) -> Self {
+        match failure {
+            Failure::Usage(reason) => Self::Refused(reason),
+            Failure::Post(found) | Failure::Found(found) => Self::found(workspace, found),
+        }
+    }
+
     pub(crate) fn found(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Self {
         Self::Findings(Finding::all(workspace, diagnostics))
     }

@@ -5,14 +5,14 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{SourceFile, bug, catch_bugs, check_file, path_names};
+use pathbuild_db::{Role, SourceFile, bug, catch_bugs, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
-use pathbuild_workspace::check::{self, CheckOutcome, InputsNotDirectories};
+use pathbuild_workspace::check;
 use pathbuild_workspace::emit::{self, SceneReport, ShownText, State, Task};
 use pathbuild_workspace::list;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
-use pathbuild_workspace::session::{NamedPaths, Session, several_paths};
+use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_paths};
 use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 
 use crate::options::Source;
@@ -57,8 +57,7 @@ impl Library {
         self.ask(move |session| {
             let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
             let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
-            // Only a request that is limited to changed drawings is refused.
-            let outcome = request.run(session).unwrap_or_else(|InputsNotDirectories| CheckOutcome::default());
+            let outcome = request.run(session).map_err(|failure| Error::of(session.workspace(), failure))?;
             Ok(CheckReport {
                 paths: outcome.files.iter().map(|file| file.paths.len()).sum(),
                 drawings: outcome.files.len(),
@@ -75,10 +74,9 @@ impl Library {
     pub fn paths(&self, inputs: &[&str]) -> Result<PathListing, Error> {
         let inputs = owned(inputs);
         self.ask(move |session| {
-            let post_processor = post_processor(session, None)?;
-            let request = list::Request { inputs: &inputs, post_processor: post_processor.as_ref() };
-            let listed = request.run(session).map_err(Error::Refused)?;
             let workspace = session.workspace();
+            let listed = list::Request { inputs: &inputs, post: None }.run(session);
+            let listed = listed.map_err(|failure| Error::of(workspace, failure))?;
             let paths = listed.paths.into_iter().map(|path| PathSummary::new(workspace, path));
             Ok(PathListing {
                 paths: paths.collect(),
@@ -187,12 +185,7 @@ impl Library {
             let workspace = session.workspace();
             let request =
                 verify::Request { places: &places, text: None, options: options.resolve(workspace)? };
-            let verification = request.run(session).map_err(|failure| match failure {
-                verify::Failure::Usage(reason) => Error::Refused(reason),
-                verify::Failure::Post(found) | verify::Failure::Drawing(found) => {
-                    Error::found(workspace, found)
-                }
-            })?;
+            let verification = request.run(session).map_err(|failure| Error::of(workspace, failure))?;
             Ok(VerifyReport::new(workspace, verification))
         })
     }
@@ -317,31 +310,19 @@ fn whole_library(session: &Session<'_>) -> Inputs {
     Inputs::places(directory)
 }
 
-/// The named post-processor, or else the configured one; `None` for native programs.
-fn post_processor(session: &Session<'_>, named: Option<&str>) -> Result<Option<PostProcessor>, Error> {
-    let workspace = session.workspace();
-    PostProcessor::for_run(workspace, named, PostArguments::default())
-        .map_err(|found| Error::found(workspace, found))
-}
-
 /// Finds a path by its name, or by the name of a drawing with no other path.
 fn named_path(session: &Session<'_>, argument: &str) -> Result<(SourceFile, PathName), Error> {
-    let workspace = session.workspace();
-    let found = |found| Error::found(workspace, found);
-    let named = session.named_paths(argument).map_err(found)?;
-    let Some(NamedPaths { file, names }) = named else {
-        let [en, de] = ["`{}` is a directory, not a path", "`{}` ist ein Verzeichnis, kein Pfad"];
-        return Err(Error::Refused(workspace.phrase(en, de, argument)));
-    };
-    let drawing = file.path(session.db());
-    match <[PathName; 1]>::try_from(names) {
-        Ok([name]) => Ok((file, name)),
-        Err(names) if names.is_empty() => {
-            let mut problems = check_file(session.db(), file).to_vec();
-            problems.extend(session.no_path(drawing, &names, &problems));
-            Err(found(problems))
+    let (workspace, db) = (session.workspace(), session.db());
+    match session.one_path(argument, Role::Checked) {
+        Ok(target) => Ok((target.file(db), PathName::new(target.name(db)))),
+        Err(NotOnePath::Wrong(found)) => Err(Error::found(workspace, found)),
+        Err(NotOnePath::Several(NamedPaths { file, names })) => {
+            Err(Error::found(workspace, vec![several_paths(file.path(db), &names)]))
         }
-        Err(names) => Err(found(vec![several_paths(drawing, &names)])),
+        Err(NotOnePath::Directory) => {
+            let [en, de] = ["`{}` is a directory, not a path", "`{}` ist ein Verzeichnis, kein Pfad"];
+            Err(Error::Refused(workspace.phrase(en, de, argument)))
+        }
     }
 }
 
@@ -369,7 +350,9 @@ fn path(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<Path,
 }
 
 fn scene(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<SceneReport, Error> {
-    let post_processor = post_processor(session, None)?;
+    let workspace = session.workspace();
+    let post_processor = PostProcessor::for_run(workspace, None, PostArguments::default())
+        .map_err(|found| Error::found(workspace, found))?;
     let report = session.scene(file, &[name], ShownText::Emitted(post_processor.as_ref()));
     Ok(SceneReport { diagnostics: session.with_hints(report.diagnostics), ..report })
 }
@@ -380,14 +363,14 @@ fn run_emit(
     options: &EmitOptions,
     task: Task,
 ) -> Result<emit::Emission, Error> {
-    let post_processor = post_processor(session, options.post.as_deref())?;
     let request = emit::Request {
         inputs,
         task,
-        post_processor: post_processor.as_ref(),
+        post: options.post.as_deref(),
+        post_arguments: PostArguments::default(),
         join: None,
         deps: None,
         removes_stale: false,
     };
-    request.run(session).map_err(Error::Refused)
+    request.run(session).map_err(|failure| Error::of(session.workspace(), failure))
 }

@@ -74,18 +74,16 @@ impl VerifyOptions {
                 Error::Refused(workspace.phrase("there is no check `{}`", "es gibt keine Prüfung `{}`", name))
             })
         };
-        if let Some(cutter) = self.cutter.filter(|cutter| !(cutter.is_finite() && *cutter > 0.0)) {
-            let [en, de] = ["`{}` is no diameter of a cutter", "`{}` ist kein Durchmesser eines Fräsers"];
-            return Err(Error::Refused(workspace.phrase(en, de, &cutter.to_string())));
-        }
-        Ok(verify::VerifyOptions {
+        let options = verify::VerifyOptions {
             reading: self.dialect.as_ref().map(reading).transpose()?.unwrap_or_default(),
             against: self.against,
-            cutter: self.cutter,
-            surface: self.surface.filter(|surface| surface.is_finite()),
             required: self.required.iter().map(requirement).collect::<Result<_, _>>()?,
             post: self.post,
-        })
+            ..verify::VerifyOptions::default()
+        };
+        let [cutter, surface] = [self.cutter, self.surface].map(|number| number.map(|number| number.to_string()));
+        let options = options.with_stock(cutter.as_deref(), surface.as_deref());
+        options.map_err(|fault| Error::found(workspace, vec![*fault]))
     }
 }
 

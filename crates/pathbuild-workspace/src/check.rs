@@ -16,6 +16,7 @@ use pathbuild_path::{Bindings, PathName};
 
 use crate::Inputs;
 use crate::config::ResultKind;
+use crate::failure::Failure;
 use crate::memo::{
     Answer, Coverage, Dependencies, DrawingResult, Memo, check_query, find, read_drawings, subject,
 };
@@ -69,11 +70,6 @@ impl CheckTarget {
     }
 }
 
-/// The error of a request that is limited to changed drawings, but names single drawings or paths: dependents are found only for whole
-/// directories.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct InputsNotDirectories;
-
 impl Request<'_> {
     /// Opens a session that suits this request.
     pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
@@ -88,7 +84,7 @@ impl Request<'_> {
     ///
     /// # Errors
     /// If the request is limited to changed drawings and the inputs are not all directories.
-    pub fn run(&self, session: &mut Session<'_>) -> Result<CheckOutcome, InputsNotDirectories> {
+    pub fn run(&self, session: &mut Session<'_>) -> Result<CheckOutcome, Failure> {
         if !session.is_traced() {
             session.prefetch(self.inputs, &|_| false);
         }
@@ -108,11 +104,16 @@ impl Request<'_> {
         session: &mut Session<'_>,
         matches: &ArgumentMatches,
         memo: &Memo,
-    ) -> Result<CheckOutcome, InputsNotDirectories> {
+    ) -> Result<CheckOutcome, Failure> {
         let Results { selection, named, each } =
             session.with_stable_files(|session| self.results(session, matches, memo));
         if self.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
-            return Err(InputsNotDirectories);
+            // Dependents are found only for whole directories.
+            let reason = session.workspace().choose(
+                "--changed-since is for directories or the library, not for single drawings or paths",
+                "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",
+            );
+            return Err(Failure::Usage(reason.to_owned()));
         }
         let q_projects = session.with_stable_files(|session| compare_q_projects(session, memo, &selection));
         let answers = named.iter().chain(&each).chain(&q_projects);

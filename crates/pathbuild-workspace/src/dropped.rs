@@ -9,9 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::{number, positive};
 use crate::emit::SceneReport;
+use crate::failure::Failure;
 use crate::program::{Program, ReadingOptions};
 use crate::session::Session;
-use crate::verify::{CheckRecord, Failure, Outcome, RapidValues, VerifiedProgram, Verifier, VerifyOptions};
+use crate::verify::{CheckRecord, Outcome, RapidValues, VerifiedProgram, Verifier, VerifyOptions};
 
 /// A program that was dropped on the page.
 #[derive(Debug)]
@@ -71,7 +72,7 @@ impl DroppedProgram {
         let file = Utf8Path::new(&self.name);
         let verified = match Verifier::new(session, options) {
             Ok(verifier) => verifier.verify(file, self.text.clone()),
-            Err(Failure::Post(diagnostics) | Failure::Drawing(diagnostics)) => {
+            Err(Failure::Post(diagnostics) | Failure::Found(diagnostics)) => {
                 VerifiedProgram { diagnostics, ..VerifiedProgram::default() }
             }
             // Only a drawing to compare with can be named wrongly.

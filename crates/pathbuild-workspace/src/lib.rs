@@ -7,6 +7,7 @@ pub mod config;
 pub mod diff;
 pub mod dropped;
 pub mod emit;
+mod failure;
 pub mod files;
 pub mod findings;
 mod inputs;
@@ -26,5 +27,6 @@ mod workspace;
 
 pub use pathbuild_cache::Home as CacheHome;
 
+pub use failure::Failure;
 pub use inputs::{Input, Inputs};
 pub use workspace::{Advance, Reporter, SilentReporter, Workspace};

@@ -11,9 +11,10 @@ use pathbuild_path::{PathName, PathSignature};
 use serde_json::{Value as Json, json};
 
 use crate::config::types::Pattern;
+use crate::failure::Failure;
 use crate::findings::Findings;
 use crate::inputs::Input;
-use crate::posting::PostProcessor;
+use crate::posting::{PostArguments, PostProcessor};
 use crate::session::{CheckedTarget, Session};
 use crate::workspace::Workspace;
 use crate::{Inputs, emit};
@@ -23,8 +24,8 @@ use crate::{Inputs, emit};
 pub struct Request<'a> {
     /// Drawings, directories, and patterns for path names; without drawings or directories, all known paths.
     pub inputs: &'a Inputs,
-    /// The post-processor that programs are written through; `None` means native programs.
-    pub post_processor: Option<&'a PostProcessor>,
+    /// The post-processor that programs are written through, instead of the configured one.
+    pub post: Option<&'a str>,
 }
 
 /// The listed paths.
@@ -99,28 +100,32 @@ impl Request<'_> {
     /// Lists the paths.
     ///
     /// # Errors
-    /// Why a pattern is invalid.
-    pub fn run(&self, session: &mut Session<'_>) -> Result<PathListing, String> {
-        let arguments = ListArguments::new(session, self.inputs)?;
-        Ok(session.with_stable_files(|session| self.list(session, &arguments)))
+    /// Why a pattern is invalid, or what is wrong with the post-processor.
+    pub fn run(&self, session: &mut Session<'_>) -> Result<PathListing, Failure> {
+        let post_processor = PostProcessor::for_run(session.workspace(), self.post, PostArguments::default())
+            .map_err(Failure::Post)?;
+        let arguments = ListArguments::new(session, self.inputs).map_err(Failure::Usage)?;
+        Ok(session.with_stable_files(|session| arguments.list(session, post_processor.as_ref())))
     }
+}
 
-    fn list(&self, session: &mut Session<'_>, arguments: &ListArguments) -> PathListing {
+impl ListArguments {
+    fn list(&self, session: &mut Session<'_>, post_processor: Option<&PostProcessor>) -> PathListing {
         let mut listed = PathListing::default();
-        let files = arguments.files(session, &mut listed.diagnostics);
+        let files = self.files(session, &mut listed.diagnostics);
         session.parse_ahead(&files);
         let mut paths: Vec<(SourceFile, PathName)> = Vec::new();
         for file in &files {
             let found = check_file(session.db(), *file);
             listed.diagnostics.extend(found.iter().filter(|found| found.is_error()).cloned());
-            let names = path_names(session.db(), *file).iter().filter(|name| arguments.matches(name));
+            let names = path_names(session.db(), *file).iter().filter(|name| self.matches(name));
             paths.extend(names.map(|name| (*file, name.clone())));
         }
         listed.drawings = files.len();
         let unmade;
-        (listed.paths, unmade) = list_paths(session, &paths, self.post_processor);
+        (listed.paths, unmade) = list_paths(session, &paths, post_processor);
         listed.diagnostics.extend(unmade);
-        let unmatched = arguments
+        let unmatched = self
             .unmatched(&listed.paths)
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).quoting("name", text));
         listed.diagnostics.extend(unmatched);

@@ -65,7 +65,7 @@ struct Manner {
 }
 
 /// Command-line options of a post-processor.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PostArguments {
     /// Date that the post-processor may write.
     pub date: Option<Box<str>>,
@@ -197,11 +197,6 @@ impl PostProcessor {
     /// Dialect for reading its output back, if known.
     pub fn reader(&self) -> Option<Dialect> {
         self.post.reader(self.arguments.dialect.as_deref())
-    }
-
-    /// Whether the command that it requests is run.
-    pub fn runs_post_build(&self) -> bool {
-        self.arguments.run_post_build
     }
 
     /// Whether programs start the spindle.

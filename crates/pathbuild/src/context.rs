@@ -8,7 +8,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::{Inputs, Workspace, files};
+use pathbuild_workspace::{Failure, Inputs, Workspace, files};
 use serde_json::Value;
 
 use crate::args::Cli;
@@ -203,6 +203,14 @@ impl Context {
     pub fn fail(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         self.show(&Findings::new(diagnostics));
         ExitStatus::Errors
+    }
+
+    /// Says why a request has no outcome.
+    pub fn failed(&self, failure: Failure) -> ExitStatus {
+        match failure {
+            Failure::Usage(reason) => self.usage(&reason),
+            Failure::Post(problems) | Failure::Found(problems) => self.fail(problems),
+        }
     }
 
     /// Refuses to run because nothing was named to work on.

@@ -24,8 +24,9 @@ use pathbuild_diagnostic::Diagnostic;
 use crate::Inputs;
 use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
+use crate::failure::Failure;
 use crate::memo::{Answer, Memo, is_transient};
-use crate::posting::PostProcessor;
+use crate::posting::{PostArguments, PostProcessor};
 use crate::session::{ArgumentMatches, Session};
 use crate::workspace::Workspace;
 
@@ -42,14 +43,16 @@ pub use shown::{SceneReport, SheetOutcome, ShownText, sheet_of};
 use stale::{EarlierPrograms, StaleOutcome};
 
 /// A request to emit programs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Request<'a> {
     /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
     pub inputs: &'a Inputs,
     /// What to do with the generated files.
     pub task: Task,
-    /// The post-processor to write programs through; `None` writes native programs.
-    pub post_processor: Option<&'a PostProcessor>,
+    /// The post-processor to write programs through, instead of the configured one.
+    pub post: Option<&'a str>,
+    /// What the post-processor is told; native programs take none of it.
+    pub post_arguments: PostArguments,
     /// Joins all paths, in the order of the inputs, into one program of this name.
     pub join: Option<&'a str>,
     /// Dependency file to write for `make` and `ninja`.
@@ -85,27 +88,63 @@ impl Request<'_> {
     fn is_always_made(&self) -> bool {
         matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
-            || self.post_processor.is_some_and(PostProcessor::runs_post_build)
+            || self.post_arguments.run_post_build
     }
 
     /// Emits the programs in a session opened by [`session`](Self::session).
     ///
     /// # Errors
-    /// Why the request is invalid.
-    pub fn run(&self, session: &mut Session<'_>) -> Result<Emission, String> {
-        if !session.is_traced() {
-            session.prefetch(self.inputs, &|_| false);
+    /// Why the request is invalid, or what is wrong with the post-processor.
+    pub fn run(&self, session: &mut Session<'_>) -> Result<Emission, Failure> {
+        let workspace = session.workspace();
+        let post_processor = PostProcessor::for_run(workspace, self.post, self.post_arguments.clone());
+        let post_processor = post_processor.map_err(Failure::Post)?;
+        if let Some(refusal) = self.missing_post(workspace).filter(|_| post_processor.is_none()) {
+            return Err(Failure::Usage(refusal.to_owned()));
         }
-        let mut matches = session.match_arguments(self.inputs);
-        let memo = Memo::open(session, ResultKind::Emit, &self.query(), self.inputs, &mut matches);
+        Emitter { request: self, post_processor: post_processor.as_ref() }
+            .run(session)
+            .map_err(Failure::Usage)
+    }
+
+    /// Why the request needs a post-processor.
+    fn missing_post<'w>(&self, workspace: &'w Workspace) -> Option<&'w str> {
+        if self.join.is_some() {
+            return Some(workspace.choose(
+                "--join needs --post (or `post` in pathbuild.toml): native programs have a single path and no tool changes",
+                "--join braucht --post (oder `post` in pathbuild.toml): das native Programm hat nur einen Pfad und keine Werkzeugwechsel",
+            ));
+        }
+        (self.post_arguments != PostArguments::default()).then(|| workspace.choose(
+            "--date, --dialect and --run-post-build apply to post-processors only: give --post, or set `post` in pathbuild.toml",
+            "--date, --dialect und --run-post-build gelten nur für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
+        ))
+    }
+}
+
+/// A request with its post-processor; without one, native programs are written.
+#[derive(Clone, Copy)]
+struct Emitter<'r> {
+    request: &'r Request<'r>,
+    post_processor: Option<&'r PostProcessor>,
+}
+
+impl Emitter<'_> {
+    fn run(&self, session: &mut Session<'_>) -> Result<Emission, String> {
+        let Request { inputs, task, join, deps, .. } = *self.request;
+        if !session.is_traced() {
+            session.prefetch(inputs, &|_| false);
+        }
+        let mut matches = session.match_arguments(inputs);
+        let memo = Memo::open(session, ResultKind::Emit, &self.query(), inputs, &mut matches);
         let Run { selection, mut plans, mut diagnostics } =
             session.with_stable_files(|session| self.perform(session, &memo, &matches))?;
         report_cached(session.workspace(), &selection, &plans);
         let workspace = session.workspace();
-        if self.task == (Task::Compare { moves_only: true }) {
-            let request = Request { deps: None, removes_stale: false, ..*self };
+        if task == (Task::Compare { moves_only: true }) {
+            let request = Request { deps: None, removes_stale: false, ..self.request.clone() };
             let emit = |workspace: &Workspace| {
-                let emission = request.run(&mut Session::new(workspace));
+                let emission = Emitter { request: &request, ..*self }.run(&mut Session::new(workspace));
                 emission.map(|emission| emission.delivered).unwrap_or_default()
             };
             let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
@@ -114,17 +153,18 @@ impl Request<'_> {
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.clear_job()).collect();
         let earlier = EarlierPrograms {
             session,
-            task: self.task,
+            task,
             post_processor: self.post_processor,
-            join: self.join,
+            join,
             out_dir: session.out_dir(),
             selection: &selection,
             jobs: &jobs,
         };
-        let StaleOutcome { older, removed, outdated } = earlier.clear(self.removes_stale, &mut diagnostics);
+        let StaleOutcome { older, removed, outdated } =
+            earlier.clear(self.request.removes_stale, &mut diagnostics);
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
-        if let Some(file) = self.deps {
+        if let Some(file) = deps {
             diagnostics.extend(deps::write(session, file, jobs.iter().copied(), self.post_processor));
         }
         let drawings = selection.drawings().filter_map(Answer::fresh);
@@ -142,26 +182,27 @@ impl Request<'_> {
         memo: &Memo,
         matches: &ArgumentMatches,
     ) -> Result<Run, String> {
+        let Request { task, join, .. } = *self.request;
         let mut diagnostics = matches.problems.clone();
         let workspace = session.workspace();
-        let selection = TargetSelection::new(session, memo, matches, self.join.is_some(), &mut diagnostics)
+        let selection = TargetSelection::new(session, memo, matches, join.is_some(), &mut diagnostics)
             .ok_or_else(|| {
                 workspace.choose(
                     "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
                     "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
                 )
             })?;
-        let is_printed = self.task == Task::Print;
-        if is_printed && self.join.is_none() && selection.targets.len() > 1 {
+        let is_printed = task == Task::Print;
+        if is_printed && join.is_none() && selection.targets.len() > 1 {
             let reason = workspace.choose(
                 "`-o -` writes a single program: name a single path",
                 "`-o -` schreibt ein einzelnes Programm: nur einen Pfad nennen",
             );
             return Err(reason.to_owned());
         }
-        let sheet = self.task.sheets(&workspace.settings);
-        let builder = JobBuilder { session, post_processor: self.post_processor, join: self.join, sheet };
-        let mut plans = plan(&builder, self.task, memo, &selection.targets, &mut diagnostics)?;
+        let sheet = task.sheets(&workspace.settings);
+        let builder = JobBuilder { session, post_processor: self.post_processor, join, sheet };
+        let mut plans = plan(&builder, task, memo, &selection.targets, &mut diagnostics)?;
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         if is_printed && plans.iter().filter_map(|plan| plan.value.clear_job()).any(|job| job.files.len() > 1)
         {
@@ -172,7 +213,7 @@ impl Request<'_> {
             return Err(reason.to_owned());
         }
         let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-        deliver(session, jobs, self.task, self.post_processor);
+        deliver(session, jobs, task, self.post_processor);
         for answer in &mut plans {
             self.complete_inputs(answer);
         }
@@ -196,7 +237,7 @@ impl Request<'_> {
         let (Some(job), Some(outcome)) = (job, outcome) else { return };
         inputs.further.clone_from(&outcome.inserted);
         if outcome.is_complete(job.files.len()) {
-            inputs.outputs = outcome.generated(self.task);
+            inputs.outputs = outcome.generated(self.request.task);
         } else {
             // The post-processor may accept the program once other files change. Writing that failed may succeed another time.
             inputs.is_transient |= !outcome.is_refused;

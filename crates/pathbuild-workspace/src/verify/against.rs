@@ -16,10 +16,11 @@ use pathbuild_motion::{Axes, Move, Position};
 use pathbuild_path::KeepOut;
 use pathbuild_post::{Job, ToolTable, program_number};
 
-use super::{Failure, MoveComparison};
+use super::MoveComparison;
 use crate::config::Settings;
 use crate::config::types::DwellTime;
 use crate::emit::{Provenances, missing_values, native_text, writing};
+use crate::failure::Failure;
 use crate::posting::PostProcessor;
 use crate::program::Program;
 use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths};
@@ -59,9 +60,9 @@ impl ReferenceProgram {
     pub(super) fn new(session: &Session<'_>, name: &str) -> Result<Self, Failure> {
         let target = target(session, name)?;
         let checked = session.check(&[target]);
-        let [checked] = checked.as_slice() else { return Err(Failure::Drawing(Vec::new())) };
+        let [checked] = checked.as_slice() else { return Err(Failure::Found(Vec::new())) };
         if checked.diagnostics.iter().any(Diagnostic::is_error) {
-            return Err(Failure::Drawing(checked.diagnostics.clone()));
+            return Err(Failure::Found(checked.diagnostics.clone()));
         }
         if !checked.missing_options.is_empty() {
             let names = checked.missing_options.iter().map(|option| option.name());
@@ -71,8 +72,8 @@ impl ReferenceProgram {
             let placed = placed_keep_outs(db, target).into_iter().map(|clamp| clamp.placed);
             (program(db, target).clone(), placed.collect::<Vec<KeepOut>>())
         });
-        let (drawn, placed) = outcome.map_err(|problem| Failure::Drawing(vec![*problem]))?;
-        let drawn = drawn.ok_or_else(|| Failure::Drawing(Vec::new()))?;
+        let (drawn, placed) = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
+        let drawn = drawn.ok_or_else(|| Failure::Found(Vec::new()))?;
         let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
         let file = target.file(session.db()).path(session.db()).clone();
         Ok(Self { drawn, file, clamps, trace: checked.trace.clone() })
@@ -262,14 +263,14 @@ fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
 /// Resolves an argument to a single path.
 fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
     session.one_path(name, Role::Emitted).map_err(|not_one| match not_one {
-        NotOnePath::Wrong(found) => Failure::Drawing(found),
+        NotOnePath::Wrong(found) => Failure::Found(found),
         NotOnePath::Several(NamedPaths { file, names }) => {
             let db = session.db();
             let mut found = check_file(db, file).to_vec();
             if !found.iter().any(Diagnostic::is_error) {
                 found.push(several_paths(file.path(db), &names));
             }
-            Failure::Drawing(found)
+            Failure::Found(found)
         }
         NotOnePath::Directory => Failure::Usage(session.workspace().phrase(
             "--against takes one path: `{}` is a directory",

@@ -25,8 +25,9 @@ use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
 use serde::{Deserialize, Serialize};
 
-use crate::config::Settings;
 use crate::config::types::Requirement;
+use crate::config::{Settings, number, positive};
+use crate::failure::Failure;
 use crate::posting::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{ByDefinition, Program, ReadingOptions};
 use crate::session::Session;
@@ -53,15 +54,20 @@ pub struct VerifyOptions {
     pub post: Option<String>,
 }
 
-/// Why programs cannot be verified.
-#[derive(Debug)]
-pub enum Failure {
-    /// The post-processor does not exist, or is broken.
-    Post(Vec<Diagnostic>),
-    /// The request is invalid, for this reason.
-    Usage(String),
-    /// The drawing has errors, or the name is unknown.
-    Drawing(Vec<Diagnostic>),
+impl VerifyOptions {
+    /// Sets the diameter of the cutter and the height of the material's upper face, as far as they are stated.
+    ///
+    /// # Errors
+    /// The first text that is not such a number.
+    pub fn with_stock(
+        mut self,
+        cutter: Option<&str>,
+        surface: Option<&str>,
+    ) -> Result<Self, Box<Diagnostic>> {
+        self.cutter = cutter.map(|text| positive("cutter", text)).transpose()?;
+        self.surface = surface.map(|text| number("surface", text)).transpose()?;
+        Ok(self)
+    }
 }
 
 /// The findings about a program, and the checks that were made.

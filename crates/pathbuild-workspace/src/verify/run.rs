@@ -4,7 +4,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
 use pathbuild_diagnostic::Diagnostic;
 
-use super::{Failure, VerifiedProgram, Verifier, VerifyOptions};
+use super::{VerifiedProgram, Verifier, VerifyOptions};
+use crate::failure::Failure;
 use crate::files::ExtraInput;
 use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;

@@ -11,6 +11,7 @@ use pathbuild_db::{Role, System};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_testkit::Workshop;
 use pathbuild_workspace::emit::Task;
+use pathbuild_workspace::posting::PostArguments;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace, check, emit, list};
 
@@ -83,7 +84,7 @@ fn paths(place: &OnDisk) -> Vec<(String, String)> {
     let inputs = Inputs::default();
     let workspace = place.workspace(&inputs, Arc::new(OsSystem), false);
     let mut session = Session::new(&workspace);
-    let listed = list::Request { inputs: &inputs, post_processor: None }.run(&mut session).unwrap();
+    let listed = list::Request { inputs: &inputs, post: None }.run(&mut session).unwrap();
     listed.paths.into_iter().map(|path| (path.name.as_str().to_owned(), path.drawing.into_string())).collect()
 }
 
@@ -99,8 +100,7 @@ const COMMANDS: [Finding; 5] = [
     ("emit", |workspace, inputs| emitted(workspace, inputs, Task::Print)),
     ("emit --check", |workspace, inputs| emitted(workspace, inputs, Task::Compare { moves_only: false })),
     ("list", |workspace, inputs| {
-        let listed =
-            list::Request { inputs, post_processor: None }.run(&mut Session::new(workspace)).unwrap();
+        let listed = list::Request { inputs, post: None }.run(&mut Session::new(workspace)).unwrap();
         let of_paths = listed.paths.into_iter().flat_map(|path| path.diagnostics);
         of_paths.chain(listed.diagnostics).collect()
     }),
@@ -117,8 +117,15 @@ const COMMANDS: [Finding; 5] = [
 ];
 
 fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic> {
-    let request =
-        emit::Request { inputs, task, post_processor: None, join: None, deps: None, removes_stale: false };
+    let request = emit::Request {
+        inputs,
+        task,
+        post: None,
+        post_arguments: PostArguments::default(),
+        join: None,
+        deps: None,
+        removes_stale: false,
+    };
     request.run(&mut request.session(workspace)).map(|made| made.diagnostics).unwrap_or_default()
 }
 

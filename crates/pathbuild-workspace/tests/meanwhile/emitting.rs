@@ -76,11 +76,11 @@ fn an_inserted_file_that_changes_meanwhile_is_noticed() {
             victim: head.clone(),
             bytes: b"(new)\n".to_vec(),
         };
-        place.emit_posted(Arc::new(meanwhile), true);
+        place.emit(Arc::new(meanwhile), true, false);
         if fs::read_to_string(&head).unwrap() != "(new)\n" {
             continue;
         }
-        place.emit_posted(Arc::new(OsSystem), true);
+        place.emit(Arc::new(OsSystem), true, false);
         for program in ["lib/8001.1P_Milling.nc", "lib/8002.1P_Milling.nc"] {
             let text = fs::read_to_string(place.path().join(program)).unwrap();
             assert!(text.contains("(new)"), "time {time}: {program}: {text}");

@@ -12,7 +12,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::{Workshop, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Emission, Task};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
+use pathbuild_workspace::posting::PostArguments;
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
 
@@ -119,26 +119,11 @@ impl OnDisk {
         let request = emit::Request {
             inputs: &inputs,
             task: Task::Write { force: false },
-            post_processor: None,
+            post: None,
+            post_arguments: PostArguments::default(),
             join: None,
             deps: None,
             removes_stale,
-        };
-        request.run(&mut request.session(&workspace)).unwrap()
-    }
-
-    /// Like [`emit`](Self::emit), through the configured post-processor.
-    pub(crate) fn emit_posted(&self, system: Arc<dyn System>, is_kept: bool) -> Emission {
-        let inputs = Inputs::default();
-        let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
-        let post_processor = PostProcessor::for_run(&workspace, None, PostArguments::default()).unwrap();
-        let request = emit::Request {
-            inputs: &inputs,
-            task: Task::Write { force: false },
-            post_processor: post_processor.as_ref(),
-            join: None,
-            deps: None,
-            removes_stale: false,
         };
         request.run(&mut request.session(&workspace)).unwrap()
     }

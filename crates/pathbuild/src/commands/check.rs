@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join, spelt};
-use pathbuild_workspace::check::{EarlierFiles, InputsNotDirectories, Request};
+use pathbuild_workspace::check::{EarlierFiles, Request};
 use pathbuild_workspace::config::{FILE_NAME, clean};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Input, Inputs, files};
@@ -35,12 +35,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     }
     let checked = match request.run(&mut session) {
         Ok(checked) => checked,
-        Err(InputsNotDirectories) => {
-            return context.usage(context.choose(
-                "--changed-since is for directories or the library, not for single drawings or paths",
-                "--changed-since ist für Verzeichnisse oder die Bibliothek, nicht für einzelne Zeichnungen oder Pfade",
-            ));
-        }
+        Err(failure) => return context.failed(failure),
     };
     let status = conclude(context, args, checked, begun.elapsed());
     if args.timings {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang, Note};
 use pathbuild_workspace::emit::{Emission, ProgramOutcome, Request, State, Task};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor, run_post_build};
+use pathbuild_workspace::posting::{PostArguments, run_post_build};
 
 use crate::args::EmitArgs;
 use crate::context::Context;
@@ -16,45 +16,15 @@ use serde_json::{Value, json};
 
 /// Runs the command.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
-    let arguments = PostArguments {
-        date: args.date.as_deref().map(Into::into),
-        dialect: args.dialect.as_deref().map(Into::into),
-        run_post_build: args.run_post_build,
-    };
-    match PostProcessor::for_run(context, args.post.as_deref(), arguments) {
-        Ok(post_processor) => match refusal(context, args, post_processor.as_ref()) {
-            Some(refusal) => context.usage(refusal),
-            None => emit(context, args, post_processor.as_ref()),
-        },
-        Err(problems) => context.fail(problems),
-    }
-}
-
-/// Refuses options that require a post-processor.
-fn refusal<'a>(
-    context: &'a Context,
-    args: &EmitArgs,
-    post_processor: Option<&PostProcessor>,
-) -> Option<&'a str> {
-    let is_for_posts = args.date.is_some() || args.dialect.is_some() || args.run_post_build;
-    match post_processor {
-        None if args.join.is_some() => Some(context.choose(
-            "--join needs --post (or `post` in pathbuild.toml): native programs have a single path and no tool changes",
-            "--join braucht --post (oder `post` in pathbuild.toml): das native Programm hat nur einen Pfad und keine Werkzeugwechsel",
-        )),
-        None if is_for_posts => Some(context.choose(
-            "--date, --dialect and --run-post-build apply to post-processors only: give --post, or set `post` in pathbuild.toml",
-            "--date, --dialect und --run-post-build gelten nur für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
-        )),
-        _ => None,
-    }
-}
-
-fn emit(context: &Context, args: &EmitArgs, post_processor: Option<&PostProcessor>) -> ExitStatus {
     let request = Request {
         inputs: &args.inputs,
         task: task(args),
-        post_processor,
+        post: args.post.as_deref(),
+        post_arguments: PostArguments {
+            date: args.date.as_deref().map(Into::into),
+            dialect: args.dialect.as_deref().map(Into::into),
+            run_post_build: args.run_post_build,
+        },
         join: args.join.as_deref(),
         deps: args.deps.as_deref(),
         removes_stale: args.remove_stale,
@@ -65,7 +35,7 @@ fn emit(context: &Context, args: &EmitArgs, post_processor: Option<&PostProcesso
     std::mem::forget(session);
     match emission {
         Ok(emission) => conclude(context, request.task, emission),
-        Err(refusal) => context.usage(&refusal),
+        Err(failure) => context.failed(failure),
     }
 }
 

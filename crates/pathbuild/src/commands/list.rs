@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use pathbuild_workspace::list::{PathListing, Request, Row, State, Stats, Total, path_json, stats_json};
-use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
 use crate::args::ListArgs;
@@ -41,19 +40,13 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
 /// Lists and shows the paths. Only findings of directories and drawings are shown separately, since the errors of paths are part of the
 /// list.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
-    let inputs = args.inputs();
-    let post_processor = match PostProcessor::for_run(context, args.post.as_deref(), PostArguments::default())
-    {
-        Ok(post_processor) => post_processor,
-        Err(problems) => return context.fail(problems),
-    };
     let mut session = Session::new(context);
-    let listed = Request { inputs: &inputs, post_processor: post_processor.as_ref() }.run(&mut session);
+    let listed = Request { inputs: &args.inputs(), post: args.post.as_deref() }.run(&mut session);
     // Leak instead of dropping: freeing all query results takes longer than process exit.
     std::mem::forget(session);
     let PathListing { paths, drawings, diagnostics } = match listed {
         Ok(listed) => listed,
-        Err(reason) => return context.usage(&reason),
+        Err(failure) => return context.failed(failure),
     };
     let rows: Vec<Row> = paths.into_iter().map(|path| Row::new(context, path)).collect();
     print(context, &rows, drawings);

@@ -5,11 +5,11 @@ use std::io::Read;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_workspace::config::{number, positive};
+use pathbuild_workspace::Failure;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::verify::{
-    CheckRecord, Failure, MoveComparison, Outcome, Request, VerifiedProgram, VerifyOptions, summary,
+    CheckRecord, MoveComparison, Outcome, Request, VerifiedProgram, VerifyOptions, summary,
 };
 use pathbuild_workspace::waivers::Coverage;
 use serde_json::{Value, json};
@@ -37,7 +37,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     let request = Request { places: &places, text, options };
     let mut session = request.session(context);
     let verified = match request.run(&mut session) {
-        Err(Failure::Post(problems)) => return context.fail(problems),
+        Err(failure @ Failure::Post(_)) => return context.failed(failure),
         verified => verified,
     };
     let programs = verified.as_ref().map_or(args.files.len(), |verified| verified.programs.len());
@@ -45,10 +45,8 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     context.output.figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
     let verified = match verified {
         Ok(verified) => verified,
-        Err(Failure::Usage(reason)) => return context.usage(&reason),
-        Err(Failure::Drawing(found) | Failure::Post(found)) => {
-            return conclude(context, args, &session, &args.files, found);
-        }
+        Err(Failure::Found(found)) => return conclude(context, args, &session, &args.files, found),
+        Err(failure) => return context.failed(failure),
     };
     let (mut report, mut diagnostics) = (CheckReport::default(), verified.problems);
     let mut files = Vec::new();
@@ -82,14 +80,14 @@ fn read_standard_input(context: &Context) -> Result<Vec<u8>, Box<Diagnostic>> {
 }
 
 fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
-    Ok(VerifyOptions {
+    let options = VerifyOptions {
         reading: args.reading.options(),
         against: args.against.clone(),
-        cutter: args.cutter.as_deref().map(|text| positive("cutter", text)).transpose()?,
-        surface: args.surface.as_deref().map(|text| number("surface", text)).transpose()?,
         required: args.require.clone(),
         post: args.post.clone(),
-    })
+        ..VerifyOptions::default()
+    };
+    options.with_stock(args.cutter.as_deref(), args.surface.as_deref())
 }
 
 fn conclude(

@@ -4,14 +4,14 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_gcode::verify::{Stock, StockSpan};
 use pathbuild_view::{Scene, ToolSpan, VisibleParts, has_stock};
-use pathbuild_workspace::config::{number, positive};
+use pathbuild_workspace::Failure;
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_there;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::{NamedPaths, Session};
-use pathbuild_workspace::verify::{self, Verifier, VerifyOptions};
+use pathbuild_workspace::verify::{Verifier, VerifyOptions};
 
 use super::picture_output::{deliver, show};
 use crate::args::ViewArgs;
@@ -26,8 +26,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     };
     let target = match target_scene(context, args) {
         Ok(scene) => scene,
-        Err(Failure::Usage(reason)) => return context.usage(&reason),
-        Err(Failure::Found(problems)) => return context.fail(problems),
+        Err(failure) => return context.failed(failure),
     };
     let (scene, findings) = target.report.with_findings(context, &target.file);
     context.show(&findings);
@@ -58,12 +57,6 @@ struct TargetScene {
     file: String,
 }
 
-/// Why nothing can be shown.
-enum Failure {
-    Usage(String),
-    Found(Vec<Diagnostic>),
-}
-
 /// The scene of the argument. A file that is not a drawing is read as a program.
 fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
@@ -80,22 +73,10 @@ fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<Target
     let mut scene = Scene::new(file.file_name().unwrap_or_default());
     let mut path = program.scene_path(context);
     if args.stock {
-        let options = VerifyOptions {
-            reading: args.reading.options(),
-            cutter: args.cutter.as_deref().map(|text| positive("cutter", text)).transpose().map_err(found)?,
-            surface: args
-                .surface
-                .as_deref()
-                .map(|text| number("surface", text))
-                .transpose()
-                .map_err(found)?,
-            ..VerifyOptions::default()
-        };
+        let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
+        let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref()).map_err(found)?;
         let mut session = Session::new(context);
-        let verifier = Verifier::new(&mut session, options).map_err(|failure| match failure {
-            verify::Failure::Usage(reason) => Failure::Usage(reason),
-            verify::Failure::Post(found) | verify::Failure::Drawing(found) => Failure::Found(found),
-        })?;
+        let verifier = Verifier::new(&mut session, options)?;
         path.tools = verifier.stock(&program).iter().flat_map(Stock::spans).map(tool_span).collect();
     }
     scene.paths.push(path);
@@ -118,7 +99,7 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
     };
     let db = session.db();
     let post_processor = PostProcessor::for_run(session.workspace(), None, PostArguments::default());
-    let post_processor = post_processor.map_err(Failure::Found)?;
+    let post_processor = post_processor.map_err(Failure::Post)?;
     let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
     let missing = session.no_path(file.path(db), &names, &report.diagnostics);
     report.diagnostics.extend(missing);
