@@ -4,7 +4,6 @@
 use std::time::Duration;
 
 use camino::Utf8Path;
-use pathbuild::render::Fingerprint;
 use pathbuild::report::summary;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::messages::files;
@@ -16,6 +15,7 @@ use pathbuild_workspace::Inputs;
 use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::fingerprint::Fingerprint;
 use pathbuild_workspace::{SilentReporter, Workspace};
 
 fn diagnostic() -> Diagnostic {

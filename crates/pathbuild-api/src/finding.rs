@@ -4,6 +4,8 @@ use std::fmt;
 use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Lang};
+use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::waivers::Coverage;
 use pathbuild_workspace::{Failure, Workspace};
 
 /// An error or a warning, with its place. (book: reference/diagnostics)
@@ -112,8 +114,24 @@ impl Finding {
 
     /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates.
     pub(crate) fn all(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
-        let found = workspace.findings(diagnostics).diagnostics;
-        found.into_iter().map(|diagnostic| Self { diagnostic }).collect()
+        workspace.findings(diagnostics).diagnostics.into_iter().map(Self::new).collect()
+    }
+
+    /// The findings of a run that covered these files, and those that are accepted.
+    pub(crate) fn settled(
+        workspace: &Workspace,
+        diagnostics: Vec<Diagnostic>,
+        coverage: Coverage,
+    ) -> Result<(Vec<Self>, Vec<Self>), Error> {
+        let settled = workspace.settle(workspace.findings(diagnostics), None, |_| coverage);
+        let Findings { diagnostics, waived, .. } =
+            settled.map_err(|faults| Error::found(workspace, faults))?;
+        let accepted = waived.into_iter().map(|waived| Self::new(waived.diagnostic));
+        Ok((diagnostics.into_iter().map(Self::new).collect(), accepted.collect()))
+    }
+
+    fn new(diagnostic: Diagnostic) -> Self {
+        Self { diagnostic }
     }
 }
 

@@ -51,17 +51,21 @@ impl Library {
     /// names none.
     ///
     /// # Errors
-    /// If an internal error occurs. What is wrong with the drawings is in the report.
+    /// If the baseline has errors. What is wrong with the drawings is in the report.
     pub fn check(&self, inputs: &[&str]) -> Result<CheckReport, Error> {
         let inputs = owned(inputs);
         self.ask(move |session| {
             let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
             let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
-            let outcome = request.run(session).map_err(|failure| Error::of(session.workspace(), failure))?;
+            let workspace = session.workspace();
+            let outcome = request.run(session).map_err(|failure| Error::of(workspace, failure))?;
+            let coverage = request.coverage(workspace, &outcome.files);
+            let (findings, accepted) = Finding::settled(workspace, outcome.diagnostics, coverage)?;
             Ok(CheckReport {
+                findings,
+                accepted,
                 paths: outcome.files.iter().map(|file| file.paths.len()).sum(),
                 drawings: outcome.files.len(),
-                findings: Finding::all(session.workspace(), outcome.diagnostics),
             })
         })
     }
@@ -177,7 +181,8 @@ impl Library {
     /// Verifies G-code programs of any origin as `pathbuild verify` does. Inputs are files, directories with programs, and patterns.
     ///
     /// # Errors
-    /// If the post-processor or the path to compare with does not exist, or has errors. What is wrong with the programs is in the report.
+    /// If the post-processor, the path to compare with or the baseline does not exist, or has errors. What is wrong with the programs is in the
+    /// report.
     pub fn verify(&self, programs: &[&str], options: &VerifyOptions) -> Result<VerifyReport, Error> {
         let places: Vec<Utf8PathBuf> = programs.iter().map(Utf8PathBuf::from).collect();
         let options = options.clone();
@@ -186,7 +191,7 @@ impl Library {
             let request =
                 verify::Request { places: &places, text: None, options: options.resolve(workspace)? };
             let verification = request.run(session).map_err(|failure| Error::of(workspace, failure))?;
-            Ok(VerifyReport::new(workspace, verification))
+            VerifyReport::new(workspace, verification)
         })
     }
 

@@ -9,6 +9,7 @@ use pathbuild_db::system::{BasedSystem, FileKind, MemorySystem, OsSystem, clean}
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{self, GivenOptions, OptionValues, Overrides};
+use pathbuild_workspace::waivers::{DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
 use crate::{Error, Library};
@@ -30,6 +31,7 @@ pub struct LibraryOptions {
     cache: Option<PathBuf>,
     threads: Option<u16>,
     lang: Option<Lang>,
+    date: Option<String>,
 }
 
 /// Options for writing programs.
@@ -84,6 +86,13 @@ impl LibraryOptions {
         self
     }
 
+    /// Sets the date that waivers with an end are compared with, such as `2026-12-31`; without it, none of them holds. The program takes the
+    /// present day. (book: howto/ci)
+    pub fn date(mut self, date: impl Into<String>) -> Self {
+        self.date = Some(date.into());
+        self
+    }
+
     /// Opens the library in a directory.
     ///
     /// # Errors
@@ -112,7 +121,9 @@ impl LibraryOptions {
         let config = self.config.map(utf8).transpose()?;
         let cache = self.cache.map(utf8).transpose()?.map(CacheHome::Named);
         let (system, directory) = source.open(self.lang)?;
-        let overrides = Overrides { settings, config, untrusted: self.untrusted, ..Overrides::default() };
+        let date = self.date.as_deref().map(|text| run_date(text, self.lang)).transpose()?;
+        let overrides =
+            Overrides { settings, config, date, untrusted: self.untrusted, ..Overrides::default() };
         let (settings, faults) = config::load(&system, &overrides, &Inputs::default(), &directory);
         let system = match &settings.confined {
             Some(confined) => Arc::new(confined.clone()),
@@ -222,6 +233,12 @@ impl Source {
 fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
     let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist nicht in UTF-8"];
     Utf8PathBuf::from_path_buf(path).map_err(|path| refused(lang, en, de, &path.to_string_lossy()))
+}
+
+fn run_date(text: &str, lang: Option<Lang>) -> Result<RunDate, Error> {
+    let [en, de] = ["`{}` is not a date such as 2026-12-31", "`{}` ist kein Datum wie 2026-12-31"];
+    let date = text.parse().map_err(|()| refused(lang, en, de, text))?;
+    Ok(RunDate { date, source: DateSource::Given })
 }
 
 /// A refusal before the configuration is read, which may set another language.

@@ -12,6 +12,8 @@ use crate::Finding;
 pub struct CheckReport {
     /// Errors and warnings, in the order of the program.
     pub findings: Vec<Finding>,
+    /// Findings that the baseline or `severity-in` accepts for a stated reason. (book: howto/ci)
+    pub accepted: Vec<Finding>,
     /// Number of paths.
     pub paths: usize,
     /// Number of drawings.

@@ -5,6 +5,7 @@ use pathbuild_workspace::Workspace;
 use pathbuild_workspace::config::types::Requirement;
 use pathbuild_workspace::program::ReadingOptions;
 use pathbuild_workspace::verify::{self, CheckRecord, MoveComparison, Outcome, Verification};
+use pathbuild_workspace::waivers::Coverage;
 
 use crate::{Error, Finding};
 
@@ -81,7 +82,8 @@ impl VerifyOptions {
             post: self.post,
             ..verify::VerifyOptions::default()
         };
-        let [cutter, surface] = [self.cutter, self.surface].map(|number| number.map(|number| number.to_string()));
+        let [cutter, surface] =
+            [self.cutter, self.surface].map(|number| number.map(|number| number.to_string()));
         let options = options.with_stock(cutter.as_deref(), surface.as_deref());
         options.map_err(|fault| Error::found(workspace, vec![*fault]))
     }
@@ -93,6 +95,8 @@ impl VerifyOptions {
 pub struct VerifyReport {
     /// Errors and warnings, sorted by program.
     pub findings: Vec<Finding>,
+    /// Findings that the baseline or `severity-in` accepts for a stated reason. (book: howto/ci)
+    pub accepted: Vec<Finding>,
     /// The programs, in the order in which they were named.
     pub programs: Vec<VerifiedProgram>,
 }
@@ -148,8 +152,9 @@ pub struct DrawingComparison {
 }
 
 impl VerifyReport {
-    pub(crate) fn new(workspace: &Workspace, verification: Verification) -> Self {
+    pub(crate) fn new(workspace: &Workspace, verification: Verification) -> Result<Self, Error> {
         let (mut diagnostics, mut programs) = (verification.problems, Vec::new());
+        let files = verification.programs.iter().map(|(file, _)| file.clone()).collect();
         for (file, verified) in verification.programs {
             diagnostics.extend(verified.diagnostics);
             programs.push(VerifiedProgram {
@@ -158,7 +163,9 @@ impl VerifyReport {
                 comparison: verified.comparison.map(DrawingComparison::new),
             });
         }
-        Self { findings: Finding::all(workspace, diagnostics), programs }
+        let coverage = Coverage { files, ..Coverage::default() };
+        let (findings, accepted) = Finding::settled(workspace, diagnostics, coverage)?;
+        Ok(Self { findings, accepted, programs })
     }
 }
 

@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::join;
+use pathbuild_db::system::{FileKind, join};
 use pathbuild_db::{
     Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, locate, path_names,
 };
@@ -14,7 +14,6 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
 
-use crate::Inputs;
 use crate::config::ResultKind;
 use crate::failure::Failure;
 use crate::memo::{
@@ -26,6 +25,7 @@ use crate::session::{
     q_project_pairs,
 };
 use crate::workspace::{Workspace, relative};
+use crate::{Input, Inputs, waivers};
 
 /// A request to check drawings.
 #[derive(Clone, Debug)]
@@ -96,6 +96,25 @@ impl Request<'_> {
         checked.diagnostics = session.with_hints(checked.diagnostics);
         leak((memo, matches));
         Ok(checked)
+    }
+
+    /// The files that a run covered. A run on single paths covers no drawing completely, and one on some drawings not the whole library.
+    pub fn coverage(&self, workspace: &Workspace, checked: &[CheckedFile]) -> waivers::Coverage {
+        let is_directory = |name: &Utf8Path| workspace.system.kind(name) == FileKind::Directory;
+        let mut inputs = self.inputs.iter();
+        let has_paths = inputs.any(|input| matches!(input, Input::Name(name) if !is_directory(name.into())));
+        if has_paths || self.changed.is_some() {
+            return waivers::Coverage::default();
+        }
+        let mut places = self.inputs.iter().map(|input| match input {
+            Input::Place(place) => place,
+            Input::Name(name) => Utf8Path::new(name),
+        });
+        waivers::Coverage {
+            files: checked.iter().map(|file| file.file.clone()).collect(),
+            has_directories: places.all(is_directory),
+            is_library: self.inputs.inputs.is_empty(),
+        }
     }
 
     /// Checks the drawings without a valid cached result.

@@ -2,6 +2,7 @@
 //! jobs of `check` and `emit`, and the watch loop. This crate neither parses arguments nor prints: progress goes to a [`Reporter`] or a
 //! `watch::Listener`. (book: reference/configuration)
 
+pub mod baseline;
 pub mod check;
 pub mod config;
 pub mod diff;
@@ -10,6 +11,7 @@ pub mod emit;
 mod failure;
 pub mod files;
 pub mod findings;
+pub mod fingerprint;
 mod inputs;
 pub mod list;
 #[cfg(not(target_family = "wasm"))]

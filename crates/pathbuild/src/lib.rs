@@ -2,7 +2,6 @@
 //! holds none of that logic. (book: reference/commands, book: reference/configuration)
 
 pub mod args;
-mod baseline;
 pub mod commands;
 mod completion;
 mod context;

@@ -4,13 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::mem::ManuallyDrop;
 use std::time::Duration;
 
-use camino::Utf8Path;
-use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, in_prose};
-use pathbuild_workspace::Input;
-use pathbuild_workspace::check::{CheckOutcome, CheckedFile};
+use pathbuild_workspace::check::{CheckOutcome, Request};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::waivers::Coverage;
 
 use crate::args::CheckArgs;
 use crate::context::Context;
@@ -22,32 +18,19 @@ use crate::waivers;
 
 /// Ends a check of the given duration: applies severities and waivers, shows findings, writes reports and the summary, and returns the
 /// exit status.
-pub fn conclude(context: &Context, args: &CheckArgs, checked: CheckOutcome, time: Duration) -> ExitStatus {
+pub fn conclude(
+    context: &Context,
+    args: &CheckArgs,
+    request: &Request<'_>,
+    checked: CheckOutcome,
+    time: Duration,
+) -> ExitStatus {
     let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
-    let coverage = |findings: &Findings| coverage(context, args, &findings.checked);
+    let coverage = |findings: &Findings| request.coverage(context, &findings.checked);
     match waivers::settle(context, &args.waivers, findings, coverage) {
         // Leak instead of dropping: freeing a million values takes longer than process exit.
         Ok(findings) => deliver(context, args, &ManuallyDrop::new(findings), time),
         Err(status) => status,
-    }
-}
-
-/// The files that the run covered. A run on single paths covers no drawing completely, and one on some drawings not the whole library.
-fn coverage(context: &Context, args: &CheckArgs, checked: &[CheckedFile]) -> Coverage {
-    let is_directory = |name: &Utf8Path| context.system.kind(name) == FileKind::Directory;
-    let mut inputs = args.inputs.iter();
-    let has_paths = inputs.any(|input| matches!(input, Input::Name(name) if !is_directory(name.into())));
-    if has_paths || args.changed_since.is_some() {
-        return Coverage::default();
-    }
-    let mut places = args.inputs.iter().map(|input| match input {
-        Input::Place(place) => place,
-        Input::Name(name) => Utf8Path::new(name),
-    });
-    Coverage {
-        files: checked.iter().map(|file| file.file.clone()).collect(),
-        has_directories: places.all(is_directory),
-        is_library: args.inputs.inputs.is_empty(),
     }
 }
 

@@ -37,7 +37,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         Ok(checked) => checked,
         Err(failure) => return context.failed(failure),
     };
-    let status = conclude(context, args, checked, begun.elapsed());
+    let status = conclude(context, args, &request, checked, begun.elapsed());
     if args.timings {
         for line in session.timings.lines(context.lang()) {
             context.printer.status(line);

@@ -4,9 +4,9 @@
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
-use super::Fingerprint;
 use super::{View, view};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::fingerprint::Fingerprint;
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let fingerprints = Fingerprint::of(&findings.diagnostics);

@@ -1,7 +1,6 @@
 //! Renders diagnostics as text, with one module per format. The selection of what is shown is made elsewhere. (book: reference/commands)
 
 mod concise;
-mod fingerprint;
 mod full;
 mod github;
 mod gitlab;
@@ -16,7 +15,6 @@ use clap::ValueEnum;
 use pathbuild_diagnostic::shown;
 use pathbuild_workspace::findings::Findings;
 
-pub use fingerprint::Fingerprint;
 pub(crate) use html::page;
 pub(crate) use pictures::{pictures, write as write_pictures};
 pub use view::View;

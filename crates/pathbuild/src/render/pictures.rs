@@ -6,9 +6,8 @@ use pathbuild_view::{Scene, Spot, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::fingerprint::Fingerprint;
 use pathbuild_workspace::session::Session;
-
-use super::Fingerprint;
 
 /// Upper bound on the number of findings that get a picture.
 const MOST: usize = 1000;

@@ -6,9 +6,9 @@ use std::collections::BTreeSet;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
-use super::Fingerprint;
 use super::{View, view};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::fingerprint::Fingerprint;
 use pathbuild_workspace::waivers::Waiver;
 
 /// Upper bound on results: GitHub refuses runs with more.

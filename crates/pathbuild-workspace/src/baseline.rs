@@ -9,20 +9,21 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::{FileKind, ReadError};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Message, TextFault, Value, shown};
-use pathbuild_workspace::config::clean;
-use pathbuild_workspace::files;
-use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, TextFault, Value, shown};
 
-use crate::render::{Fingerprint, View};
+use crate::config::clean;
+use crate::files;
+use crate::findings::Findings;
+use crate::fingerprint::Fingerprint;
+use crate::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
+use crate::workspace::Workspace;
 
 /// Name of the baseline that is used unless another one is named, beside `pathbuild.toml`.
-pub(crate) const FILE_NAME: &str = "pathbuild-baseline.txt";
+const FILE_NAME: &str = "pathbuild-baseline.txt";
 
 /// Accepted findings, which are not reported.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Baseline {
+pub struct Baseline {
     file: Utf8PathBuf,
     /// The file as it is.
     text: String,
@@ -39,7 +40,7 @@ struct Entry {
 
 impl Baseline {
     /// A baseline without entries.
-    pub(crate) fn new(file: &Utf8Path) -> Self {
+    pub fn new(file: &Utf8Path) -> Self {
         Self { file: file.to_owned(), text: HEAD.to_owned(), entries: BTreeMap::new() }
     }
 
@@ -47,7 +48,7 @@ impl Baseline {
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub(crate) fn read(
+    pub fn read(
         system: &dyn System,
         file: &Utf8Path,
         limit: u64,
@@ -66,14 +67,15 @@ impl Baseline {
 
     /// The text of a baseline that contains all these findings. Entries that still match keep their reasons and dates, and those of files
     /// that the run did not cover stay as they are.
-    pub(crate) fn rewritten(&self, findings: &[Diagnostic], run: &Run<'_>, view: &View) -> String {
+    pub fn rewritten(&self, findings: &[Diagnostic], workspace: &Workspace, coverage: &Coverage) -> String {
+        let run = Run::new(workspace, coverage);
         let mut text = HEAD.to_owned();
         let mut found = BTreeSet::new();
         for (diagnostic, fingerprint) in findings.iter().zip(Fingerprint::of(findings)) {
             let fingerprint = fingerprint.to_string();
             let none = Waiver::default();
             let waiver = self.entries.get(&fingerprint).map_or(&none, |entry| &entry.waiver);
-            text.push_str(&line(&fingerprint, waiver, diagnostic, view));
+            text.push_str(&line(&fingerprint, waiver, diagnostic, &workspace.working_directory));
             found.insert(fingerprint);
         }
         let others =
@@ -83,12 +85,12 @@ impl Baseline {
     }
 
     /// The text of this baseline with a waiver of all findings that have a code, and their number.
-    pub(crate) fn accepting(
+    pub fn accepting(
         &self,
         findings: &[Diagnostic],
         code: Code,
         waiver: &Waiver,
-        view: &View,
+        workspace: &Workspace,
     ) -> (String, usize) {
         let accepted: BTreeMap<String, String> = findings
             .iter()
@@ -96,7 +98,7 @@ impl Baseline {
             .filter(|(diagnostic, _)| diagnostic.code() == code)
             .map(|(diagnostic, fingerprint)| {
                 let fingerprint = fingerprint.to_string();
-                let line = line(&fingerprint, waiver, diagnostic, view);
+                let line = line(&fingerprint, waiver, diagnostic, &workspace.working_directory);
                 (fingerprint, line)
             })
             .collect();
@@ -107,7 +109,7 @@ impl Baseline {
     }
 
     /// Moves the findings of this baseline to those that are accepted. A finding whose entry has ended says so.
-    pub(crate) fn apply(&self, mut findings: Findings, run: Option<RunDate>) -> Findings {
+    fn apply(&self, mut findings: Findings, run: Option<RunDate>) -> Findings {
         let fingerprints = Fingerprint::of(&findings.diagnostics);
         let place = self.file.file_name().unwrap_or_default();
         for (diagnostic, fingerprint) in
@@ -125,7 +127,7 @@ impl Baseline {
     }
 
     /// Warnings about the entries that match none of these findings, among those of files that the run covered. (PB610)
-    pub(crate) fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
+    fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
         let found: BTreeSet<String> = Fingerprint::of(findings).iter().map(ToString::to_string).collect();
         let unused =
             self.entries.iter().filter(|(known, entry)| !found.contains(*known) && run.covers(self, entry));
@@ -155,8 +157,52 @@ impl Baseline {
     }
 }
 
+impl Workspace {
+    /// The baseline that is named, else the one beside the configuration, else the one in the working directory.
+    pub fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
+        match named {
+            Some(file) => self.working_directory.join(file),
+            None => self.settings.directory().unwrap_or(&self.working_directory).join(FILE_NAME),
+        }
+    }
+
+    /// Moves the findings of the baseline, if there is one, to those that are accepted, and adds warnings about waivers that match nothing
+    /// any more.
+    ///
+    /// # Errors
+    /// What is wrong with the baseline.
+    pub fn settle(
+        &self,
+        mut findings: Findings,
+        baseline: Option<&Utf8Path>,
+        coverage: impl FnOnce(&Findings) -> Coverage,
+    ) -> Result<Findings, Vec<Diagnostic>> {
+        let file = self.baseline_file(baseline);
+        let has_baseline = baseline.is_some() || self.system.kind(&file) == FileKind::File;
+        if !has_baseline && !self.has_waivers() {
+            return Ok(findings);
+        }
+        let coverage = coverage(&findings);
+        let mut unused = self.unused_waivers(&findings, &coverage);
+        if has_baseline {
+            let (baseline, faults) =
+                Baseline::read(&*self.system, &file, self.settings.limits.file_size.value)?;
+            if !faults.is_empty() {
+                return Err(faults);
+            }
+            unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
+            findings = baseline.apply(findings, self.settings.date);
+        }
+        if !unused.is_empty() {
+            findings.diagnostics.extend(self.findings(unused).diagnostics);
+            findings.diagnostics = Findings::new(findings.diagnostics).diagnostics;
+        }
+        Ok(findings)
+    }
+}
+
 /// The files that a run covered.
-pub(crate) struct Run<'a> {
+struct Run<'a> {
     system: &'a dyn System,
     working_directory: &'a Utf8Path,
     checked: BTreeSet<Utf8PathBuf>,
@@ -164,9 +210,10 @@ pub(crate) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// A run in a directory that covered these files.
-    pub(crate) fn new(system: &'a dyn System, working_directory: &'a Utf8Path, coverage: &Coverage) -> Self {
+    fn new(workspace: &'a Workspace, coverage: &Coverage) -> Self {
+        let working_directory = &workspace.working_directory;
         let checked = coverage.files.iter().map(|file| clean(&working_directory.join(file))).collect();
+        let system = &*workspace.system;
         Self { system, working_directory, checked, has_directories: coverage.has_directories }
     }
 
@@ -196,7 +243,7 @@ const HEAD: &str = "\
 ";
 
 /// A line of a baseline.
-fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, view: &View) -> String {
+fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
     let mut line = fingerprint.to_owned();
     if let Some(until) = waiver.until {
         _ = write!(line, " until={until}");
@@ -204,16 +251,18 @@ fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, view: &View
     if let Some(reason) = &waiver.reason {
         _ = write!(line, " reason={}", serde_json::Value::from(&**reason));
     }
-    _ = writeln!(line, " {}", description(diagnostic, view));
+    _ = writeln!(line, " {}", description(diagnostic, base));
     line
 }
 
-/// Describes the finding without details that change whenever the CAD program saves the drawing.
-fn description(diagnostic: &Diagnostic, view: &View) -> String {
-    let file = view.file(diagnostic).unwrap_or_default();
+/// Describes the finding without details that change whenever the CAD program saves the drawing, and always in English, so that the file
+/// does not depend on the user's language. File names are relative to `base`.
+fn description(diagnostic: &Diagnostic, base: &Utf8Path) -> String {
+    let file = diagnostic.file.as_deref().map(|file| file.strip_prefix(base).unwrap_or(file).as_str());
     let path = diagnostic.path.as_deref().unwrap_or_default();
-    let point = diagnostic.place.point.map(|point| Value::from(point).render(view.lang)).unwrap_or_default();
-    let words = [&*diagnostic.code().to_string(), &file, path, &point, &diagnostic.text(view.lang)];
+    let point = diagnostic.place.point.map(|point| Value::from(point).render(Lang::En)).unwrap_or_default();
+    let code = diagnostic.code().to_string();
+    let words = [&code, file.unwrap_or_default(), path, &point, &diagnostic.text(Lang::En)];
     let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
     shown::line(&words.join(" ")).into_owned()
 }
