@@ -6,6 +6,7 @@
 )]
 
 mod agreement;
+mod api;
 mod book;
 #[cfg(unix)]
 mod build_systems;

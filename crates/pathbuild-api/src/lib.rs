@@ -2,8 +2,9 @@
 //!
 //! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It does what the program does: it checks the
 //! drawings ([`check`](Library::check)), lists their paths ([`paths`](Library::paths)), returns the moves of a path
-//! ([`path`](Library::path)) and its G-code ([`program`](Library::program)), writes programs ([`emit`](Library::emit)), verifies programs
-//! of any origin ([`verify`](Library::verify)), and checks again whenever a drawing changes ([`watch`](Library::watch)).
+//! ([`path`](Library::path)) and its G-code ([`program`](Library::program)), writes programs ([`emit`](Library::emit)), tells which path
+//! embeds which ([`embedders`](Library::embedders)), verifies programs of any origin ([`verify`](Library::verify)), and checks again
+//! whenever a drawing changes ([`watch`](Library::watch)).
 //!
 //! ```
 //! use pathbuild_api::{Error, Lang, Library};
@@ -21,8 +22,8 @@
 //! # }
 //! ```
 //!
-//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. Names of files are relative to the directory that was opened if
-//! they lie below it, otherwise absolute. The letters of parameters (M for the material, T, O, F) and everything else that a drawing
+//! Lengths are in mm, feeds in mm/min, angles in degrees, times in minutes. Names of files in results are relative to the directory that was
+//! opened if they lie below it, otherwise absolute; those in requests are relative to it or absolute. The letters of parameters (M for the material, T, O, F) and everything else that a drawing
 //! means are described in the book that comes with pathbuild; "(book: language/letters)" is its page `docs/en/src/language/letters.md`.
 //!
 //! A [`Finding`] is a result, like an error message of a compiler; [`Error`] says why a request has no result. Nothing here panics because
@@ -36,6 +37,7 @@
 //! `#[non_exhaustive]`. `public-items.txt` lists them all. The crates below it change as they need to.
 
 mod finding;
+mod graph;
 mod library;
 mod options;
 mod path;
@@ -44,6 +46,7 @@ mod verify;
 mod watch;
 
 pub use finding::{Embedding, Error, Finding};
+pub use graph::{GraphEdge, GraphReport};
 pub use library::Library;
 pub use options::{EmitOptions, LibraryOptions};
 pub use path::{Arc, Element, Move, MoveKind, Parameter, Path, Statistics};

@@ -18,8 +18,8 @@ use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 use crate::options::Source;
 use crate::watch::{Reports, absolute};
 use crate::{
-    CheckReport, EmitOptions, EmitReport, Error, Finding, LibraryOptions, OutputFile, Path, PathListing,
-    PathSummary, ProgramText, VerifyOptions, VerifyReport, WatchEnd, WatchReport,
+    CheckReport, EmitOptions, EmitReport, Error, Finding, GraphReport, LibraryOptions, OutputFile, Path,
+    PathListing, PathSummary, ProgramText, VerifyOptions, VerifyReport, WatchEnd, WatchReport,
 };
 
 /// A directory of drawings, opened with the configuration that applies there.
@@ -178,7 +178,30 @@ impl Library {
         })
     }
 
-    /// Verifies G-code programs of any origin as `pathbuild verify` does. Inputs are files, directories with programs, and patterns.
+    /// Finds what drawings and paths embed, directly or through others, as `pathbuild deps` does. Without inputs, the whole library, or the
+    /// directory if the configuration names none.
+    ///
+    /// # Errors
+    /// If an internal error occurs. What is wrong with the inputs is in the report.
+    pub fn embedded(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
+        let inputs = owned(inputs);
+        self.ask(move |session| {
+            let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
+            Ok(GraphReport::new(session.workspace(), session.embedded_paths(&inputs)))
+        })
+    }
+
+    /// Finds what embeds drawings and paths, directly or through others, among all paths of the library, as `pathbuild rdeps` does.
+    ///
+    /// # Errors
+    /// If an internal error occurs. What is wrong with the inputs is in the report.
+    pub fn embedders(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
+        let inputs = owned(inputs);
+        self.ask(move |session| Ok(GraphReport::new(session.workspace(), session.embedding_paths(&inputs))))
+    }
+
+    /// Verifies G-code programs of any origin as `pathbuild verify` does. Inputs are files, patterns of files, and directories, which stand for the
+    /// programs in and below them (.nc, .ngc, .gcode, .tap, .cnc, .din).
     ///
     /// # Errors
     /// If the post-processor, the path to compare with or the baseline does not exist, or has errors. What is wrong with the programs is in the

@@ -4,12 +4,14 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Closure, Database, Destination, Instance, Role, Target, closure, locate, path_index, summary,
+    Closure, Database, Destination, Instance, Role, SourceFile, Target, check_file, closure, locate,
+    path_index, summary,
 };
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_path::{Bindings, PathName};
 
+use crate::Inputs;
 use crate::session::Session;
 use crate::session::work::about;
 
@@ -138,7 +140,95 @@ impl Graph {
     }
 }
 
+/// The graph of some arguments.
+#[derive(Debug)]
+pub struct GraphOutcome {
+    /// The graph; its roots are the paths of the arguments.
+    pub graph: Graph,
+    /// Diagnostics of the arguments and of their drawings, and why embeddings are unknown.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Number of paths with errors, which may embed more than is known.
+    pub incomplete: usize,
+}
+
+impl GraphOutcome {
+    fn new(graph: Graph, problems: Vec<Diagnostic>) -> Self {
+        let incomplete = graph.nodes.iter().filter(|node| !node.is_sound).count();
+        let diagnostics = problems.into_iter().chain(graph.problems.iter().cloned()).collect();
+        Self { graph, diagnostics, incomplete }
+    }
+}
+
+/// The resolved arguments.
+struct GraphArguments {
+    targets: Vec<Target>,
+    files: Vec<SourceFile>,
+    problems: Vec<Diagnostic>,
+}
+
+impl GraphArguments {
+    fn new(session: &Session<'_>, inputs: &Inputs) -> Self {
+        let (db, selection) = (session.db(), session.select(inputs));
+        let files = selection.whole(session);
+        session.parse_ahead(&files);
+        let mut targets: Vec<Target> =
+            files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
+        let is_whole: HashSet<SourceFile> = files.iter().copied().collect();
+        let named = selection.paths.iter().filter(|path| !is_whole.contains(&path.file));
+        targets.extend(named.map(|path| session.target(path, Role::Checked)));
+        let mut problems = selection.problems;
+        let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
+        problems.extend(broken.cloned());
+        let problems = session.with_hints(problems);
+        Self { targets, files, problems }
+    }
+
+    /// The targets of the arguments, and all others that may embed them.
+    fn with_all_others(&mut self, session: &Session<'_>) -> Vec<Target> {
+        let (files, problems) = session.all_drawings();
+        self.problems.extend(problems);
+        session.parse_ahead(&files);
+        let arguments: HashSet<SourceFile> = self.files.iter().copied().collect();
+        let others = files.into_iter().filter(|file| !arguments.contains(file));
+        let others = others.flat_map(|file| session.targets(file, &Role::Checked));
+        self.targets.iter().copied().chain(others).collect()
+    }
+
+    /// The part of the graph of the whole library that embeds the arguments.
+    fn part_above(&self, db: &Database, whole: &Graph) -> Graph {
+        let named = self.targets.iter().flat_map(|target| {
+            let name = PathName::new(target.name(db));
+            whole.nodes_of(&name, target.file(db).path(db))
+        });
+        let mut roots: Vec<usize> = Vec::new();
+        for root in named {
+            if !roots.contains(&root) {
+                roots.push(root);
+            }
+        }
+        whole.part(&roots, Direction::Up)
+    }
+}
+
 impl Session<'_> {
+    /// What drawings and paths embed, directly or through others.
+    pub fn embedded_paths(&mut self, inputs: &Inputs) -> GraphOutcome {
+        self.with_stable_files(|session| {
+            let arguments = GraphArguments::new(session, inputs);
+            GraphOutcome::new(session.graph(&arguments.targets), arguments.problems)
+        })
+    }
+
+    /// What embeds drawings and paths, directly or through others, among all paths of the library.
+    pub fn embedding_paths(&mut self, inputs: &Inputs) -> GraphOutcome {
+        self.with_stable_files(|session| {
+            let mut arguments = GraphArguments::new(session, inputs);
+            let whole = session.graph(&arguments.with_all_others(session));
+            let graph = arguments.part_above(session.db(), &whole);
+            GraphOutcome { graph, ..GraphOutcome::new(whole, arguments.problems) }
+        })
+    }
+
     /// The graph of everything that these targets embed.
     pub fn graph(&self, targets: &[Target]) -> Graph {
         let mut builder = GraphBuilder::default();

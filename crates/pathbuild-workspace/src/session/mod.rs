@@ -23,7 +23,7 @@ use self::workers::{Watchdog, Workers};
 use crate::workspace::{Advance, Workspace};
 
 pub use argument_matches::{Argument, ArgumentMatches};
-pub use graph::{Direction, Embedding, End, Graph, Node};
+pub use graph::{Direction, Embedding, End, Graph, GraphOutcome, Node};
 #[cfg(not(target_family = "wasm"))]
 pub(crate) use library::{IGNORE_FILES, is_ignore_file};
 pub use library::{ProgramMatches, by_name, by_place};

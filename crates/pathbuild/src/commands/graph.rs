@@ -1,13 +1,11 @@
 //! `pathbuild graph`, `deps` and `rdeps`: show which path embeds which. (book: reference/commands)
 
 use std::borrow::Cow;
-use std::collections::HashSet;
 use std::fmt::Write;
 
-use pathbuild_db::{Role, SourceFile, Target, check_file};
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, shown};
+use pathbuild_diagnostic::{Code, Lang, shown};
 use pathbuild_path::{Bindings, PathName};
-use pathbuild_workspace::session::{Direction, Embedding, End, Graph, Node, Selection, Session};
+use pathbuild_workspace::session::{Direction, Embedding, End, Graph, GraphOutcome, Node, Session};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -31,13 +29,9 @@ fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, &Words) -> St
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
-    let (arguments, graph) = session.with_stable_files(|session| {
-        let arguments = GraphArguments::new(session, session.select(&args.inputs));
-        let graph = session.graph(&arguments.targets);
-        (arguments, graph)
-    });
-    print(context, &graph, text);
-    arguments.finish(context, &graph)
+    let outcome = session.embedded_paths(&args.inputs);
+    print(context, &outcome.graph, text);
+    finish(context, outcome)
 }
 
 /// Runs `rdeps`: shows what embeds the given paths, level by level, among all paths of the library; without a library, among those in and
@@ -48,81 +42,26 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
             context.choose("name drawings or paths for rdeps", "für rdeps Zeichnungen oder Pfade nennen"),
         );
     }
-    let mut session = Session::new(context);
-    let (arguments, whole) = session.with_stable_files(|session| {
-        let mut arguments = GraphArguments::new(session, session.select(&args.inputs));
-        let whole = session.graph(&arguments.with_all_others(session));
-        (arguments, whole)
-    });
-    let db = session.db();
-    let named = arguments.targets.iter().flat_map(|target| {
-        let name = PathName::new(target.name(db));
-        whole.nodes_of(&name, target.file(db).path(db))
-    });
-    let mut roots: Vec<usize> = Vec::new();
-    for root in named {
-        if !roots.contains(&root) {
-            roots.push(root);
-        }
-    }
-    let graph = whole.part(&roots, Direction::Up);
-    print(context, &graph, |graph, words| tree(graph, Direction::Up, words));
-    arguments.finish(context, &whole)
+    let outcome = Session::new(context).embedding_paths(&args.inputs);
+    print(context, &outcome.graph, |graph, words| tree(graph, Direction::Up, words));
+    finish(context, outcome)
 }
 
-/// The resolved arguments.
-struct GraphArguments {
-    targets: Vec<Target>,
-    files: Vec<SourceFile>,
-    problems: Vec<Diagnostic>,
-}
-
-impl GraphArguments {
-    fn new(session: &Session<'_>, selection: Selection) -> Self {
-        let db = session.db();
-        let files = selection.whole(session);
-        session.parse_ahead(&files);
-        let mut targets: Vec<Target> =
-            files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
-        let is_whole: HashSet<SourceFile> = files.iter().copied().collect();
-        let named = selection.paths.iter().filter(|path| !is_whole.contains(&path.file));
-        targets.extend(named.map(|path| session.target(path, Role::Checked)));
-        let mut problems = selection.problems;
-        let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
-        problems.extend(broken.cloned());
-        let problems = session.with_hints(problems);
-        Self { targets, files, problems }
+/// Shows diagnostics, and reports where the graph is incomplete.
+fn finish(context: &Context, GraphOutcome { diagnostics, incomplete, .. }: GraphOutcome) -> ExitStatus {
+    if incomplete > 0 {
+        context.printer.status(format_args!(
+            "{}: {incomplete} ({})",
+            context.choose(
+                "paths with errors, which may embed more than is shown",
+                "Pfade mit Fehlern, die mehr einbetten können als gezeigt"
+            ),
+            context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
+        ));
     }
-
-    /// The requested targets, and all others that may embed them.
-    fn with_all_others(&mut self, session: &Session<'_>) -> Vec<Target> {
-        let (files, problems) = session.all_drawings();
-        self.problems.extend(problems);
-        session.parse_ahead(&files);
-        let arguments: HashSet<SourceFile> = self.files.iter().copied().collect();
-        let others = files.into_iter().filter(|file| !arguments.contains(file));
-        let others = others.flat_map(|file| session.targets(file, &Role::Checked));
-        self.targets.iter().copied().chain(others).collect()
-    }
-
-    /// Shows diagnostics, and reports where the graph is incomplete.
-    fn finish(self, context: &Context, graph: &Graph) -> ExitStatus {
-        let unknown = graph.nodes.iter().filter(|node| !node.is_sound).count();
-        if unknown > 0 {
-            context.printer.status(format_args!(
-                "{}: {unknown} ({})",
-                context.choose(
-                    "paths with errors, which may embed more than is shown",
-                    "Pfade mit Fehlern, die mehr einbetten können als gezeigt"
-                ),
-                context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
-            ));
-        }
-        let problems = self.problems.into_iter().chain(graph.problems.iter().cloned());
-        let findings = context.findings(problems.collect());
-        context.show(&findings);
-        if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
-    }
+    let findings = context.findings(diagnostics);
+    context.show(&findings);
+    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
 fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &Words) -> String) {

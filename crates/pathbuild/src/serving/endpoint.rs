@@ -131,14 +131,9 @@ fn own_address(unspecified: IpAddr) -> IpAddr {
 
 /// A random number of 128 bits in hexadecimal.
 pub(super) fn random() -> io::Result<String> {
-    use std::fmt::Write;
-
     let mut bits = [0; 16];
     getrandom::fill(&mut bits).map_err(io::Error::other)?;
-    Ok(bits.iter().fold(String::new(), |mut text, byte| {
-        _ = write!(text, "{byte:02x}");
-        text
-    }))
+    Ok(format!("{:032x}", u128::from_ne_bytes(bits)))
 }
 
 /// Prefix of routes that return data of drawings.
