@@ -136,6 +136,29 @@ fn corners_that_no_cutter_reaches_are_one_remark() {
     assert_eq!(codes(&fillet(4.0)), ["PB213"], "larger");
 }
 
+/// The end of a slot has the radius of the cutter, which reaches it from one point only.
+#[test]
+fn a_cutter_reaches_an_arc_of_its_own_radius() {
+    let slot = |end: f64| {
+        let drawing = format!(
+            "{START}sweep -5,-5 10,10\nmill 10,10 {end},10\nsweep {end},10 50,-5\nend 50,-5\nlayer Part\n\
+             polyline 1,1 41,1 41,26 1,26 closed\npolyline 10,9 20,9 bulge 1 20,11 10,11 bulge 1 closed\n"
+        );
+        PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)])
+    };
+    let left = |end: f64| {
+        let found = slot(end);
+        assert!(found.iter().all(|found| found.code().to_string() != "PB216"), "{found:?}");
+        let left = found.iter().find(|found| found.code().to_string() == "PB215");
+        left.map_or(0.0, |found| number(found, "thickness"))
+    };
+    assert_eq!((left(20.0), left(19.981)), (0.0, 0.0));
+    // Between the samples of the rim's distance the largest one lies.
+    for missing in [0.03, 0.5] {
+        assert!((left(20.0 - missing) - missing).abs() < 0.01, "{missing}: {}", left(20.0 - missing));
+    }
+}
+
 #[test]
 fn a_bar_that_another_path_cuts_is_lost() {
     let second = |x: f64, bottom: f64| {

@@ -239,13 +239,23 @@ impl<'s> LeftoverSearch<'s> {
         let radii = self.beside(curve).map(|judged| judged.cut.radius);
         let Some(radius) = radii.min_by(f64::total_cmp) else { return Vec::new() };
         let length = curve.curve.length();
-        let Some(away) = beside(curve.curve, radius) else { return vec![(0.0, length)] };
+        let Some(away) = beside(curve.curve, radius) else {
+            return if self.fits(curve.curve, radius) { Vec::new() } else { vec![(0.0, length)] };
+        };
         let scale = length / away.length();
         let mut found = Vec::new();
         for (_, other) in self.part.curves_near(around(&away, radius)) {
             within(&away, other, radius - self.tolerance, &mut found);
         }
         joined(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), GAP)
+    }
+
+    /// Whether a cutter of an inner arc's own radius reaches all of it, from its centre.
+    fn fits(&self, curve: &Curve, radius: f64) -> bool {
+        let Curve::Arc(arc) = curve else { return false };
+        let reach = radius - self.tolerance;
+        let mut near = self.part.curves_near(square(arc.centre, reach));
+        arc.radius >= reach && near.all(|(_, other)| other.distance_to(arc.centre) >= reach)
     }
 
     /// The stretches at the feet of bars, where the cut goes down to the bar.
