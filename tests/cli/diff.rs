@@ -127,6 +127,26 @@ fn a_program_and_the_path_that_it_was_made_from() {
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
+/// GRBL's post writes four decimals where the native program has three, which half a micrometre tells apart.
+#[test]
+fn what_a_post_rounds_is_no_change() {
+    let line = |end: &str| dxf("1001.1P", "1", &format!("mill 0,0 20,{end}\nmill 20,{end} 40,0"));
+    let configuration = "rapid = 1000\nlibrary = [\"parts\"]\npost = \"grbl\"\nspindle = \"manual\"\n";
+    let place = two(line("26.7885"), line("26.7905"));
+    for side in ["old", "new"] {
+        fs::write(place.path().join(side).join("pathbuild.toml"), configuration).unwrap();
+    }
+    let emit = place.run("emit ./old/parts/1001.1P.dxf --config old/pathbuild.toml --out-dir programs");
+    assert_eq!(emit.status, Some(0), "{emit}");
+    let programs = fs::read_dir(place.path().join("programs")).unwrap();
+    let program = programs.map(|file| file.unwrap().file_name().into_string().unwrap()).next().unwrap();
+    let diff = |config: &str| {
+        place.run(&format!("diff programs/{program} 1001.1P --config {config}/pathbuild.toml"))
+    };
+    assert_eq!(diff("old").stdout, "0 of 1 path changed\n");
+    told(&diff("new"), 0, &["removed", "1 of 1 path changed"]);
+}
+
 fn git(place: &Place, arguments: &[&str]) {
     let identity =
         ["-c", "user.name=a", "-c", "user.email=a@example.invalid", "-c", "init.defaultBranch=main"];

@@ -22,6 +22,7 @@ mod depfiles;
 mod diagnostics;
 mod diff;
 mod diff_limits;
+mod diff_reasons;
 mod documents;
 mod elsewhere;
 mod emit;

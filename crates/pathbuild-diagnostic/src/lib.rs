@@ -7,6 +7,7 @@
 
 mod code;
 mod diagnostic;
+pub mod drawn_changes;
 pub mod limits;
 mod message;
 pub mod messages;
@@ -25,6 +26,7 @@ pub use words::{Lang, Text};
 
 /// All texts of this crate that can be arguments of messages.
 pub fn texts() -> impl Iterator<Item = &'static Text> {
-    let texts = [words::TEXTS, reasons::TEXTS, limits::TEXTS, messages::configuration::TEXTS];
+    let texts =
+        [words::TEXTS, reasons::TEXTS, limits::TEXTS, messages::configuration::TEXTS, drawn_changes::TEXTS];
     texts.into_iter().flatten().copied()
 }

@@ -64,7 +64,7 @@ pub enum Shape {
 }
 
 /// The meaning of an element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Role {
     /// A cut: milled, marked, or milled with bars. On a circle: a hole or a helical circle.
     Cut(Cut),
@@ -79,7 +79,7 @@ pub enum Role {
 }
 
 /// The kind of a cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Cut {
     /// Cuts down to B.
     Mill,

@@ -7,6 +7,7 @@
 pub mod approx;
 mod bind;
 mod chain;
+mod changes;
 mod effective;
 mod element;
 mod embedding;
@@ -29,6 +30,7 @@ mod walk;
 
 pub use bind::{ExaminedPath, bind, examine, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
+pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKind, drawn_changes};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source};
 pub use embedding::{Judge, with_near_names};

@@ -170,7 +170,7 @@ impl<'t> ParameterText<'t> {
     }
 
     /// A piece as written.
-    fn piece_text(self, piece: &LetterValue) -> &'t str {
+    pub(crate) fn piece_text(self, piece: &LetterValue) -> &'t str {
         &self.string[piece.span()]
     }
 

@@ -5,6 +5,7 @@
 mod assignment;
 mod at_once;
 mod chains;
+mod changes;
 mod circles;
 mod crowded;
 mod default_patterns;

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Lang;
 
-use super::canvas::{Anchor, BAR, Canvas, INK, OTHER, RAPID, n};
+use super::canvas::{Anchor, Canvas, INK, OTHER, n};
 use super::frame::{Frame, PageTransform, widen};
 use super::moves::data;
 use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
@@ -13,6 +13,16 @@ use crate::scene::{MoveKind, Point, SceneMove};
 const ADDED: &str = "#0072b2";
 const REMOVED: &str = "#d55e00";
 const SHIFTED: &str = "#009e73";
+const REORDERED: &str = "#4a5a68";
+const RAPIDS: &str = "#946200";
+
+/// Colours and dashes of moves that were altered, in turn for each alteration.
+const ALTERED: [[&str; 2]; 4] = [
+    ["#cc79a7", ""],
+    ["#7b3294", " stroke-dasharray=\"12 3\""],
+    ["#8c510a", " stroke-dasharray=\"2 4\""],
+    ["#01665e", " stroke-dasharray=\"8 3 2 3 2 3\""],
+];
 
 /// Height of a line of the legend, and size of its letters, in px.
 const LINE: f64 = 20.0;
@@ -35,6 +45,8 @@ struct Pair<'a> {
     old: &'a [SceneMove],
     new: &'a [SceneMove],
     changes: &'a [Change],
+    /// The entries of the legend.
+    groups: &'a [Group],
 }
 
 /// Draws a change. All pictures of a change have the same size and scale.
@@ -47,8 +59,8 @@ pub fn changes_svg(
 ) -> String {
     let frame = frame(old.iter().chain(new));
     let place = frame.of_drawing();
-    let pair = Pair { old, new, changes };
     let groups = groups(changes, old, new);
+    let pair = Pair { old, new, changes, groups: &groups };
     let legend = if picture == Picture::Changes { groups.len() as f64 * LINE } else { 0.0 };
     let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom() + legend);
     canvas.open("fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
@@ -60,7 +72,8 @@ pub fn changes_svg(
     canvas.close();
     if picture == Picture::Changes {
         for (index, group) in groups.iter().enumerate() {
-            entry(&mut canvas, group, frame.bottom() + index as f64 * LINE, lang);
+            let style = pair.has_line(group).then(|| Style::of(group.kind, &groups));
+            entry(&mut canvas, group, style, frame.bottom() + index as f64 * LINE, lang);
         }
     }
     canvas.finish()
@@ -85,16 +98,37 @@ impl Pair<'_> {
                 old
             };
             for movement in was {
-                stroke(canvas, movement, place, REMOVED, DASHES);
+                self.stroke(canvas, movement, place, Some(ChangeKind::Removed));
             }
             for movement in new {
-                stroke(canvas, movement, place, color(Some(change.kind)), dashes(Some(change.kind)));
+                self.stroke(canvas, movement, place, Some(change.kind));
             }
         }
     }
-}
 
-const DASHES: &str = " stroke-dasharray=\"5 4\"";
+    /// Whether the picture has a line for a group: rapid moves straight up and down have none.
+    fn has_line(&self, group: &Group) -> bool {
+        let is_sweep = |movement: &SceneMove| movement.kind == MoveKind::Sweep && movement.is_placed();
+        let has_sweep = |change: &Change| {
+            let (old, new) = (&self.old[change.old.clone()], &self.new[change.new.clone()]);
+            old.iter().chain(new).any(is_sweep)
+        };
+        group.kind.is_some() || self.changes.iter().any(has_sweep)
+    }
+
+    /// Draws a changed move like the entry of the legend that counts it.
+    fn stroke(
+        &self,
+        canvas: &mut Canvas,
+        movement: &SceneMove,
+        place: &PageTransform,
+        kind: Option<ChangeKind>,
+    ) {
+        let kind = kind.filter(|_| movement.kind != MoveKind::Sweep);
+        let Style { color, dashes } = Style::of(kind, self.groups);
+        stroke(canvas, movement, place, color, dashes);
+    }
+}
 
 fn all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &str) {
     for movement in moves {
@@ -113,37 +147,49 @@ fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, colo
             &format!("fill=\"{color}\" stroke=\"{color}\"{dashes}"),
         );
     }
-    let (width, dashes) =
-        if movement.kind == MoveKind::Sweep { (0.7, " stroke-dasharray=\"1 4\"") } else { (2.0, dashes) };
+    let (width, dashes) = if movement.kind == MoveKind::Sweep { (0.7, DOTS) } else { (2.0, dashes) };
     canvas.path(
         &data(&movement.way, place),
         &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)),
     );
 }
 
-fn color(kind: Option<ChangeKind>) -> &'static str {
-    match kind {
-        None | Some(ChangeKind::Reordered) => RAPID,
-        Some(ChangeKind::Added) => ADDED,
-        Some(ChangeKind::Removed) => REMOVED,
-        Some(ChangeKind::Altered { .. }) => BAR,
-        Some(ChangeKind::Shifted(_)) => SHIFTED,
-    }
+/// Dashes of rapid moves.
+const DOTS: &str = " stroke-dasharray=\"1 4\"";
+
+/// Colour and dashes of an entry of the legend.
+#[derive(Clone, Copy)]
+struct Style {
+    color: &'static str,
+    dashes: &'static str,
 }
 
-fn dashes(kind: Option<ChangeKind>) -> &'static str {
-    match kind {
-        Some(ChangeKind::Removed) => DASHES,
-        Some(ChangeKind::Reordered) => " stroke-dasharray=\"9 3 2 3\"",
-        _ => "",
+impl Style {
+    /// The style of the moves in a group; `None` for rapid moves.
+    fn of(kind: Option<ChangeKind>, groups: &[Group]) -> Self {
+        let [color, dashes] = match kind {
+            None => [RAPIDS, DOTS],
+            Some(ChangeKind::Reordered) => [REORDERED, " stroke-dasharray=\"9 3 2 3\""],
+            Some(ChangeKind::Added) => [ADDED, ""],
+            Some(ChangeKind::Removed) => [REMOVED, " stroke-dasharray=\"5 4\""],
+            Some(ChangeKind::Shifted(_)) => [SHIFTED, ""],
+            Some(ChangeKind::Altered { .. }) => {
+                let is_altered = |group: &&Group| matches!(group.kind, Some(ChangeKind::Altered { .. }));
+                let place = groups.iter().filter(is_altered).position(|group| group.kind == kind);
+                ALTERED[place.unwrap_or_default() % ALTERED.len()]
+            }
+        };
+        Self { color, dashes }
     }
 }
 
 /// Draws a line of the legend.
-fn entry(canvas: &mut Canvas, group: &Group, top: f64, lang: Lang) {
+fn entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lang: Lang) {
     let middle = top + LINE / 2.0;
-    let style = format!("stroke=\"{}\" stroke-width=\"2\"{}", color(group.kind), dashes(group.kind));
-    canvas.line([40.0, middle], [76.0, middle], &style);
+    if let Some(Style { color, dashes }) = style {
+        let style = format!("stroke=\"{color}\" stroke-width=\"2\"{dashes}");
+        canvas.line([40.0, middle], [76.0, middle], &style);
+    }
     let text = format!("{}: {}, {} mm", phrase(group, lang), moves(group, lang), n(group.length));
     canvas.text([86.0, middle + LETTERS / 3.0], LETTERS, Anchor::Start, &format!("fill=\"{INK}\""), &text);
 }

@@ -25,6 +25,8 @@ pub struct HashedPath {
     pub file: SourceFile,
     /// Name of the path.
     pub name: PathName,
+    /// The target whose program that is.
+    pub target: Target,
     /// Hash of its program's moves; `None` if the path has errors, or if its program could not be built.
     pub moves: Option<Box<str>>,
     /// Limits and bugs that kept the program from being built.
@@ -53,15 +55,16 @@ impl Session<'_> {
         };
         let hashes = self.map_guarded(&checked, hash);
         let hashed = |(((file, name), checked), hash): ((_, CheckedTarget), Result<_, Box<Diagnostic>>)| {
+            let target = checked.target;
             let mut problems: Vec<Diagnostic> =
                 checked.diagnostics.into_iter().filter(stops_making).collect();
             let moves = hash.unwrap_or_else(|problem| {
-                let problem = about(&self.db, checked.target, *problem);
+                let problem = about(&self.db, target, *problem);
                 // A timeout may already have been reported by the check.
                 problems.extend((!problems.contains(&problem)).then_some(problem));
                 None
             });
-            HashedPath { file, name, moves, problems }
+            HashedPath { file, name, target, moves, problems }
         };
         paths.into_iter().zip(checked).zip(hashes).map(hashed).collect()
     }

@@ -8,9 +8,11 @@ use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_gcode::provenance::{HEAD, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, Pictures, Tree, programs, trees};
 use pathbuild_workspace::emit::ShownText;
+use pathbuild_workspace::posting::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace};
@@ -133,15 +135,19 @@ enum ArgumentKind {
 /// Resolves both sides, the old one first.
 pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Failure> {
     let new = args.new.as_deref().unwrap_or(".");
-    let kinds = [args.old.as_str(), new].map(|argument| kind_of(context, argument));
-    let beside_program = kinds.contains(&ArgumentKind::Program);
-    let side = |argument: &str, kind_of| match kind_of {
-        ArgumentKind::Program => {
+    let arguments = [args.old.as_str(), new];
+    let kinds = arguments.map(|argument| kind_of(context, argument));
+    let is_program = |kind: &ArgumentKind| *kind == ArgumentKind::Program;
+    let beside = kinds.iter().position(is_program).map(|place| Utf8Path::new(arguments[place]));
+    let side = |argument: &str, kind_of| match (kind_of, beside) {
+        (ArgumentKind::Program, _) => {
             program(context, Utf8Path::new(argument), args).map(Box::new).map(Side::Program)
         }
-        ArgumentKind::Name if beside_program => path(context, argument).map(Box::new).map(Side::Program),
-        ArgumentKind::Drawings => drawings_side(context, argument.into(), None),
-        ArgumentKind::Name => {
+        (ArgumentKind::Name, Some(program)) => {
+            path(context, argument, program, args).map(Box::new).map(Side::Program)
+        }
+        (ArgumentKind::Drawings, _) => drawings_side(context, argument.into(), None),
+        (ArgumentKind::Name, None) => {
             let revision = revision::check_out(context, argument).map_err(Failure::Usage)?;
             drawings_side(context, revision.root.clone(), Some(revision))
         }
@@ -199,8 +205,15 @@ fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<Compar
     Ok(ComparedProgram { path: program.scene_path(context), problems: program.read.problems })
 }
 
-/// The program of a path in the working directory.
-fn path(context: &Context, name: &str) -> Result<ComparedProgram, Failure> {
+/// The program of a path in the working directory, for comparing it with the program in a file.
+fn path(
+    context: &Context,
+    name: &str,
+    beside: &Utf8Path,
+    args: &DiffArgs,
+) -> Result<ComparedProgram, Failure> {
+    let post_processor = post_processor_of(context, beside);
+    let text = post_processor.as_ref().map_or(ShownText::Native, |post| ShownText::Emitted(Some(post)));
     let inputs = Inputs { inputs: vec![name.to_owned()] };
     Session::new(context).with_stable_files(|session| {
         let selection = session.select(&inputs);
@@ -219,16 +232,36 @@ fn path(context: &Context, name: &str) -> Result<ComparedProgram, Failure> {
                 Failure::Found(problems)
             });
         };
-        let seen = session.scene(path.file, std::slice::from_ref(&path.name), ShownText::Native);
+        let seen = session.scene(path.file, std::slice::from_ref(&path.name), text);
         if seen.diagnostics.iter().any(Diagnostic::is_error) {
             return Err(Failure::Found(session.with_hints(seen.diagnostics)));
         }
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
-        Ok(ComparedProgram { path: as_printed(path), problems: seen.diagnostics })
+        let path = match post_processor {
+            Some(_) if path.native.is_some() => as_posted(context, path, args)?,
+            _ => as_printed(path),
+        };
+        Ok(ComparedProgram { path, problems: seen.diagnostics })
     })
 }
 
-/// A path's program as read back from its text, with numbers rounded as printed.
+/// The configured post-processor if it has written a program. What it rounds, and the moves that it adds, are then no difference.
+fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
+    let head = context.system.head(program, HEAD).ok()?;
+    let (provenance, _) = Provenance::of_head(&head)?;
+    let post_processor = PostProcessor::for_run(context, None, PostArguments::default()).ok()??;
+    (provenance.dialect.is_some() && post_processor.reader() == provenance.dialect).then_some(post_processor)
+}
+
+/// A path's program as read back from the text of its post-processor, as a file with this text is read.
+fn as_posted(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
+    let text = path.gcode.unwrap_or_default().into_bytes();
+    let program = Program::of_text(context, Utf8Path::new(&path.file), text, args.reading.options());
+    let program = program.map_err(|problem| Failure::Found(vec![*problem]))?;
+    Ok(ScenePath { name: path.name, totals: path.totals, ..program.scene_path(context) })
+}
+
+/// A path's program as read back from its native text, with numbers rounded as printed.
 fn as_printed(path: ScenePath) -> ScenePath {
     let text = path.gcode.unwrap_or_default();
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());

@@ -5,9 +5,11 @@ use std::fmt::Write;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
+use pathbuild_path::{DrawnChange, ElementChange};
 use pathbuild_view::{ChangeKind, Group, Totals, escaped, moves, phrase};
-use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet, ProgramDiff};
+use pathbuild_workspace::diff::{Comparison, Outcome, PathDiff, PictureSet, ProgramDiff, Reason};
 use pathbuild_workspace::files::cannot_write;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::context::Context;
@@ -83,6 +85,9 @@ pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
             for line in details(program, lang) {
                 _ = writeln!(text, "  {line}");
             }
+            for (depth, line) in explanation(program, lang) {
+                _ = writeln!(text, "  {}{line}", "  ".repeat(depth));
+            }
         }
     }
     _ = writeln!(text, "{}", summary(comparison, lang));
@@ -141,6 +146,37 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
         lines.push(totals(&old, &new, lang));
     }
     lines
+}
+
+/// Upper bound on the lines of an explanation. Those that are left out are counted.
+const MOST_REASONS: usize = 24;
+
+/// What explains the changes, if that is known: an introduction, then the reasons, each with its depth below it.
+fn explanation(program: &ProgramDiff, lang: Lang) -> Vec<(usize, String)> {
+    let Some(reasons) = &program.reasons else { return Vec::new() };
+    if reasons.is_empty() {
+        let unexplained = lang.choose(
+            "no change of the drawings or of pathbuild.toml explains this",
+            "keine Änderung der Zeichnungen oder von pathbuild.toml erklärt das",
+        );
+        return vec![(0, unexplained.to_owned())];
+    }
+    let mut lines = vec![(0, lang.choose("explained by:", "Ursache:").to_owned())];
+    let mut open: Vec<(usize, &Reason)> = reasons.iter().rev().map(|reason| (1, reason)).collect();
+    while let Some((depth, reason)) = open.pop() {
+        lines.push((depth, message(reason, lang)));
+        open.extend(reason.reasons().iter().rev().map(|reason| (depth + 1, reason)));
+    }
+    let left_out = lines.len().saturating_sub(1 + MOST_REASONS);
+    if left_out > 0 {
+        lines.truncate(1 + MOST_REASONS);
+        lines.push((1, format!("{} {left_out}", lang.choose("and further:", "und weitere:"))));
+    }
+    lines
+}
+
+fn message(reason: &Reason, lang: Lang) -> String {
+    pathbuild_diagnostic::Value::from(reason.sentence()).render(lang)
 }
 
 fn line(group: &Group, lang: Lang) -> String {
@@ -221,11 +257,10 @@ fn table(text: &mut String, comparison: &Comparison, lang: Lang) {
     for path in &comparison.paths {
         let mut cell = outcome(path, comparison, lang).to_owned();
         if let Outcome::Changed(program) = &path.outcome {
-            cell = details(program, lang)
-                .iter()
-                .map(|line| escaped_markdown(line))
-                .collect::<Vec<_>>()
-                .join("<br>");
+            let reasons = explanation(program, lang).into_iter();
+            let reasons = reasons.map(|(depth, line)| format!("{}{line}", "– ".repeat(depth)));
+            let lines = details(program, lang).into_iter().chain(reasons);
+            cell = lines.map(|line| escaped_markdown(&line)).collect::<Vec<_>>().join("<br>");
         }
         _ = writeln!(text, "| {} | {} | {cell} |", cell_of(&path.name), cell_of(&place(path)));
     }
@@ -263,12 +298,12 @@ fn code(text: &str) -> String {
 /// Prints a line for each changed path, and one for the whole comparison.
 pub(super) fn rows(context: &Context, comparison: &Comparison) {
     for changed in &comparison.paths {
-        context.row("path_change", path(changed));
+        context.row("path_change", path(changed, context.lang()));
     }
     context.row("comparison", json!({ "paths": comparison.looked_at, "changed": comparison.paths.len() }));
 }
 
-fn path(path: &PathDiff) -> Value {
+fn path(path: &PathDiff, lang: Lang) -> Value {
     let outcome = match &path.outcome {
         Outcome::Added => "added",
         Outcome::Removed => "removed",
@@ -284,8 +319,57 @@ fn path(path: &PathDiff) -> Value {
         value["changes"] = program.groups.iter().map(group).collect();
         value["old"] = json!(program.totals[0]);
         value["new"] = json!(program.totals[1]);
+        if let Some(reasons) = &program.reasons {
+            value["explained_by"] = reasons.iter().map(|reason| self::reason(reason, lang)).collect();
+        }
     }
     value
+}
+
+fn reason(reason: &Reason, lang: Lang) -> Value {
+    let mut value = json!({ "message": message(reason, lang) });
+    let kind = match reason {
+        Reason::Drawn(DrawnChange { kind, change, count, at }) => {
+            value["element"] = kind.name().into();
+            value["count"] = json!(count);
+            value["at"] = json!([at.x.0, at.y.0].map(thousandths));
+            match change {
+                ElementChange::Moved(by) | ElementChange::EndMoved(by) => {
+                    value["by"] = json!(by.map(thousandths));
+                }
+                ElementChange::Diameter(values) | ElementChange::Radius(values) => {
+                    set_values(&mut value, values.map(thousandths));
+                }
+                ElementChange::LineType(names) => set_values(&mut value, *names),
+                ElementChange::Text(texts) => set_values(&mut value, texts.each_ref()),
+                ElementChange::Added | ElementChange::Removed | ElementChange::Reshaped => {}
+            }
+            change.name()
+        }
+        Reason::Reordered => "reordered",
+        Reason::Variable(change) => {
+            value["name"] = json!(change.name);
+            set_values(&mut value, [&change.was, &change.now]);
+            "variable"
+        }
+        Reason::Setting(change) => {
+            value["name"] = json!(change.name);
+            set_values(&mut value, [&change.was, &change.now]);
+            "setting"
+        }
+        Reason::Embedded { path, reasons } => {
+            value["path"] = json!(path);
+            value["explained_by"] = reasons.iter().map(|inner| self::reason(inner, lang)).collect();
+            "embedded"
+        }
+    };
+    value["kind"] = kind.into();
+    value
+}
+
+fn set_values(value: &mut Value, [was, now]: [impl Serialize; 2]) {
+    value["was"] = json!(was);
+    value["now"] = json!(now);
 }
 
 fn group(group: &Group) -> Value {
@@ -347,11 +431,33 @@ fn section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang: La
             _ = writeln!(page, "<li>{}</li>", escaped(&line));
         }
         page.push_str("</ul>\n");
+        reasons(page, program, lang);
         if let Some(pictures) = &program.pictures {
             show(page, pictures, lang);
         }
     }
     page.push_str("</section>\n");
+}
+
+/// Lists what explains the changes, the reasons of a reason below it.
+fn reasons(page: &mut String, program: &ProgramDiff, lang: Lang) {
+    let mut open = 0;
+    for (depth, line) in explanation(program, lang) {
+        let line = escaped(&line);
+        if depth == 0 {
+            _ = writeln!(page, "<p>{line}</p>");
+            continue;
+        }
+        // Depths grow one by one; a list inside another one belongs to the item above it.
+        if depth > open {
+            page.push_str("<ul>\n");
+        } else {
+            _ = writeln!(page, "</li>{}", "</ul></li>".repeat(open - depth));
+        }
+        _ = write!(page, "<li>{line}");
+        open = depth;
+    }
+    _ = writeln!(page, "{}", "</li></ul>".repeat(open));
 }
 
 /// Shows the pictures in three ways, and the stock if the change concerns it. Without scripts, only the changes are visible.

@@ -1,9 +1,11 @@
 //! `diff`: compares the programs of all paths in two trees. (book: program/comparing)
 
+mod reasons;
+
 use std::collections::HashMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{SourceFile, check_file};
+use pathbuild_db::{SourceFile, Target, check_file};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::PathName;
 use pathbuild_view::{
@@ -13,6 +15,9 @@ use pathbuild_view::{
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
 use crate::session::{Session, by_name};
+
+pub use reasons::{Reason, ValueChange};
+use reasons::{Side, reasons};
 
 /// One side of the comparison: drawings below a directory.
 #[derive(Debug)]
@@ -89,6 +94,8 @@ pub enum Outcome {
 pub struct ProgramDiff {
     /// Changes, grouped by kind.
     pub groups: Vec<Group>,
+    /// What explains the changes, if both sides are drawings. Empty if nothing that is drawn or set differs.
+    pub reasons: Option<Vec<Reason>>,
     /// Lengths and times before and after, if known.
     pub totals: [Option<Totals>; 2],
     /// Pictures as SVG, if requested.
@@ -115,6 +122,7 @@ pub fn programs(old: &ScenePath, new: &ScenePath, pictures: Option<Pictures>) ->
         |which, Pictures { lang }: Pictures| changes_svg(&old.moves, &new.moves, &changes, which, lang);
     ProgramDiff {
         groups: groups(&changes, &old.moves, &new.moves),
+        reasons: None,
         totals: [old.totals, new.totals],
         pictures: pictures.filter(|_| !changes.is_empty()).map(|pictures| PictureSet {
             changes: picture(Picture::Changes, pictures),
@@ -160,6 +168,7 @@ struct SidePath {
     /// Path of the drawing, relative to the root.
     place: Utf8PathBuf,
     name: PathName,
+    target: Target,
     /// Hash of its program's moves; `None` if it has errors, or if its program could not be built.
     moves: Option<Box<str>>,
 }
@@ -191,9 +200,9 @@ fn known(
     let programs = session.move_hashes(files);
     let known = programs.into_iter().map(|hashed| {
         problems.extend(hashed.problems);
-        let (file, name, moves) = (hashed.file, hashed.name, hashed.moves);
-        let path = file.path(db);
-        SidePath { file, place: path.strip_prefix(root).unwrap_or(path).to_owned(), name, moves }
+        let path = hashed.file.path(db);
+        let place = path.strip_prefix(root).unwrap_or(path).to_owned();
+        SidePath { file: hashed.file, place, name: hashed.name, target: hashed.target, moves: hashed.moves }
     });
     known.collect()
 }
@@ -247,10 +256,7 @@ impl Pair {
                     return None;
                 }
                 (Some(before), Some(after)) if before == after => Outcome::OtherDrawing,
-                (Some(_), Some(_)) => {
-                    let [before, after] = sessions;
-                    changed([scene_path(before, old_path), scene_path(after, new_path)], pictures, problems)
-                }
+                (Some(_), Some(_)) => changed(sessions, [old_path, new_path], pictures, problems)?,
                 (Some(_), None) => Outcome::Broken,
                 (None, Some(_)) => Outcome::Mended,
                 (None, None) => Outcome::StillBroken,
@@ -265,15 +271,25 @@ impl Pair {
     }
 }
 
-/// Compares a path whose moves differ. If a limit prevents a side from being built, there are no moves to compare, and the diagnostics say
-/// why.
+/// Compares a path whose moves differ; `None` if neither they nor the drawings do, but only comments of the program. If a limit prevents a
+/// side from being built, there are no moves to compare, and the diagnostics say why.
 fn changed(
-    sides: [Result<ScenePath, Vec<Diagnostic>>; 2],
+    sessions: [&Session<'_>; 2],
+    paths: [&SidePath; 2],
     pictures: Option<Pictures>,
     problems: &mut [Vec<Diagnostic>; 2],
-) -> Outcome {
+) -> Option<Outcome> {
+    let ([before, after], [old, new]) = (sessions, paths);
+    let sides = [scene_path(before, old), scene_path(after, new)];
     let outcome = match &sides {
-        [Ok(old_path), Ok(new_path)] => Outcome::Changed(Box::new(programs(old_path, new_path, pictures))),
+        [Ok(old_path), Ok(new_path)] => {
+            let reasons = explained(sessions, paths, problems);
+            let changes = ProgramDiff { reasons, ..programs(old_path, new_path, pictures) };
+            if changes.groups.is_empty() && changes.reasons.as_ref().is_some_and(Vec::is_empty) {
+                return None;
+            }
+            Outcome::Changed(Box::new(changes))
+        }
         [Ok(_), Err(_)] => Outcome::Broken,
         [Err(_), Ok(_)] => Outcome::Mended,
         [Err(_), Err(_)] => Outcome::StillBroken,
@@ -281,7 +297,24 @@ fn changed(
     for (problems, side) in problems.iter_mut().zip(sides) {
         problems.extend(side.err().into_iter().flatten());
     }
-    outcome
+    Some(outcome)
+}
+
+/// What explains that the moves of a path changed; `None` if the drawings could not be compared, which the diagnostics then say.
+fn explained(
+    [before, after]: [&Session<'_>; 2],
+    [old, new]: [&SidePath; 2],
+    problems: &mut [Vec<Diagnostic>; 2],
+) -> Option<Vec<Reason>> {
+    let reasons = before.query_target(old.target, |old_db| {
+        let old = Side { db: old_db, settings: &before.workspace().settings, target: old.target };
+        after.query_target(new.target, |new_db| {
+            reasons(old, Side { db: new_db, settings: &after.workspace().settings, target: new.target })
+        })
+    });
+    let [old_problems, new_problems] = problems;
+    let reasons = reasons.map_err(|problem| old_problems.push(*problem)).ok()?;
+    reasons.map_err(|problem| new_problems.push(*problem)).ok()
 }
 
 /// A path with its program.

@@ -1,0 +1,190 @@
+//! What is compared: the elements and markers of a path, each with its own text and its effective parameters.
+
+use std::collections::BTreeSet;
+
+use pathbuild_diagnostic::{ElementId, Handle};
+
+use super::{DrawnSide, ElementChange, ElementKind};
+use crate::effective::Provider;
+use crate::element::{END_RADIUS, Element, Marker, PROBE_RADIUS, Role, START_RADIUS, Shape, TURN_RADIUS};
+use crate::geometry::{Curve, Xy};
+use crate::in_force::{ElementParameters, Parameter};
+use crate::letter::Letter;
+use crate::line_type::LineType;
+use crate::text::{LetterValue, ParameterText};
+
+/// An element or marker.
+#[derive(Debug)]
+pub(super) struct Item<'a> {
+    pub(super) kind: ElementKind,
+    pub(super) shape: Shape,
+    /// Its meaning; `None` for markers.
+    pub(super) role: Option<Role>,
+    pub(super) text: ParameterText<'a>,
+    /// Its effective parameters that can change moves.
+    parameters: Vec<&'a Parameter>,
+    pub(super) handle: Option<Handle>,
+    /// Its number among the elements of the path, in the order of the file.
+    pub(super) number: usize,
+}
+
+/// A role, and the effective parameters that can change moves.
+type Meaning<'i> = (Option<Role>, Vec<(Letter, &'i str)>);
+
+/// The elements and markers of a path.
+pub(super) fn items(side: DrawnSide<'_>) -> Vec<Item<'_>> {
+    let raw = side.raw;
+    let first = usize::from(raw.start.is_some());
+    let elements = raw.drawn.elements.iter().enumerate();
+    let mut items: Vec<Item<'_>> =
+        elements.map(|(number, element)| element_item(side, element, number, first + number)).collect();
+    let marker = |kind, radius, marker: &Marker| {
+        let shape = Shape::Circle { centre: marker.at, radius };
+        let handle = handle(side, marker.origin.id);
+        let (text, parameters) = (ParameterText::default(), Vec::new());
+        Item { kind, shape, role: None, text, parameters, handle, number: 0 }
+    };
+    items.extend(raw.start.iter().map(|start| marker(ElementKind::Start, START_RADIUS, start)));
+    items.extend(raw.end.iter().map(|end| marker(ElementKind::End, END_RADIUS, end)));
+    items.extend(raw.turns.iter().map(|turn| marker(ElementKind::Turn, TURN_RADIUS, turn)));
+    let rows = side.in_force.iter().skip(first + raw.drawn.elements.len());
+    for (probe, row) in raw.probes.iter().zip(rows) {
+        let text = raw.drawn.text(probe.text).unwrap_or_default();
+        let marker = marker(ElementKind::Probe, PROBE_RADIUS, probe);
+        items.push(Item { text, parameters: moving(row).collect(), ..marker });
+    }
+    items
+}
+
+fn element_item<'a>(side: DrawnSide<'a>, element: &Element, number: usize, row: usize) -> Item<'a> {
+    Item {
+        kind: match element.shape {
+            Shape::Circle { .. } => ElementKind::Circle,
+            Shape::Curve(Curve::Line(_)) => ElementKind::Line,
+            Shape::Curve(Curve::Arc(_)) => ElementKind::Arc,
+        },
+        shape: element.shape,
+        role: Some(element.role),
+        text: side.raw.drawn.text(element.text).unwrap_or_default(),
+        parameters: side.in_force.get(row).into_iter().flat_map(moving).collect(),
+        handle: handle(side, element.source.id),
+        number,
+    }
+}
+
+fn handle(side: DrawnSide<'_>, element: ElementId) -> Option<Handle> {
+    side.positions.positions().get(element.0 as usize)?.handle
+}
+
+/// The effective parameters that can change moves.
+fn moving(row: &ElementParameters) -> impl Iterator<Item = &Parameter> {
+    row.parameters.iter().filter(|parameter| can_move(parameter.letter))
+}
+
+/// Whether the value of a letter can change moves. The others are comments, labels, names of materials and files, and permissions; variables
+/// change moves only by the values that they are given.
+fn can_move(letter: Letter) -> bool {
+    !matches!(letter, Letter::E | Letter::L | Letter::M | Letter::Q | Letter::R | Letter::At)
+}
+
+impl Item<'_> {
+    /// Its start, or its centre.
+    pub(super) fn at(&self) -> Xy {
+        self.shape.point()
+    }
+
+    /// What it means, regardless of its shape: equal for elements that are treated alike.
+    pub(super) fn meaning(&self) -> Meaning<'_> {
+        let values = self.parameters.iter().map(|parameter| (parameter.letter, parameter.value.as_str()));
+        (self.role.map(swept), values.collect())
+    }
+
+    /// The line types of both versions, if they have different meanings.
+    pub(super) fn line_type_change(&self, new: &Self) -> Option<[&'static str; 2]> {
+        let (old_role, new_role) = (self.role?, new.role?);
+        let is_changed = swept(old_role) != swept(new_role)
+            || old_role != new_role && self.meaning() != new.meaning() && self.text_change(new).is_none();
+        is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
+    }
+
+    /// The parameters in the own texts of both versions that differ and whose effective values differ with them.
+    pub(super) fn text_change(&self, new: &Self) -> Option<[String; 2]> {
+        let is_changed = |letter| self.value(letter) != new.value(letter);
+        let gives = |item: &Self, letter| item.parameter(letter).is_some_and(|own| own.from == Provider::Own);
+        let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
+        let letters: Vec<Letter> = letters
+            .filter(|letter| is_changed(*letter) && (gives(self, *letter) || gives(new, *letter)))
+            .collect();
+        differing(self.text, new.text, &letters)
+    }
+
+    fn parameter(&self, letter: Letter) -> Option<&Parameter> {
+        self.parameters.iter().copied().find(|parameter| parameter.letter == letter)
+    }
+
+    fn value(&self, letter: Letter) -> Option<&str> {
+        Some(&self.parameter(letter)?.value)
+    }
+}
+
+/// The change of the path's own parameters, if it can change its moves.
+pub(super) fn start_text(old: DrawnSide<'_>, new: DrawnSide<'_>) -> Option<ElementChange> {
+    // The cutter, the thickness, the path's own feed and its sweep height are used even if every element gives its own values.
+    let is_used = |letter: Letter| {
+        let takes = |row: &ElementParameters| {
+            let is_from_path = |from: &Provider| matches!(from, Provider::Path | Provider::Lender(_));
+            row.parameters.iter().any(|own| own.letter == letter && is_from_path(&own.from))
+        };
+        let is_taken =
+            |side: DrawnSide<'_>| side.in_force.iter().skip(usize::from(side.raw.start.is_some())).any(takes);
+        matches!(letter, Letter::F | Letter::O | Letter::S | Letter::T) || is_taken(old) || is_taken(new)
+    };
+    let value = |side: DrawnSide<'_>, letter| {
+        let row = side.in_force.first().filter(|_| side.raw.start.is_some())?;
+        let own = row.parameters.iter().find(|own| own.letter == letter)?;
+        matches!(own.from, Provider::Path | Provider::Lender(_)).then(|| own.value.clone())
+    };
+    let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
+    let letters = letters.filter(|letter| can_move(*letter) && *letter != Letter::Variable);
+    let letters: Vec<Letter> =
+        letters.filter(|letter| value(old, *letter) != value(new, *letter) && is_used(*letter)).collect();
+    differing(old.raw.parameters(), new.raw.parameters(), &letters).map(ElementChange::Text)
+}
+
+/// The pieces of two texts with one of these letters, without those that both have. `None` if nothing is left.
+fn differing(old: ParameterText<'_>, new: ParameterText<'_>, letters: &[Letter]) -> Option<[String; 2]> {
+    let pieces = |text: ParameterText<'_>, other: ParameterText<'_>| {
+        let known: BTreeSet<&str> = other.pieces().iter().map(|piece| other.piece_text(piece)).collect();
+        let has_letter = |piece: &&LetterValue| piece.letter.is_some_and(|letter| letters.contains(&letter));
+        let own = text.pieces().iter().filter(has_letter).map(|piece| text.piece_text(piece));
+        excerpt(&own.filter(|piece| !known.contains(piece)).collect::<Vec<_>>().join(" "))
+    };
+    let texts = [pieces(old, new), pieces(new, old)];
+    texts.iter().any(|text| !text.is_empty()).then_some(texts)
+}
+
+/// Upper bound on the characters that are shown of a text.
+const MOST_CHARACTERS: usize = 200;
+
+/// The text, or its beginning if it is long.
+fn excerpt(text: &str) -> String {
+    match text.char_indices().nth(MOST_CHARACTERS) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+/// The role with which an element is treated: all sweeps are alike, whatever their line type.
+fn swept(role: Role) -> Role {
+    match role {
+        Role::SilentSweep | Role::SkippedSubpath => Role::Sweep,
+        Role::Cut(_) | Role::Sweep | Role::Subpath => role,
+    }
+}
+
+/// The usual line type for a role.
+fn line_type(role: Role) -> LineType {
+    let is_role = |line_type: &LineType| crate::element::curve_role(*line_type) == Some(role);
+    let line_types = LineType::NAMES.into_iter().map(|(_, line_type)| line_type);
+    line_types.into_iter().find(is_role).unwrap_or(LineType::Continuous)
+}

@@ -1,0 +1,246 @@
+//! The drawn differences between two versions of a path, as far as they can change its program. (book: program/comparing)
+//!
+//! Elements are paired by what they are, then by their handles, then by what is left of their geometry. Their order and their numbers in
+//! the file do not matter, nor does the place of the whole path on its sheet.
+
+mod item;
+mod pairing;
+mod shape;
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::drawn_changes as texts;
+use pathbuild_diagnostic::{Point, Sentence, Text, Value};
+
+use crate::element::shown;
+use crate::geometry::Xy;
+use crate::in_force::ElementParameters;
+use crate::raw::{RawPath, SourceMap};
+
+use item::{Item, items};
+use pairing::{Frame, pair};
+use shape::{ShapeChange, shape_changes};
+
+/// One side of a comparison: a path as drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnSide<'a> {
+    /// The path.
+    pub raw: &'a RawPath,
+    /// The positions of its elements in the file.
+    pub positions: &'a SourceMap,
+    /// The effective parameters of the path: [`parameters_in_force`](crate::parameters_in_force).
+    pub in_force: &'a [ElementParameters],
+}
+
+/// The drawn differences between two versions of a path.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DrawnChanges {
+    /// The changes that can affect the program, each with all elements that it applies to, ordered by place.
+    pub changes: Vec<DrawnChange>,
+    /// Whether there is no change, but the elements are in the file in another order, which decides between equal candidates.
+    pub is_reordered: bool,
+}
+
+/// A change that applies to one or more elements alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnChange {
+    /// What the elements are.
+    pub kind: ElementKind,
+    /// How they were changed.
+    pub change: ElementChange,
+    /// Number of elements.
+    pub count: usize,
+    /// The start or centre of the first element in the new drawing; in the old one if it was removed.
+    pub at: Point,
+}
+
+/// What an element is, for a reader of the drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "glossary in book: reference/glossary")]
+pub enum ElementKind {
+    Start,
+    End,
+    Turn,
+    Probe,
+    Circle,
+    Line,
+    Arc,
+}
+
+/// How an element was changed. Lengths are in mm.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ElementChange {
+    /// It is only in the new drawing.
+    Added,
+    /// It is only in the old drawing.
+    Removed,
+    /// It is elsewhere, relative to the path's start.
+    Moved([f64; 2]),
+    /// One of its ends is elsewhere.
+    EndMoved([f64; 2]),
+    /// It runs otherwise.
+    Reshaped,
+    /// A circle's diameter before and after.
+    Diameter([f64; 2]),
+    /// An arc's radius before and after.
+    Radius([f64; 2]),
+    /// Its line type before and after, by its usual name.
+    LineType([&'static str; 2]),
+    /// The parameters of its text that differ, before and after. Either may be empty.
+    Text([String; 2]),
+}
+
+/// Compares two versions of a path. Changes that cannot affect its program are left out: comments, materials, texts that say the same, line
+/// types that mean the same, and the place of the whole path.
+pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
+    let (old_items, new_items) = (items(old), items(new));
+    let frame = Frame::between(&old_items, &new_items);
+    let pairs = pair(&old_items, &new_items, &frame);
+    let mut found: Vec<Found<'_>> = Vec::new();
+    for (was, is) in &pairs.both {
+        found.extend(element_changes(was, is, &frame).into_iter().map(|change| (*is, change)));
+    }
+    found.extend(item::start_text(old, new).and_then(|change| {
+        let start = new_items.iter().find(|item| item.kind == ElementKind::Start)?;
+        Some((start, change))
+    }));
+    found.extend(pairs.removed.iter().map(|item| (*item, ElementChange::Removed)));
+    found.extend(pairs.added.iter().map(|item| (*item, ElementChange::Added)));
+    let is_reordered = found.is_empty() && pairs.is_reordered();
+    DrawnChanges { changes: grouped(found), is_reordered }
+}
+
+/// A changed element, of the new drawing if it is there.
+type Found<'i> = (&'i Item<'i>, ElementChange);
+
+/// The changes from one version of an element to the other.
+fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<ElementChange> {
+    let mut changes: Vec<ElementChange> = Vec::new();
+    changes.extend(shape_changes(&old.shape, &new.shape, frame.shift).map(|change| match change {
+        ShapeChange::Moved(by) => ElementChange::Moved(by),
+        ShapeChange::EndMoved(by) => ElementChange::EndMoved(by),
+        ShapeChange::Reshaped => ElementChange::Reshaped,
+        ShapeChange::Radius(radii) if new.kind == ElementKind::Circle => {
+            ElementChange::Diameter(radii.map(|radius| 2.0 * radius))
+        }
+        ShapeChange::Radius(radii) => ElementChange::Radius(radii),
+    }));
+    changes.extend(old.line_type_change(new).map(ElementChange::LineType));
+    changes.extend(old.text_change(new).map(ElementChange::Text));
+    changes
+}
+
+/// Groups equal changes of elements of one kind. The first element by place stands for its group.
+fn grouped(mut found: Vec<Found<'_>>) -> Vec<DrawnChange> {
+    found.sort_by(|(one, _), (other, _)| by_place(one.kind, one.at(), other.kind, other.at()));
+    let mut groups: Vec<DrawnChange> = Vec::new();
+    let mut numbers: BTreeMap<(ElementKind, String), usize> = BTreeMap::new();
+    for (item, change) in found {
+        let number = *numbers.entry((item.kind, change.key())).or_insert(groups.len());
+        match groups.get_mut(number) {
+            Some(group) => group.count += 1,
+            None => {
+                groups.push(DrawnChange { kind: item.kind, change, count: 1, at: shown(item.at()) });
+            }
+        }
+    }
+    groups
+}
+
+fn by_place(kind: ElementKind, at: Xy, other_kind: ElementKind, other: Xy) -> std::cmp::Ordering {
+    kind.cmp(&other_kind).then(at.x.total_cmp(&other.x)).then(at.y.total_cmp(&other.y))
+}
+
+impl ElementChange {
+    /// Its name in JSON.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Added => "added",
+            Self::Removed => "removed",
+            Self::Moved(_) => "moved",
+            Self::EndMoved(_) => "end-moved",
+            Self::Reshaped => "reshaped",
+            Self::Diameter(_) => "diameter",
+            Self::Radius(_) => "radius",
+            Self::LineType(_) => "line-type",
+            Self::Text(_) => "text",
+        }
+    }
+
+    /// Equal for changes that read the same.
+    fn key(&self) -> String {
+        format!("{}{:?}", self.name(), self.arguments())
+    }
+
+    fn text(&self) -> &'static Text {
+        match self {
+            Self::Added => &texts::ADDED,
+            Self::Removed => &texts::REMOVED,
+            Self::Moved(_) => &texts::MOVED,
+            Self::EndMoved(_) => &texts::END_MOVED,
+            Self::Reshaped => &texts::RESHAPED,
+            Self::Diameter(_) => &texts::DIAMETER,
+            Self::Radius(_) => &texts::RADIUS,
+            Self::LineType(_) => &texts::LINE_TYPE,
+            Self::Text([was, _]) if was.is_empty() => &texts::TEXT_ADDED,
+            Self::Text([_, now]) if now.is_empty() => &texts::TEXT_REMOVED,
+            Self::Text(_) => &texts::TEXT,
+        }
+    }
+
+    /// The values in its text.
+    fn arguments(&self) -> Vec<(&'static str, Value)> {
+        let pair = |[was, now]: [Value; 2]| vec![("was", was), ("now", now)];
+        match self {
+            Self::Added | Self::Removed | Self::Reshaped => Vec::new(),
+            Self::Moved([x, y]) | Self::EndMoved([x, y]) => vec![("by", Point::new(*x, *y).into())],
+            Self::Diameter(values) | Self::Radius(values) => pair(values.map(Value::from)),
+            Self::LineType(names) => pair(names.map(Value::quoted)),
+            Self::Text(texts) => pair(texts.each_ref().map(Value::quoted)),
+        }
+    }
+}
+
+impl DrawnChange {
+    /// The change in words.
+    pub fn sentence(&self) -> Sentence {
+        let arguments = self.change.arguments();
+        let sentence = Sentence::new(self.change.text()).with("what", self.subject());
+        arguments.into_iter().fold(sentence, |sentence, (name, value)| sentence.with(name, value))
+    }
+
+    /// The elements, by their number and the place of the first.
+    fn subject(&self) -> Sentence {
+        let [one, several] = self.kind.texts();
+        let text = if self.count == 1 { one } else { several };
+        Sentence::new(text).with("count", self.count).with("point", self.at)
+    }
+}
+
+impl ElementKind {
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::End => "end",
+            Self::Turn => "turn",
+            Self::Probe => "probe",
+            Self::Circle => "circle",
+            Self::Line => "line",
+            Self::Arc => "arc",
+        }
+    }
+
+    /// Its name with a place, for one and for several elements.
+    fn texts(self) -> [&'static Text; 2] {
+        match self {
+            Self::Start => [&texts::START, &texts::START],
+            Self::End => [&texts::END, &texts::END],
+            Self::Turn => [&texts::TURN, &texts::TURNS],
+            Self::Probe => [&texts::PROBE, &texts::PROBES],
+            Self::Circle => [&texts::CIRCLE, &texts::CIRCLES],
+            Self::Line => [&texts::LINE, &texts::LINES],
+            Self::Arc => [&texts::ARC, &texts::ARCS],
+        }
+    }
+}

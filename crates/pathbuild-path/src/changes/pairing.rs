@@ -1,0 +1,316 @@
+//! Pairs the elements of two versions of a path.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, HashMap, VecDeque};
+use std::hash::Hash;
+
+use nalgebra::Vector2;
+
+use super::ElementKind;
+use super::item::Item;
+use super::shape::{is_equal, is_nothing, middle};
+use crate::element::Shape;
+use crate::geometry::{Curve, Xy};
+
+/// The frame of a comparison: how far the whole path was moved on its sheet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub(super) shift: Vector2<f64>,
+}
+
+/// The paired elements, and those of either side that have no counterpart.
+#[derive(Debug, Default)]
+pub(super) struct Pairs<'i> {
+    pub(super) both: Vec<(&'i Item<'i>, &'i Item<'i>)>,
+    pub(super) removed: Vec<&'i Item<'i>>,
+    pub(super) added: Vec<&'i Item<'i>>,
+}
+
+impl Pairs<'_> {
+    /// Whether elements come after each other in the one file that come before each other in the other.
+    pub(super) fn is_reordered(&self) -> bool {
+        let elements = self.both.iter().filter(|(old, _)| old.role.is_some());
+        let mut numbers: Vec<[usize; 2]> = elements.map(|(old, new)| [new.number, old.number]).collect();
+        numbers.sort_unstable();
+        !numbers.is_sorted_by_key(|[_, old]| *old)
+    }
+}
+
+impl Frame {
+    /// The shift that most elements share, if the start is not where it was. Otherwise everything is compared where it is.
+    pub(super) fn between(old: &[Item<'_>], new: &[Item<'_>]) -> Self {
+        let start =
+            |items: &[Item<'_>]| items.iter().find(|item| item.kind == ElementKind::Start).map(Item::at);
+        let is_moved = match (start(old), start(new)) {
+            (Some(old), Some(new)) => !is_nothing(new - old),
+            _ => false,
+        };
+        let shift = is_moved.then(|| common_shift(old, new)).flatten();
+        Self { shift: shift.unwrap_or_default() }
+    }
+}
+
+/// The most frequent shift between elements of the same form, if at least two share it.
+fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
+    let mut by_form: BTreeMap<_, [Vec<Xy>; 2]> = BTreeMap::new();
+    for (side, items) in [old, new].into_iter().enumerate() {
+        for item in items {
+            let Outline { first, form } = Outline::of(&item.shape);
+            by_form.entry((item.kind, form, item.text.as_str())).or_default()[side].push(first);
+        }
+    }
+    let mut votes: BTreeMap<Micrometres, (usize, Vector2<f64>)> = BTreeMap::new();
+    for [mut old, mut new] in by_form.into_values() {
+        if old.len() != new.len() {
+            continue;
+        }
+        old.sort_by_key(|point| micrometres(point.coords));
+        new.sort_by_key(|point| micrometres(point.coords));
+        for (old, new) in old.iter().zip(&new) {
+            let by = new - old;
+            votes.entry(micrometres(by)).or_insert((0, by)).0 += 1;
+        }
+    }
+    let by_count = |(count, by): &(usize, Vector2<f64>)| (*count, Reverse(length(*by)));
+    votes.into_values().filter(|(count, _)| *count > 1).max_by_key(by_count).map(|(_, by)| by)
+}
+
+/// Pairs elements by ever weaker signs that they are the same.
+pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) -> Pairs<'i> {
+    let mut pairing = Pairing {
+        old: old.iter().collect(),
+        new: new.iter().collect(),
+        both: Vec::with_capacity(old.len()),
+        shift: frame.shift,
+    };
+    pairing.by_key(|item, place| Some((place, item.meaning())));
+    pairing.by_key(|_, place| Some(place));
+    pairing.by_rounded_place();
+    if pairing.has_lasting_handles() {
+        pairing.by_key(|item, _| item.handle.map(|handle| (item.kind, handle)));
+    }
+    pairing.by_key(|item, _| matches!(item.kind, ElementKind::Start | ElementKind::End).then_some(item.kind));
+    pairing.by_form();
+    pairing.by_key(|item, place| centre(item, place));
+    pairing.by_key(|item, place| ends(item, place).map(|ends| (item.kind, ends)));
+    pairing.by_shared_end();
+    Pairs { both: pairing.both, removed: pairing.old, added: pairing.new }
+}
+
+/// The elements that are not paired yet, and the pairs.
+struct Pairing<'i> {
+    old: Vec<&'i Item<'i>>,
+    new: Vec<&'i Item<'i>>,
+    both: Vec<(&'i Item<'i>, &'i Item<'i>)>,
+    shift: Vector2<f64>,
+}
+
+impl<'i> Pairing<'i> {
+    /// Pairs elements with equal keys, in the order of the files.
+    fn by_key<K: Eq + Hash>(&mut self, key: impl Fn(&'i Item<'i>, Place) -> Option<K>) {
+        let mut known: HashMap<K, VecDeque<usize>> = HashMap::new();
+        for (index, item) in self.new.iter().enumerate() {
+            if let Some(key) = key(item, Place::of(item, Vector2::zeros())) {
+                known.entry(key).or_default().push_back(index);
+            }
+        }
+        let shift = self.shift;
+        self.take(|_, old| {
+            let key = key(old, Place::of(old, shift))?;
+            known.get_mut(&key)?.pop_front()
+        });
+    }
+
+    /// Pairs each old element with the new one that `find` names by its index, which must not name one twice.
+    fn take(&mut self, mut find: impl FnMut(&[&'i Item<'i>], &'i Item<'i>) -> Option<usize>) {
+        let mut is_taken = vec![false; self.new.len()];
+        let (new, both) = (&self.new, &mut self.both);
+        self.old.retain(|old| match find(new, old) {
+            Some(index) => {
+                is_taken[index] = true;
+                both.push((old, new[index]));
+                false
+            }
+            None => true,
+        });
+        let mut is_taken = is_taken.into_iter();
+        self.new.retain(|_| !is_taken.next().unwrap_or_default());
+    }
+
+    /// Pairs elements whose coordinates were rounded.
+    fn by_rounded_place(&mut self) {
+        let mut cells: HashMap<(ElementKind, [i64; 2]), Vec<usize>> = HashMap::new();
+        for (index, item) in self.new.iter().enumerate() {
+            cells.entry((item.kind, cell(middle(&item.shape)))).or_default().push(index);
+        }
+        let shift = self.shift;
+        self.take(|new, old| {
+            let [x, y] = cell(middle(&old.shape) + shift);
+            let around = [-1, 0, 1]
+                .into_iter()
+                .flat_map(|dx| [-1, 0, 1].map(|dy| [x.saturating_add(dx), y.saturating_add(dy)]));
+            for cell in around {
+                let Some(there) = cells.get_mut(&(old.kind, cell)) else { continue };
+                let is_there = |index: &usize| is_equal(&old.shape, &new[*index].shape, shift);
+                if let Some(found) = there.iter().take(MOST_CANDIDATES).position(is_there) {
+                    return Some(there.swap_remove(found));
+                }
+            }
+            None
+        });
+    }
+
+    /// Whether the CAD program has kept the handles of elements: at least half of the elements that are where they were have theirs.
+    fn has_lasting_handles(&self) -> bool {
+        let handles = self.both.iter().filter_map(|(old, new)| Some((old.handle?, new.handle?)));
+        let (kept, all) =
+            handles.fold((0, 0), |(kept, all), (old, new)| (kept + usize::from(old == new), all + 1));
+        all > 0 && 2 * kept >= all
+    }
+
+    /// Pairs elements of the same form, role and text that are elsewhere.
+    fn by_form(&mut self) {
+        let mut groups: BTreeMap<_, [Vec<usize>; 2]> = BTreeMap::new();
+        for (side, items) in [&self.old, &self.new].into_iter().enumerate() {
+            for (index, item) in items.iter().enumerate() {
+                let key = (item.kind, Outline::of(&item.shape).form, item.role, item.text.as_str());
+                groups.entry(key).or_default()[side].push(index);
+            }
+        }
+        let mut counterparts = vec![None; self.old.len()];
+        for [mut were, mut are] in groups.into_values() {
+            let place = |item: &Item<'_>| micrometres(item.at().coords);
+            if were.len() == are.len() {
+                // Elements that have moved together have kept their order.
+                were.sort_by_key(|index| place(self.old[*index]));
+                are.sort_by_key(|index| place(self.new[*index]));
+                were.into_iter().zip(are).for_each(|(was, is)| counterparts[was] = Some(is));
+                continue;
+            }
+            for was in were {
+                let from = self.old[was].at() + self.shift;
+                let distance = |place: &usize| length(self.new[are[*place]].at() - from);
+                let nearest = (0..are.len().min(MOST_CANDIDATES)).min_by_key(distance);
+                counterparts[was] = nearest.map(|place| are.swap_remove(place));
+            }
+        }
+        let mut counterparts = counterparts.into_iter();
+        self.take(|_, _| counterparts.next().flatten());
+    }
+
+    /// Pairs lines and arcs that have kept one end.
+    fn by_shared_end(&mut self) {
+        let mut at_end: HashMap<(ElementKind, Micrometres), Vec<usize>> = HashMap::new();
+        for (index, item) in self.new.iter().enumerate() {
+            for end in ends(item, Place::of(item, Vector2::zeros())).into_iter().flatten() {
+                at_end.entry((item.kind, end)).or_default().push(index);
+            }
+        }
+        let mut is_taken = vec![false; self.new.len()];
+        let shift = self.shift;
+        self.take(|new, old| {
+            let ends = ends(old, Place::of(old, shift))?;
+            let candidates = ends.iter().filter_map(|end| at_end.get(&(old.kind, *end)));
+            let open = candidates.flat_map(|there| there.iter().take(MOST_CANDIDATES));
+            let open = open.filter(|index| !is_taken[**index] && new[**index].role == old.role);
+            let distance = |index: &&usize| length(middle(&new[**index].shape) - middle(&old.shape) - shift);
+            let nearest = *open.min_by_key(distance)?;
+            is_taken[nearest] = true;
+            Some(nearest)
+        });
+    }
+}
+
+/// Upper bound on the candidates among which the nearest one is looked for, so that hostile drawings do not take quadratic time.
+const MOST_CANDIDATES: usize = 64;
+
+/// A vector in micrometres: equal for vectors that differ by less than programs show.
+type Micrometres = [i64; 2];
+
+/// The outline of an element: a point of it, and its form relative to that. Neither depends on the direction in which it is drawn.
+#[derive(Debug)]
+struct Outline {
+    first: Xy,
+    form: Form,
+}
+
+/// Radius and further points of an element, relative to its first one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Form {
+    radius: i64,
+    points: [Micrometres; 2],
+}
+
+/// Kind, form and place of an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Place {
+    kind: ElementKind,
+    form: Form,
+    first: Micrometres,
+}
+
+impl Outline {
+    fn of(shape: &Shape) -> Self {
+        let form = |radius: f64, points: [Vector2<f64>; 2]| Form {
+            radius: micrometre(radius),
+            points: points.map(micrometres),
+        };
+        match shape {
+            Shape::Circle { centre, radius } => {
+                Self { first: *centre, form: form(*radius, [Vector2::zeros(); 2]) }
+            }
+            Shape::Curve(Curve::Line(line)) => {
+                let along = line.end - line.start;
+                let is_backwards = micrometres(along) < [0, 0];
+                let (first, along) = if is_backwards { (line.end, -along) } else { (line.start, along) };
+                Self { first, form: form(0.0, [along, Vector2::zeros()]) }
+            }
+            Shape::Curve(Curve::Arc(arc)) => {
+                let (first, last) = if arc.clockwise { (arc.end, arc.start) } else { (arc.start, arc.end) };
+                Self { first, form: form(arc.radius, [last - first, arc.centre - first]) }
+            }
+        }
+    }
+}
+
+impl Place {
+    /// The place of an element after a shift.
+    fn of(item: &Item<'_>, shift: Vector2<f64>) -> Self {
+        let Outline { first, form } = Outline::of(&item.shape);
+        Self { kind: item.kind, form, first: micrometres(first.coords + shift) }
+    }
+}
+
+/// The centre of a circle.
+fn centre(item: &Item<'_>, place: Place) -> Option<Micrometres> {
+    (item.kind == ElementKind::Circle).then_some(place.first)
+}
+
+/// Both ends of a line or arc, in a fixed order.
+fn ends(item: &Item<'_>, place: Place) -> Option<[Micrometres; 2]> {
+    matches!(item.kind, ElementKind::Line | ElementKind::Arc).then(|| {
+        let ([x, y], [along, up]) = (place.first, place.form.points[0]);
+        let mut ends = [[x, y], [x.saturating_add(along), y.saturating_add(up)]];
+        ends.sort_unstable();
+        ends
+    })
+}
+
+fn micrometres(vector: Vector2<f64>) -> Micrometres {
+    [vector.x, vector.y].map(micrometre)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "saturates")]
+fn micrometre(value: f64) -> i64 {
+    (value * 1000.0).round() as i64
+}
+
+/// The cell of a point in a grid of a hundredth of a millimetre.
+#[expect(clippy::cast_possible_truncation, reason = "saturates")]
+fn cell(point: Xy) -> [i64; 2] {
+    [point.x, point.y].map(|value| (value * 100.0).floor() as i64)
+}
+
+fn length(by: Vector2<f64>) -> i64 {
+    micrometre(by.norm())
+}

@@ -1,0 +1,294 @@
+//! Why the moves of a path changed: what differs between its drawings, those of the paths that it embeds, and the settings that it uses.
+//! (book: program/comparing)
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+use pathbuild_db::{
+    Database, Db, DrawnPath, Instance, Outcome, SourceFile, Target, closure, drawn_path, embeds, in_force,
+};
+use pathbuild_diagnostic::{Sentence, Value, drawn_changes as texts};
+use pathbuild_path::{
+    Bindings, DrawnChange, DrawnSide, ElementParameters, PathName, Provider, SpeltName, drawn_changes,
+};
+
+use crate::config::{Settings, settings};
+
+/// A reason why moves changed.
+#[derive(Debug)]
+pub enum Reason {
+    /// Elements were changed in the drawing.
+    Drawn(DrawnChange),
+    /// The elements are the same, but in another order in the file, which decides between equal candidates. Nothing else has changed.
+    Reordered,
+    /// A variable of the path has another value.
+    Variable(ValueChange),
+    /// A key of the configuration has another value.
+    Setting(ValueChange),
+    /// An embedded path has changed.
+    Embedded {
+        /// Its name.
+        path: String,
+        /// What has changed in it; empty if an earlier reason says it.
+        reasons: Vec<Reason>,
+    },
+}
+
+/// A value by its name, before and after; `None` if it is not set.
+#[derive(Debug, PartialEq, Eq)]
+pub struct ValueChange {
+    /// The name.
+    pub name: String,
+    /// The old value.
+    pub was: Option<String>,
+    /// The new value.
+    pub now: Option<String>,
+}
+
+impl Reason {
+    /// The reason in words, without the reasons for it.
+    pub fn sentence(&self) -> Sentence {
+        match self {
+            Self::Drawn(change) => change.sentence(),
+            Self::Reordered => Sentence::new(&texts::REORDERED),
+            Self::Variable(change) => change.sentence(Sentence::new(&texts::VARIABLE)),
+            Self::Setting(change) => change.sentence(Sentence::new(&texts::SETTING)),
+            Self::Embedded { path, reasons } => {
+                let text = if reasons.is_empty() { &texts::EMBEDDED_AGAIN } else { &texts::EMBEDDED };
+                Sentence::new(text).quoting("path", path)
+            }
+        }
+    }
+
+    /// The reasons for this reason.
+    pub fn reasons(&self) -> &[Self] {
+        match self {
+            Self::Embedded { reasons, .. } => reasons,
+            Self::Drawn(_) | Self::Reordered | Self::Variable(_) | Self::Setting(_) => &[],
+        }
+    }
+}
+
+impl ValueChange {
+    fn sentence(&self, sentence: Sentence) -> Sentence {
+        let value =
+            |value: &Option<String>| value.as_ref().map_or(Value::Prose(&texts::NOT_SET), Value::quoted);
+        sentence.quoting("name", &self.name).with("was", value(&self.was)).with("now", value(&self.now))
+    }
+}
+
+/// A side of the comparison of a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side<'a> {
+    pub(super) db: &'a Database,
+    pub(super) settings: &'a Settings,
+    pub(super) target: Target,
+}
+
+/// Lists what explains that the programs of a path differ. Empty if neither the drawings nor the settings do.
+pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
+    let (Some(was), Some(is)) = (closure(old.db, old.target).root, closure(new.db, new.target).root) else {
+        return Vec::new();
+    };
+    let changed_settings = changed_settings(old.settings, new.settings);
+    let mut explainer = Explainer {
+        old: old.db,
+        new: new.db,
+        is_read_otherwise: changed_settings.keys().any(|name| READING.contains(name)),
+        known: HashMap::new(),
+        used_options: BTreeSet::new(),
+        has_same_file: false,
+        has_other_order: false,
+    };
+    let drawn = explainer.path(Versions { old: was, new: is }, true);
+    let Explainer { used_options, has_same_file, has_other_order, .. } = explainer;
+    let (used, others): (Vec<_>, Vec<_>) = changed_settings
+        .into_iter()
+        .partition(|(name, _)| used_options.contains(name) || has_same_file && READING.contains(name));
+    let settings = |changes: Vec<(&str, ValueChange)>| {
+        changes.into_iter().map(|(_, change)| Reason::Setting(change)).collect::<Vec<_>>()
+    };
+    let mut reasons: Vec<Reason> = settings(used).into_iter().chain(drawn).collect();
+    if reasons.is_empty() {
+        reasons = settings(others.into_iter().filter(|(name, _)| WALKING.contains(name)).collect());
+    }
+    if reasons.is_empty() && has_other_order {
+        reasons.push(Reason::Reordered);
+    }
+    reasons
+}
+
+/// Keys that decide what is read from a drawing.
+const READING: [&str; 4] = ["approximate-curves", "compatible", "line-types", "units"];
+
+/// Keys that decide how drawn elements are followed. They count where nothing else explains the moves.
+const WALKING: [&str; 2] = ["compatible", "join-tolerance"];
+
+/// Keys of which elements take values that no text gives.
+const DEFAULTS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
+
+/// The keys that can change moves, with values that differ.
+fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, ValueChange> {
+    let can_move = |name: &str| [&READING[..], &WALKING, &DEFAULTS].concat().contains(&name);
+    let values = |all: &Settings| {
+        let all = settings(all).into_iter().filter(|setting| setting.section.is_empty());
+        all.map(|setting| (setting.name, setting.value)).collect::<BTreeMap<_, _>>()
+    };
+    let mut old = values(old);
+    let changed = values(new).into_iter().filter_map(|(name, now)| {
+        let was = old.remove(name).flatten();
+        let change = || (name, ValueChange { name: name.to_owned(), was: was.clone(), now: now.clone() });
+        (was != now && can_move(name)).then(change)
+    });
+    changed.collect()
+}
+
+/// Compares paths with their values.
+struct Explainer<'o, 'n> {
+    old: &'o Database,
+    new: &'n Database,
+    /// Whether settings differ that decide what is read from a drawing.
+    is_read_otherwise: bool,
+    /// The compared paths, and whether they differ.
+    known: HashMap<(Instance<'o>, Instance<'n>), bool>,
+    /// The options that any path takes a value from.
+    used_options: BTreeSet<&'static str>,
+    /// Whether a drawing with the same bytes was read otherwise.
+    has_same_file: bool,
+    /// Whether the same elements are in another order in a file.
+    has_other_order: bool,
+}
+
+/// Both versions of a path.
+#[derive(Clone, Copy)]
+struct Versions<'o, 'n> {
+    old: Instance<'o>,
+    new: Instance<'n>,
+}
+
+impl<'o, 'n> Explainer<'o, 'n> {
+    /// What has changed in a path and in those that it embeds.
+    fn path(&mut self, versions: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
+        let Versions { old, new } = versions;
+        let variables = variables(old.bindings(self.old), new.bindings(self.new));
+        let drawn = self.drawn(versions, is_root);
+        let embedded = self.embedded(versions);
+        variables.into_iter().map(Reason::Variable).chain(drawn).chain(embedded).collect()
+    }
+
+    /// What has changed in the drawing of a path.
+    fn drawn(&mut self, Versions { old, new }: Versions<'o, 'n>, is_root: bool) -> Vec<Reason> {
+        let was = DrawnInstance::of(self.old, old, is_root);
+        let is = DrawnInstance::of(self.new, new, is_root);
+        let (Some(was), Some(is)) = (was, is) else { return Vec::new() };
+        self.used_options.extend(was.options().chain(is.options()));
+        let changes = drawn_changes(was.side(), is.side());
+        if self.is_read_otherwise && !changes.changes.is_empty() && self.is_same_file(was.file, is.file) {
+            self.has_same_file = true;
+            return Vec::new();
+        }
+        self.has_other_order |= changes.is_reordered;
+        changes.changes.into_iter().map(Reason::Drawn).collect()
+    }
+    /// The embedded paths that have changed, each with what has changed in it.
+    fn embedded(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
+        let mut were = children(self.old, old);
+        let mut reasons = Vec::new();
+        // Paths with the same values correspond to each other; only then come those with others.
+        let (alike, others): (Vec<_>, Vec<_>) =
+            children(self.new, new).into_iter().partition(|child| were.iter().any(|was| was.is_same(child)));
+        for child in alike.iter().chain(&others) {
+            let is_other = |was: &Child<'_>| was.name == child.name;
+            let place =
+                were.iter().position(|was| was.is_same(child)).or_else(|| were.iter().position(is_other));
+            let Some(was) = place.map(|place| were.remove(place)) else { continue };
+            reasons.extend(self.child(&was, child));
+        }
+        reasons
+    }
+
+    fn child(&mut self, old: &Child<'o>, new: &Child<'n>) -> Option<Reason> {
+        let path = new.name.as_str().to_owned();
+        let key = (old.instance, new.instance);
+        if let Some(is_changed) = self.known.get(&key) {
+            return is_changed.then(|| Reason::Embedded { path, reasons: Vec::new() });
+        }
+        let reasons = self.path(Versions { old: old.instance, new: new.instance }, false);
+        self.known.insert(key, !reasons.is_empty());
+        (!reasons.is_empty()).then_some(Reason::Embedded { path, reasons })
+    }
+
+    fn is_same_file(&self, old: SourceFile, new: SourceFile) -> bool {
+        let read = |db: &Database, file: SourceFile| db.system().read(file.path(db), u64::MAX).ok();
+        read(self.old, old).is_some_and(|bytes| read(self.new, new) == Some(bytes))
+    }
+}
+
+/// An embedded path with its values.
+struct Child<'db> {
+    name: SpeltName,
+    instance: Instance<'db>,
+    bindings: Bindings,
+}
+
+impl Child<'_> {
+    fn is_same(&self, other: &Child<'_>) -> bool {
+        (&self.name, &self.bindings) == (&other.name, &other.bindings)
+    }
+}
+
+/// The paths that a path embeds, each once.
+fn children<'db>(db: &'db Database, instance: Instance<'db>) -> Vec<Child<'db>> {
+    let mut children: Vec<Child<'db>> = Vec::new();
+    let mut seen = HashSet::new();
+    for embedding in embeds(db, instance) {
+        let (Some(name), Outcome::Found { child, .. }) = (&embedding.name, &embedding.outcome) else {
+            continue;
+        };
+        if seen.insert(*child) {
+            children.push(Child {
+                name: name.clone(),
+                instance: *child,
+                bindings: child.bindings(db).clone(),
+            });
+        }
+    }
+    children
+}
+
+/// A path as drawn, with its values.
+struct DrawnInstance<'db> {
+    file: SourceFile,
+    drawn: DrawnPath<'db>,
+    in_force: Vec<ElementParameters>,
+}
+
+impl<'db> DrawnInstance<'db> {
+    fn of(db: &'db Database, instance: Instance<'db>, is_root: bool) -> Option<Self> {
+        let (file, name) = (instance.file(db), PathName::new(instance.name(db).folded(db)));
+        let in_force = in_force(db, file, &name, instance.bindings(db), is_root);
+        Some(Self { file, drawn: drawn_path(db, file, &name)?, in_force })
+    }
+
+    fn side(&self) -> DrawnSide<'_> {
+        DrawnSide { raw: self.drawn.raw, positions: self.drawn.positions, in_force: &self.in_force }
+    }
+
+    /// The options that elements take values from.
+    fn options(&self) -> impl Iterator<Item = &'static str> {
+        let parameters = self.in_force.iter().flat_map(|row| &row.parameters);
+        parameters.filter_map(|parameter| match parameter.from {
+            Provider::Option(name) => Some(name),
+            _ => None,
+        })
+    }
+}
+
+/// The variables with different values.
+fn variables(old: &Bindings, new: &Bindings) -> Vec<ValueChange> {
+    let names: BTreeSet<char> = old.iter().chain(new.iter()).map(|(name, _)| name).collect();
+    let change = |name: char| {
+        let value = |bindings: &Bindings| bindings.get(name).map(str::to_owned);
+        ValueChange { name: name.to_string(), was: value(old), now: value(new) }
+    };
+    names.into_iter().map(change).filter(|change| change.was != change.now).collect()
+}
