@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
 
 use pathbuild_path::approx::{above, at_least, coincide, near};
-use pathbuild_path::{Chain, ChainSegment, Curve, Cut, Xy};
+use pathbuild_path::{Chain, ChainSegment, Curve, Cut, CutParameters, Line, Path, Xy};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
@@ -21,8 +21,8 @@ pub(crate) struct Strand<'a> {
     depths: Vec<f64>,
     /// Depth of the segment: h + B, or h + D for a mark, where h is the height by which the path is raised.
     bottom: f64,
-    /// For segments with bars, h + D and the positions of the bars. The plan is `None` if nothing is milled below D.
-    bars: Option<(f64, Option<BarPlan>)>,
+    /// For segments with bars, h + D and the positions of the bars.
+    bars: Option<PlannedBars>,
     feed: f64,
     /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements).
     element: u32,
@@ -38,11 +38,9 @@ pub(crate) struct Run {
 
 impl<P: Parts> Fold<'_, P> {
     pub(crate) fn chain(&mut self, place: &PlacedPath<'_>, chain: &Chain, members: &[ChainSegment]) {
-        let lowest = members.iter().map(|member| member.cut(place.path).bottom).fold(f64::INFINITY, f64::min);
-        let infeed = self.infeed(chain.infeed, place.surface - place.raised - lowest);
-        let first = chain.first_depth.map_or(place.surface - infeed, |depth| place.raised + depth);
+        let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
         let strands: Vec<Strand<'_>> =
-            members.iter().map(|member| self.strand(place, member, first, infeed)).collect();
+            members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
         self.along(strands[0].element);
         self.element(ElementKind::MillingChain, &members[0].origin(place.path), bottom, place, None);
@@ -62,16 +60,13 @@ impl<P: Parts> Fold<'_, P> {
     ) -> Strand<'p> {
         let (cut, curve) = (member.cut(place.path), member.curve(place.path));
         let bottom = place.raised + cut.bottom;
-        let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support).map(|bars| {
-            let plan = BarPlan::new(bars, cut.bottom, place.path.tool, curve.length());
-            (place.raised + bars.top, plan)
-        });
+        let bars = planned_bars(cut, place.path.tool, &curve);
         Strand {
             comment: cut.comment.as_deref(),
             curve: place.placement.place_curve(&curve),
             depths: depths(first, infeed, bottom),
             bottom,
-            bars,
+            bars: bars.map(|(top, plan)| (place.raised + top, plan)),
             feed: self.feed(cut.feed),
             element: member.element(place.path),
         }
@@ -166,12 +161,7 @@ impl Strand<'_> {
     }
 
     fn sections(&self, z: f64, is_backwards: bool) -> Vec<Section> {
-        let whole = |z: f64| vec![Section { curve: self.curve, from_z: z, to_z: z }];
-        let mut sections = match &self.bars {
-            Some((top, Some(plan))) if above(*top, z) => plan.sections(&self.curve, z.max(self.bottom), *top),
-            Some((top, _)) => whole(z.max(*top)),
-            None => whole(z.max(self.bottom)),
-        };
+        let mut sections = sections(&self.curve, z.max(self.bottom), self.bars.as_ref());
         if is_backwards {
             sections.reverse();
             for section in &mut sections {
@@ -180,6 +170,37 @@ impl Strand<'_> {
         }
         sections
     }
+}
+
+/// The top and the plan of a segment's bars. The plan is `None` if nothing is milled below the top.
+type PlannedBars = (f64, Option<BarPlan>);
+
+fn planned_bars(cut: &CutParameters, tool: f64, curve: &Curve) -> Option<PlannedBars> {
+    let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support)?;
+    Some((bars.top, BarPlan::new(bars, cut.bottom, tool, curve.length())))
+}
+
+/// The sections of a curve that is milled at a depth, except for its bars.
+fn sections(curve: &Curve, z: f64, bars: Option<&PlannedBars>) -> Vec<Section> {
+    let whole = |z: f64| vec![Section { curve: *curve, from_z: z, to_z: z }];
+    match bars {
+        Some((top, Some(plan))) if above(*top, z) => plan.sections(curve, z, *top),
+        Some((top, _)) => whole(z.max(*top)),
+        None => whole(z),
+    }
+}
+
+/// The sections of a segment as its last pass mills them, in the coordinates of its drawing. In compatible mode the tool plunges to the
+/// bottom even at a bar, as in [`Strand::entry`].
+pub(crate) fn last_pass(path: &Path, member: &ChainSegment, is_compatible: bool) -> Vec<Section> {
+    let (cut, curve) = (member.cut(path), member.curve(path));
+    let bars = planned_bars(cut, path.tool, &curve);
+    let mut sections = sections(&curve, cut.bottom, bars.as_ref());
+    if bars.is_some() && is_compatible {
+        let here = Curve::Line(Line { start: curve.start(), end: curve.start() });
+        sections.push(Section { curve: here, from_z: cut.bottom, to_z: cut.bottom });
+    }
+    sections
 }
 
 /// Depths from the first to the bottom, computed by repeated subtraction.

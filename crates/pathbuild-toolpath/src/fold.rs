@@ -35,7 +35,7 @@ pub trait Parts {
 
 /// Computes the program of a path. `moves` is an estimate of the number of moves. None of the paths may have errors.
 pub fn fold<P: Parts>(parts: &P, root: P::Id, drawing: &str, options: PathOptions, moves: u64) -> Program {
-    folded(parts, root, drawing, options, (moves, false), None).0
+    folded(parts, root, drawing, options, moves, None).0
 }
 
 /// Like [`fold`], but also returns the origin of each step.
@@ -45,31 +45,16 @@ pub fn fold_traced<P: Parts>(
     drawing: &str,
     options: PathOptions,
 ) -> (Program, Trace<P::Id>) {
-    let (program, trace) = folded(parts, root, drawing, options, (0, false), Some(Trace::default()));
+    let (program, trace) = folded(parts, root, drawing, options, 0, Some(Trace::default()));
     (program, trace.unwrap_or_default())
 }
-
-/// Like [`fold_traced`], but as if every element were milled in a single pass, at its lowest height.
-pub(crate) fn fold_in_one_pass<P: Parts>(
-    parts: &P,
-    root: P::Id,
-    options: PathOptions,
-) -> (Program, Trace<P::Id>) {
-    let moves = MOVES_OF_SEGMENT * parts.path(root).segments.len();
-    let trace = Trace { steps: Vec::with_capacity(moves), ..Trace::default() };
-    let (program, trace) = folded(parts, root, "", options, (moves as u64, true), Some(trace));
-    (program, trace.unwrap_or_default())
-}
-
-/// Number of moves per segment for which memory is reserved in advance, about as many as a segment has in a single pass.
-const MOVES_OF_SEGMENT: usize = 8;
 
 fn folded<P: Parts>(
     parts: &P,
     root: P::Id,
     drawing: &str,
     options: PathOptions,
-    (moves, is_one_pass): (u64, bool),
+    moves: u64,
     trace: Option<Trace<P::Id>>,
 ) -> (Program, Option<Trace<P::Id>>) {
     let path = parts.path(root);
@@ -89,7 +74,6 @@ fn folded<P: Parts>(
         feed: fallback(Letter::F, ElementClass::PathStart, path.numbers(), &options, PathRole::Emitted)
             .map_or(0.0, |(feed, _)| feed),
         compatible: options.compatible,
-        is_one_pass,
         options,
         clearance: sweep_height,
         last_feed: FIRST_FEED,
@@ -111,7 +95,7 @@ fn folded<P: Parts>(
 }
 
 /// Maximum number of steps for which memory is reserved in advance. Beyond that, growing is cheap compared with computing the steps.
-const MOST_FORESEEN: usize = 1 << 16;
+pub(crate) const MOST_FORESEEN: usize = 1 << 16;
 
 /// Position of the tool tip.
 #[derive(Clone, Copy, Debug)]
@@ -126,8 +110,6 @@ pub(crate) struct Fold<'a, P: Parts> {
     /// F for elements without a feed in paths without a feed.
     feed: f64,
     pub(crate) compatible: bool,
-    /// Whether I is ignored.
-    is_one_pass: bool,
     /// S of the emitted path, above which there are no obstacles.
     clearance: f64,
     /// F of the last move that had one.
@@ -230,11 +212,6 @@ impl<'a, P: Parts> Fold<'a, P> {
             self.here = StepOrigin { occurrence, element: None };
         }
         outside
-    }
-
-    /// The infeed for milling something of this depth: I as drawn, or the whole depth if everything is milled in one pass.
-    pub(crate) fn infeed(&self, drawn: f64, depth: f64) -> f64 {
-        if self.is_one_pass { drawn.max(depth) } else { drawn }
     }
 
     /// Makes the given element of the path the current one.

@@ -16,7 +16,7 @@ pub use correction::{Correction, Outside};
 pub use fold::{Parts, fold, fold_traced};
 pub use mill::support_bars;
 pub use moves::{LAST_DIGIT, ToolTip, is_doubtful, is_point, kind_of_move, way};
-pub use part_cuts::{cutting_way, part_cuts};
+pub use part_cuts::part_cuts;
 pub use pathbuild_path::Xy;
 pub use program::{
     Class, Comment, Count, ElementKind, Height, LeftOut, NameId, Names, Occurrence, PlannedMove, ProbePoint,

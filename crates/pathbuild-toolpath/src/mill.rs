@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
-use crate::fold::{Fold, Parts, PlacedPath, Tip};
+use crate::fold::{Fold, MOST_FORESEEN, Parts, PlacedPath, Tip};
 use crate::program::{Class, Count, ElementKind, Height, PlannedMove};
 
 /// A part of a segment with the heights at its ends, in mm.
@@ -78,14 +78,15 @@ impl BarPlan {
         let slope = (bars.top - bottom).min(bars.length / 2.0).min((pitch - bars.length - tool) / 2.0);
         let edge = bars.length / 2.0 + tool / 2.0;
         let between = (pitch - bars.length - 2.0 * slope - tool).max(0.0);
-        let mut plan = Self { pieces: Vec::new() };
-        plan.piece(0.0, edge, false, false);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "a whole number, 1 or more"
         )]
-        let gaps = count as u64;
+        let gaps = count as usize;
+        let mut plan =
+            Self { pieces: Vec::with_capacity(PIECES_OF_BAR.saturating_mul(gaps).min(MOST_FORESEEN) + 1) };
+        plan.piece(0.0, edge, false, false);
         for k in 0..gaps - 1 {
             let start = edge + k as f64 * pitch;
             let end = plan.gap(start, slope, between);
@@ -126,6 +127,9 @@ impl BarPlan {
         self.pieces.iter().map(section).collect()
     }
 }
+
+/// Number of pieces from one bar to the next: down, along the bottom, up, and the bar.
+const PIECES_OF_BAR: usize = 4;
 
 // Helical circles. (book: program/gcode)
 
@@ -173,8 +177,7 @@ impl<P: Parts> Fold<'_, P> {
         self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
         self.question(helix.comment.as_deref());
         self.sweep(circle.low(), circle.radius);
-        let infeed = self.infeed(helix.infeed, place.surface - bottom);
-        let mut done = self.spiral(&circle, place.surface, infeed, bottom);
+        let mut done = self.spiral(&circle, place.surface, helix.infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
             done = self.circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
         }
@@ -228,7 +231,6 @@ impl<P: Parts> Fold<'_, P> {
         let length = 2.0 * PI * circle.radius;
         let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
         let (low, high) = (place.raised + depth, place.raised + bars.top);
-        let infeed = self.infeed(infeed, high - low);
         // The original tool continues from the end of its spiral, which may already be below B.
         let mut z = if self.compatible { done } else { high };
         while above(z, low) {
@@ -240,4 +242,33 @@ impl<P: Parts> Fold<'_, P> {
         }
         z
     }
+}
+
+/// The full circle on which the cutter's axis moves, in the coordinates of its drawing.
+pub(crate) fn axis_circle(helix: &Helix, tool: f64) -> Curve {
+    Circle { centre: helix.centre, radius: helix.axis_radius(tool), feed: 0.0 }.curve()
+}
+
+/// The last turns of a helix and its circle with bars, in the coordinates of its drawing, as if all were milled in a single pass.
+pub(crate) fn last_turns(helix: &Helix, surface: f64, tool: f64) -> Vec<Section> {
+    let curve = axis_circle(helix, tool);
+    let half = curve.length() / 2.0;
+    let mut sections = Vec::new();
+    if !at_least(helix.bottom, surface) {
+        let middle = (surface - helix.infeed.max(surface - helix.bottom) / 2.0).max(helix.bottom);
+        let heights = [surface, middle, helix.bottom, helix.bottom, helix.bottom];
+        let halves = [curve.section(0.0, half), curve.section(half, 2.0 * half)];
+        sections.extend(heights.windows(2).zip(halves.into_iter().cycle()).map(|(ends, curve)| Section {
+            curve,
+            from_z: ends[0],
+            to_z: ends[1],
+        }));
+    }
+    if let Some((low, bars)) = &helix.bars
+        && above(bars.top, *low)
+        && let Some(plan) = BarPlan::new(bars, *low, tool, curve.length())
+    {
+        sections.extend(plan.sections(&curve, *low, bars.top));
+    }
+    sections
 }

@@ -2,54 +2,80 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_motion::{Move, Pace};
 use pathbuild_path::{
-    Arc as CurveArc, Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, Path, PathCuts,
-    PathOptions, PlacedSubpath, Role, SegmentKind, Shape, StandingBar, WalkedPath, Way, Xy, approx,
+    Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, Path, PathCuts, PlacedSubpath, Role,
+    SegmentKind, Shape, StandingBar, WalkedPath, Way, Xy, approx,
 };
 
-use crate::fold::{Parts, fold_in_one_pass};
-use crate::mill::BarPlan;
-use crate::moves::way;
+use crate::chain::last_pass;
+use crate::mill::{BarPlan, Section, axis_circle, last_turns};
 
 /// The cuts of a path without the paths that it embeds, in the coordinates of its drawing. `is_slot`: whether a slot cutter mills it.
 pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
-    let options = PathOptions {
-        feed: Some(1.0),
-        sweep_height: Some(path.embedded_sweep_height()),
-        compatible: is_compatible,
-        ..PathOptions::default()
-    };
-    let (program, trace) = fold_in_one_pass(&LonePath { path, walked }, (), options);
-    let mut found = PathCuts {
-        name: path.name.clone(),
-        radius: path.tool / 2.0,
-        is_slot,
-        elements: Vec::new(),
-        cuts: Vec::with_capacity(program.steps.len()),
-        bars: bars(path),
-        ends: (path.start, path.end),
-        embedded: walked.items.iter().filter_map(|item| embedded(path, item)).collect(),
-    };
-    let mut numbers = BTreeMap::new();
-    for (number, movement) in program.moves() {
-        let Some(drawn) = trace.steps.get(number as usize - 1).and_then(|step| step.element) else {
-            continue;
-        };
-        let way = cutting_way(&movement).filter(|way| approx::above(path.thickness, way.lowest()));
-        let Some(way) = way else { continue };
-        let element = *numbers.entry(drawn).or_insert_with(|| {
-            found.elements.push(cut_element(path, drawn));
-            found.elements.len() - 1
-        });
-        let lowest = &mut found.elements[element].lowest;
-        *lowest = lowest.min(way.lowest());
-        let element = u32::try_from(element).unwrap_or(u32::MAX);
-        found.cuts.push(PartCut { way: Way { curve: shifted(&way.curve, path.start), ..way }, element });
+    let mut found = CutCollector { path, numbers: BTreeMap::new(), elements: Vec::new(), cuts: Vec::new() };
+    for item in &walked.items {
+        match item {
+            Item::Chain(chain) => {
+                for member in walked.members(chain) {
+                    let supported = member.cut(path).bars.map(|_| member.curve(path));
+                    found.add(member.element(path), supported, last_pass(path, member, is_compatible));
+                }
+            }
+            Item::Hole { segment, hole } => {
+                let (segment, z) = (&path.segments[*segment], path.holes[*hole as usize].bottom);
+                let [start, end] = path.ends(segment);
+                let curve = Curve::Line(Line { start, end });
+                found.add(segment.element, None, [Section { curve, from_z: z, to_z: z }]);
+            }
+            Item::Helix { segment, helix } => {
+                let helix = &path.helices[*helix as usize];
+                let supported = helix.bars.map(|_| axis_circle(helix, path.tool));
+                let turns = last_turns(helix, path.thickness, path.tool);
+                found.add(path.segments[*segment].element, supported, turns);
+            }
+            Item::Sweep(_) | Item::Subpath(_) => {}
+        }
     }
     // The cuts are kept as long as the drawing's index, so free the spare capacity.
     found.cuts.shrink_to_fit();
-    found
+    PathCuts {
+        name: path.name.clone(),
+        radius: path.tool / 2.0,
+        is_slot,
+        elements: found.elements,
+        cuts: found.cuts,
+        bars: bars(path),
+        ends: (path.start, path.end),
+        embedded: walked.items.iter().filter_map(|item| embedded(path, item)).collect(),
+    }
+}
+
+/// Collects the cuts of a path, element by element.
+struct CutCollector<'p> {
+    path: &'p Path,
+    /// The indices into `elements`, by index of the drawn element.
+    numbers: BTreeMap<u32, usize>,
+    elements: Vec<CutElement>,
+    cuts: Vec<PartCut>,
+}
+
+impl CutCollector<'_> {
+    /// Adds those sections of an element that lie in the material. `supported`: its whole segment, if it has bars.
+    fn add(&mut self, drawn: u32, supported: Option<Curve>, sections: impl IntoIterator<Item = Section>) {
+        for Section { curve, from_z, to_z } in sections {
+            let way = Way { curve, from_z, to_z };
+            if !approx::above(self.path.thickness, way.lowest()) {
+                continue;
+            }
+            let element = *self.numbers.entry(drawn).or_insert_with(|| {
+                self.elements.push(cut_element(self.path, drawn, supported));
+                self.elements.len() - 1
+            });
+            let lowest = &mut self.elements[element].lowest;
+            *lowest = lowest.min(way.lowest());
+            self.cuts.push(PartCut { way, element: u32::try_from(element).unwrap_or(u32::MAX) });
+        }
+    }
 }
 
 fn embedded(path: &Path, item: &Item) -> Option<EmbeddedPlace> {
@@ -59,50 +85,13 @@ fn embedded(path: &Path, item: &Item) -> Option<EmbeddedPlace> {
 }
 
 /// An element that has not cut anything yet.
-fn cut_element(path: &Path, number: u32) -> CutElement {
+fn cut_element(path: &Path, number: u32, supported: Option<Curve>) -> CutElement {
     let element = &path.drawn.elements[number as usize];
     CutElement {
         origin: path.drawn.origin(element),
         is_mark: element.role == Role::Cut(Cut::Mark),
         lowest: f64::INFINITY,
-    }
-}
-
-/// The [`Way`] of a move; `None` for a rapid move, which does not cut.
-pub fn cutting_way(movement: &Move) -> Option<Way> {
-    if movement.pace == Pace::Rapid { None } else { way(movement) }
-}
-
-/// A path that embeds nothing.
-struct LonePath<'p> {
-    path: &'p Path,
-    walked: &'p WalkedPath,
-}
-
-impl Parts for LonePath<'_> {
-    type Id = ();
-
-    fn path(&self, (): ()) -> &Path {
-        self.path
-    }
-
-    fn walked(&self, (): ()) -> &WalkedPath {
-        self.walked
-    }
-
-    fn embedded(&self, (): (), _: usize) -> Option<()> {
-        None
-    }
-}
-
-/// Undoes the placement of an emitted path, which begins at (0, 0).
-fn shifted(curve: &Curve, by: Xy) -> Curve {
-    let by = by.coords;
-    match curve {
-        Curve::Line(line) => Curve::Line(Line { start: line.start + by, end: line.end + by }),
-        Curve::Arc(arc) => {
-            Curve::Arc(CurveArc { centre: arc.centre + by, start: arc.start + by, end: arc.end + by, ..*arc })
-        }
+        supported,
     }
 }
 
@@ -127,18 +116,8 @@ fn bars(path: &Path) -> Vec<StandingBar> {
             SegmentKind::Helix(number) => {
                 let helix = &path.helices[*number as usize];
                 let Some((bottom, bars)) = &helix.bars else { continue };
-                let radius = helix.axis_radius(path.tool);
-                let low = Xy::new(helix.centre.x, helix.centre.y - radius);
-                let centre = helix.centre;
-                let curve = Curve::Arc(CurveArc {
-                    centre,
-                    radius,
-                    start: low,
-                    end: low,
-                    clockwise: true,
-                    degrees: 360.0,
-                });
-                halves.extend([low, low]);
+                let curve = axis_circle(helix, path.tool);
+                halves.extend([curve.start(), curve.end()]);
                 all.extend(BarsAlong { bars, bottom: *bottom, curve }.places(path.tool));
             }
             SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}

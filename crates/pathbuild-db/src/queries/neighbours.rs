@@ -16,15 +16,10 @@ use crate::queries::part::{file_parts, parts_of, path_cuts};
 /// PB214 for cuts of one embedded path into the part of another, and PB218 for cuts through its support bars: one per part or bar and
 /// element, reported in the path that contains both.
 pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
-    // Most programs have no parts in them; no query is needed then.
-    if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
-}
-
-fn has_neighbours(db: &dyn Db, target: Target) -> bool {
-    let has_parts = |file| file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
-    Settings::get(db).language(db).part.is_some()
-        && closure(db, target).reached.len() > 1
-        && closure(db, target).files(db).into_iter().any(has_parts)
+    // Most paths embed no others; no query is needed then.
+    let has_neighbours =
+        Settings::get(db).language(db).part.is_some() && closure(db, target).reached.len() > 1;
+    if has_neighbours { cuts_into_neighbours(db, target) } else { &[] }
 }
 
 #[salsa::tracked]
@@ -33,7 +28,9 @@ fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
     let (Some(settings), Some(root)) = (&Settings::get(db).language(db).part, closure.root) else {
         return Vec::new();
     };
-    if closure.has_errors() || !closure.missing_options.is_empty() {
+    let has_parts = |file| file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
+    let is_known = !closure.has_errors() && closure.missing_options.is_empty();
+    if !is_known || !closure.files(db).into_iter().any(has_parts) {
         return Vec::new();
     }
     let mut program = PlacedProgram { db, tolerance: settings.tolerance, paths: Vec::new() };

@@ -3,7 +3,8 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope as _, RTree};
 
-use crate::geometry::Xy;
+use crate::geometry::{Curve, Xy};
+use crate::keep_out::around;
 
 type Boxed = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
@@ -16,6 +17,9 @@ pub(crate) enum BoxIndex {
 
 /// Number of boxes up to which all are compared.
 const FEW: usize = 500;
+
+/// Number of boxes for which there is room in an answer before it must grow.
+const USUAL: usize = 16;
 
 impl BoxIndex {
     pub(crate) fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
@@ -32,8 +36,10 @@ impl BoxIndex {
     pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
         match self {
             Self::Few(boxes) => {
+                let mut found = Vec::with_capacity(USUAL);
                 let near = boxes.iter().enumerate().filter(|(_, own)| own.intersects(&extent));
-                near.map(|(number, _)| number).collect()
+                found.extend(near.map(|(number, _)| number));
+                found
             }
             Self::Many(tree) => {
                 let near = tree.locate_in_envelope_intersecting(extent);
@@ -43,6 +49,11 @@ impl BoxIndex {
             }
         }
     }
+}
+
+/// Whether two curves may be nearer to each other than `reach` mm. Most are not, and boxes tell that sooner than distances.
+pub(crate) fn may_be_near(one: &Curve, other: &Curve, reach: f64) -> bool {
+    around(one, reach).intersects(&around(other, 0.0))
 }
 
 /// The square round a point.

@@ -281,6 +281,7 @@ mod tests {
             },
             is_mark: false,
             lowest: 0.0,
+            supported: None,
         };
         let cut = |(number, line): (u32, Line)| PartCut {
             way: Way { curve: Curve::Line(line), from_z: 0.0, to_z: 0.0 },

@@ -51,6 +51,8 @@ pub struct CutElement {
     pub is_mark: bool,
     /// Z of its lowest cut.
     pub lowest: f64,
+    /// If it has support bars, its whole segment: its cuts, and the feet of its bars.
+    pub supported: Option<Curve>,
 }
 
 /// A move in the material.
@@ -131,6 +133,11 @@ impl<'c> CutIndex<'c> {
 }
 
 impl IndexedCut<'_> {
+    /// The index of its path, and that of its element there.
+    pub(super) fn number(&self) -> (usize, u32) {
+        (self.path, self.cut.element)
+    }
+
     /// Its element in its path.
     pub(super) fn element<'c>(&self, index: &CutIndex<'c>) -> &'c CutElement {
         &index.paths[self.path].elements[self.cut.element as usize]

@@ -41,16 +41,22 @@ pub(super) fn judged<'c>(
     tolerance: f64,
 ) -> BTreeMap<usize, JudgedCut<'c>> {
     let mut judged = BTreeMap::new();
-    // Most cuts begin where the one before ended, on the same side.
-    let mut last: Option<(Xy, Side)> = None;
+    // Most segments with bars touch no ring, and then all of their cuts are on one side.
+    let mut last: Option<((usize, u32), Option<Side>)> = None;
     for number in numbers {
         let cut = index.cuts[number];
         let element = cut.element(index);
         let shapes = || cut.cut.way.lowest() <= element.lowest + GAP && !element.is_mark;
         let Some(curve) = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve)) else { continue };
-        let known = last.take().filter(|(at, _)| *at == curve.start()).map(|(_, side)| side);
-        let Passage { side, is_clear, entered } = part.passage(&curve, cut.radius, tolerance, known);
-        last = is_clear.then(|| (curve.end(), side.clone()));
+        let known = last.take().filter(|(number, _)| *number == cut.number()).map(|(_, side)| side);
+        let clear = known.unwrap_or_else(|| {
+            element.supported.and_then(|segment| part.clear_side(&segment, cut.radius, tolerance))
+        });
+        let Passage { side, entered } = match &clear {
+            Some(side) => Passage::on_side(side.clone(), &curve),
+            None => part.passage(&curve, cut.radius, tolerance),
+        };
+        last = Some((cut.number(), clear));
         judged.insert(number, JudgedCut { cut, curve, side, entered });
     }
     judged
@@ -90,7 +96,7 @@ pub fn gouging_ways<'w>(
     let through = ways.into_iter().filter_map(|way| way.below(raised + THROUGH));
     let near = through.filter(|way| around(way, radius).intersects(&part.extent()));
     let stretches = near.flat_map(|way| {
-        let Passage { entered, .. } = part.passage(&way, radius, tolerance, None);
+        let Passage { entered, .. } = part.passage(&way, radius, tolerance);
         entered.into_iter().map(move |(from, to)| way.section(from, to))
     });
     stretches.collect()

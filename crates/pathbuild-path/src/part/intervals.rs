@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use super::boxes::may_be_near;
 use crate::geometry::{Arc, Curve, Line, Xy};
 
 /// A stretch of a curve, in mm along it.
@@ -18,6 +19,9 @@ pub(crate) const BETWEEN_CURVES: f64 = 1e-6;
 /// Candidates for their ends are the places where `along` crosses the border of the shape that a disc sweeps along `other`. Between two
 /// neighbouring candidates the distance of the middle decides, so that curves that touch or coincide need no special case.
 pub(crate) fn within(along: &Curve, other: &Curve, reach: f64, found: &mut Vec<Stretch>) {
+    if !may_be_near(along, other, reach) {
+        return;
+    }
     let length = along.length();
     let mut cuts = Candidates::default();
     cuts.extend([0.0, length]);

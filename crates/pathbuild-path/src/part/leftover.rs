@@ -2,8 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rstar::Envelope as _;
-
 use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH};
 use super::gouge::JudgedCut;
@@ -117,7 +115,7 @@ impl<'s> LeftoverSearch<'s> {
     ) -> Self {
         let enters =
             |judged: &&JudgedCut<'_>| !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH;
-        let grooves = judged.values().filter(enters).map(|judged| (judged.cut.path, judged.cut.cut.element));
+        let grooves = judged.values().filter(enters).map(|judged| judged.cut.number());
         Self { part, cuts, judged, contours, tolerance, grooves: grooves.collect() }
     }
 
@@ -177,7 +175,6 @@ impl<'s> LeftoverSearch<'s> {
         let start = all.length;
         let shifted =
             |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
-        // The feet of bars go first, since most gaps are nothing else.
         let gaps = without(gaps, &self.feet(curve));
         if gaps.is_empty() {
             return;
@@ -208,17 +205,24 @@ impl<'s> LeftoverSearch<'s> {
                 && self.contours[judged.cut.path]
                 && !element.is_mark
                 && judged.cut.cut.way.lowest() <= element.lowest + GAP
-                && !self.grooves.contains(&(judged.cut.path, judged.cut.cut.element))
+                && !self.grooves.contains(&judged.cut.number())
         })
     }
 
-    /// The stretches of a curve that through cuts reach within the tolerance.
+    /// The stretches of a curve that through cuts reach within the tolerance, or the feet of bars between them.
     fn covered(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
+        let mut last = None;
         for judged in curve.near.iter().filter_map(|number| self.judged.get(number)) {
-            if judged.cut.through.is_some() && self.contours[judged.cut.path] {
-                within(curve.curve, &judged.curve, judged.cut.radius + self.tolerance, &mut found);
+            if judged.cut.through.is_none() || !self.contours[judged.cut.path] {
+                continue;
             }
+            let supported = judged.cut.element(self.cuts).supported;
+            if supported.is_some() && last.replace(judged.cut.number()) == Some(judged.cut.number()) {
+                continue;
+            }
+            let way = supported.unwrap_or(judged.curve);
+            within(curve.curve, &way, judged.cut.radius + self.tolerance, &mut found);
         }
         joined(found, GAP)
     }
@@ -258,31 +262,11 @@ impl<'s> LeftoverSearch<'s> {
         arc.radius >= reach && near.all(|(_, other)| other.distance_to(arc.centre) >= reach)
     }
 
-    /// The stretches at the feet of bars, where the cut goes down to the bar.
+    /// The stretches at the feet of bars: there the path cuts down to the bar, which is all that it should.
     fn feet(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
-        let mut of_tops: Vec<(f64, Vec<Stretch>)> = Vec::new();
-        let extent = around(curve.curve, self.tolerance);
-        for (bar, radius) in
-            self.bars().filter(|(bar, radius)| around(&bar.foot, *radius).intersects(&extent))
-        {
-            let place = of_tops.iter().position(|(top, _)| *top == bar.top).unwrap_or_else(|| {
-                of_tops.push((bar.top, Vec::new()));
-                of_tops.len() - 1
-            });
-            within(curve.curve, &bar.foot, radius + self.tolerance, &mut of_tops[place].1);
-        }
-        let feet = of_tops.into_iter().filter(|(_, feet)| !feet.is_empty());
-        let feet = feet.flat_map(|(top, feet)| common(&joined(feet, GAP), &self.low(curve, top)));
-        joined(feet.collect(), GAP)
-    }
-
-    /// The stretches of a curve that cuts reach below the top of a bar without going through the plate all along.
-    fn low(&self, curve: &RingCurve<'_>, top: f64) -> Vec<Stretch> {
         let mut found = Vec::new();
-        for cut in self.own(&curve.near).filter(|cut| cut.through != Some(cut.cut.way.curve)) {
-            if let Some(below) = cut.cut.way.below(top + self.tolerance) {
-                within(curve.curve, &below, cut.radius + self.tolerance, &mut found);
-            }
+        for (bar, radius) in self.bars() {
+            within(curve.curve, &bar.foot, radius + self.tolerance, &mut found);
         }
         joined(found, GAP)
     }

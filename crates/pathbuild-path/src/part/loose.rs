@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use nalgebra::Vector2;
 
-use super::boxes::{BoxIndex, square};
+use super::boxes::{BoxIndex, may_be_near, square};
 use super::cuts::StandingBar;
 use super::intervals::{at as at_along, beside};
 use super::prepared::PreparedPart;
@@ -25,16 +25,18 @@ struct Sweep {
 pub(super) fn is_cut_out<'b>(
     part: &PreparedPart<'_>,
     cuts: &[(Curve, f64)],
-    bars: impl Iterator<Item = (&'b StandingBar, f64)>,
+    bars: impl Iterator<Item = (&'b StandingBar, f64)> + Clone,
 ) -> bool {
-    let beside = bars.flat_map(|(bar, radius)| beside_bar(bar, radius));
-    let beside: Vec<(Xy, Xy)> = beside.filter(|(at, _)| part.is_material(*at)).collect();
+    let beside = || {
+        let beside = bars.clone().flat_map(|(bar, radius)| beside_bar(bar, radius));
+        beside.filter(|(at, _)| part.is_material(*at))
+    };
     // For most bars a cheap test suffices: a straight line across the bar meets no cut.
-    if beside.iter().any(|(at, bar)| leads_straight_out(*at, *bar, cuts)) {
+    if beside().any(|(at, bar)| leads_straight_out(at, bar, cuts)) {
         return false;
     }
     let sweeps: Vec<Sweep> = cuts.iter().flat_map(|(curve, radius)| sweeps(curve, *radius)).collect();
-    if beside.iter().any(|(at, _)| has_way_out(*at, &sweeps)) {
+    if beside().any(|(at, _)| has_way_out(at, &sweeps)) {
         return false;
     }
     let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| around(curve, *radius)));
@@ -61,7 +63,9 @@ fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
     let farthest = |curve: &Curve| (curve.start() - at).norm() + curve.length();
     let reach = cuts.iter().map(|(curve, radius)| farthest(curve) + radius).fold(0.0, f64::max);
     let way = Curve::Line(Line { start: at, end: at + direction * reach });
-    cuts.iter().all(|(curve, radius)| curve.distance(&way) > *radius)
+    let meets =
+        |(curve, radius): &(Curve, f64)| may_be_near(curve, &way, *radius) && curve.distance(&way) <= *radius;
+    !cuts.iter().any(meets)
 }
 
 /// Whether a straight line leads from a point to the border of the plate without meeting a cut.

@@ -101,7 +101,10 @@ impl<'c> PlacedCuts<'c> {
         };
         let mut placed = self.cuts.clone();
         placed.cuts.iter_mut().for_each(|cut| *cut = PartCut { way: way(&cut.way), ..*cut });
-        placed.elements.iter_mut().for_each(|element| element.lowest += raised);
+        placed.elements.iter_mut().for_each(|element| {
+            element.lowest += raised;
+            element.supported = element.supported.map(|segment| curve(&segment));
+        });
         placed.bars.iter_mut().for_each(|bar| {
             let StandingBar { middle, foot, top } = *bar;
             *bar = StandingBar {

@@ -29,8 +29,6 @@ struct PreparedRing {
 pub(crate) struct Passage {
     /// Where the middle of the cutter's way lies.
     pub(crate) side: Side,
-    /// Whether the cutter touches no ring, so that its whole way lies on that side.
-    pub(crate) is_clear: bool,
     /// The stretches on which the cutter goes into the part.
     pub(crate) entered: Vec<Stretch>,
 }
@@ -42,6 +40,14 @@ pub(crate) enum Side {
     Material,
     /// Inside these openings.
     Openings(Vec<usize>),
+}
+
+impl Passage {
+    /// The passage of a way that lies on one side as a whole.
+    pub(crate) fn on_side(side: Side, way: &Curve) -> Self {
+        let entered = if side == Side::Material { vec![(0.0, way.length())] } else { Vec::new() };
+        Self { side, entered }
+    }
 }
 
 impl<'p> PreparedPart<'p> {
@@ -121,18 +127,22 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    /// How a cutter of this radius passes the part: where it goes deeper than `tolerance` into it. `start`: the side of the way's start, if
-    /// it is known.
-    pub(crate) fn passage(&self, way: &Curve, radius: f64, tolerance: f64, start: Option<Side>) -> Passage {
+    /// The side on which a whole way lies; `None` if a cutter of this radius goes deeper than `tolerance` into a ring.
+    pub(crate) fn clear_side(&self, way: &Curve, radius: f64, tolerance: f64) -> Option<Side> {
         let reach = (radius - tolerance).max(GAP);
         let mut near = self.curves_near(around(way, radius));
-        if near.any(|(_, curve)| curve.distance(way) < reach) {
-            let side = self.side(at_along(way, way.length() / 2.0));
-            return Passage { side, is_clear: false, entered: self.entered(way, radius, tolerance) };
+        (!near.any(|(_, curve)| curve.distance(way) < reach)).then(|| self.side(way.start()))
+    }
+
+    /// How a cutter of this radius passes the part: where it goes deeper than `tolerance` into it.
+    pub(crate) fn passage(&self, way: &Curve, radius: f64, tolerance: f64) -> Passage {
+        match self.clear_side(way, radius, tolerance) {
+            Some(side) => Passage::on_side(side, way),
+            None => Passage {
+                side: self.side(at_along(way, way.length() / 2.0)),
+                entered: self.entered(way, radius, tolerance),
+            },
         }
-        let side = start.unwrap_or_else(|| self.side(way.start()));
-        let entered = if side == Side::Material { vec![(0.0, way.length())] } else { Vec::new() };
-        Passage { side, is_clear: true, entered }
     }
 
     /// The stretches of a way on which a cutter of this radius goes deeper than `tolerance` into the part. A way without length gives a

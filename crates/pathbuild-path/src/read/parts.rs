@@ -186,6 +186,9 @@ impl<'d> OutlineLayers<'d> {
 
 /// For each ring inside others: the outermost of them, and the second outermost, or itself if there is no other.
 fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
+    if rings.len() == 1 {
+        return vec![None];
+    }
     let outlines: Vec<Outline> = rings.iter().map(|ring| Outline::new(ring)).collect();
     let boxes = outlines.iter().enumerate();
     let boxes = boxes.map(|(n, outline)| GeomWithData::new(Rectangle::from_aabb(outline.extent()), n));
