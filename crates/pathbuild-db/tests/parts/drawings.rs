@@ -85,6 +85,14 @@ fn compatible_programs_get_warnings_only() {
     assert!(found.iter().all(|found| found.severity == Severity::Warning), "{found:?}");
 }
 
+/// The tool of compatible programs plunges to B at the start of a segment, through the half bar there.
+#[test]
+fn compatible_programs_lose_half_bars_at_corners() {
+    let compatible = PartTest { is_compatible: true, ..PartTest::default() };
+    assert!(compatible.codes(&[("1234.1P.dxf", &plate("bars"))]).contains(&"PB218".to_owned()));
+    assert!(!codes(&plate("bars")).contains(&"PB218".to_owned()));
+}
+
 /// Both ends of the arc are clear of the straight edge.
 #[test]
 fn an_arc_that_bulges_into_an_edge_is_found_between_its_ends() {
