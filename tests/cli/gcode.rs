@@ -245,6 +245,32 @@ fn a_tool_length_of_the_program_before_is_switched_off() {
     }
 }
 
+/// Fanuc and Haas keep the H of the program before where G43 has none; LinuxCNC takes that of the tool. What the post of DIN 66025 never
+/// switches on does not begin between two cuts either.
+#[test]
+fn a_tool_length_is_that_of_the_tool() {
+    let place = Place::of(LIBRARY);
+    let verified = |post: &str, change: fn(&str) -> String| {
+        let run = place.run(&format!("emit 1234.1P --post {post} --out-dir {post}"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let file = std::fs::read_dir(place.path().join(post)).unwrap().next().unwrap().unwrap().path();
+        let good = std::fs::read_to_string(&file).unwrap();
+        let changed = change(&good);
+        assert_ne!(good, changed, "{post}");
+        std::fs::write(place.path().join("changed.nc"), changed).unwrap();
+        place.run(&format!("verify --dialect {post} --against 1234.1P changed.nc")).status
+    };
+    for (post, status) in [("fanuc", 1), ("haas", 1), ("linuxcnc", 0)] {
+        assert_eq!(verified(post, |good| good.replace("G43 H1", "G43")), Some(status), "{post}");
+    }
+    let midway = |good: &str| {
+        let (head, cuts) = good.split_at(good.rfind("G01").unwrap());
+        let begin = head.rfind('\n').unwrap() + 1;
+        format!("{}G43 H1\n{}{cuts}", &head[..begin], &head[begin..])
+    };
+    assert_eq!(verified("din", midway), Some(1));
+}
+
 /// Programs of other software that have been milled successfully have no faults.
 #[test]
 fn programs_of_cambam_have_no_finding() {

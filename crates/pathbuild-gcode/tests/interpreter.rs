@@ -716,6 +716,9 @@ fn expressions_without_a_value_leave_out_their_line() {
         "#6000",
         "#1.5",
         "#<never>",
+        "#5",
+        "#100",
+        "#5000",
         "EXP[1000]",
         "1 MOD 0",
     ] {
@@ -723,6 +726,13 @@ fn expressions_without_a_value_leave_out_their_line() {
         assert_eq!(wrong(LinuxCnc, &program), ["3 cannot-evaluate"], "{expression}");
         assert_eq!(run(LinuxCnc, &program).len(), 2, "{expression}");
     }
+}
+
+/// Numbered parameters above 5000 belong to the control, which knows their values.
+#[test]
+fn a_parameter_that_only_the_machine_sets_is_said() {
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\nX[#5001]"), ["3 machine-value"]);
+    assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\n#5001=2\nX[#5001]"), [""; 0]);
 }
 
 #[test]
@@ -948,7 +958,7 @@ fn subprograms_run_where_they_are_called() {
             "2 1",
         ),
         (LinuxCnc, "#1=7\n#<a>=8\no1 sub\n#1=2\n#<a>=3\no1 endsub\no1 call\nG0 X#1\nX#<a>\nM2", "7 8"),
-        (LinuxCnc, "o1 repeat [3]\n#5=[#5+1]\nG0 X#5\no1 endrepeat\nG0 X9\nM2", "1 2 3 9"),
+        (LinuxCnc, "#5=0\no1 repeat [3]\n#5=[#5+1]\nG0 X#5\no1 endrepeat\nG0 X9\nM2", "1 2 3 9"),
         (LinuxCnc, "o1 repeat [0]\nG0 X1\no1 endrepeat\nG0 X9\nM2", "9"),
         (
             LinuxCnc,

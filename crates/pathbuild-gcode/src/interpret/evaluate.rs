@@ -14,7 +14,7 @@ const EQUAL: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault(pub(super) &'static Text);
 
-/// The parameters of a program. Numbered parameters that were never set are 0; named ones do not exist.
+/// The parameters of a program. What it never set has no value here: a control keeps numbered parameters from one program to the next.
 #[derive(Debug, Default)]
 pub(super) struct Parameters {
     numbered: BTreeMap<u32, f64>,
@@ -32,6 +32,9 @@ pub(super) struct LocalParameters {
 
 /// The last numbered parameter of a subroutine.
 const LOCAL: u32 = 30;
+
+/// The last parameter that programs use. Those above hold positions, offsets and the state of the machine.
+const LAST_OF_PROGRAMS: u32 = 5000;
 
 impl Parameters {
     pub(super) fn set(&mut self, number: u32, value: f64) {
@@ -100,10 +103,14 @@ impl Parameters {
 
     fn by_number(&mut self, index: f64, most: u32) -> Result<f64, Fault> {
         let number = parameter_number(index, most)?;
-        if (5061..=5070).contains(&number) || (5400..=5433).contains(&number) {
-            self.machine_values.push(number);
+        if let Some(value) = self.numbered.get(&number) {
+            return Ok(*value);
         }
-        Ok(self.numbered.get(&number).copied().unwrap_or(0.0))
+        if number <= LAST_OF_PROGRAMS {
+            return Err(NEVER_SET);
+        }
+        self.machine_values.push(number);
+        Ok(0.0)
     }
 
     fn by_name(&self, block: &Block<'_>, name: Span) -> Result<f64, Fault> {

@@ -177,7 +177,9 @@ impl<'w> Setup<'w> {
 
     /// Whether a length is that of the tool inserted by M6.
     fn is_inserted(&self, entry: Option<u32>) -> bool {
-        self.inserted.is_some_and(|tool| entry.is_none_or(|entry| entry == tool))
+        // G43 without H: some controls take the tool in the spindle, others the H of the program before.
+        let keeps_entry = matches!(self.dialect, Dialect::Fanuc | Dialect::Haas | Dialect::Din);
+        self.inserted.is_some_and(|tool| entry.map_or(!keeps_entry, |entry| entry == tool))
     }
 
     fn select(&mut self, line: u32, number: u32, problems: &mut Problems) {
@@ -338,7 +340,7 @@ impl<'w> Setup<'w> {
         let fits = match self.length {
             None | Some((ToolLength::Off, _)) => !self.must_count(),
             Some((ToolLength::OfTool(entry), _)) => {
-                self.dialect != Dialect::Native && self.is_inserted(entry)
+                (self.must_count() || !self.has_post()) && self.is_inserted(entry)
             }
             Some((ToolLength::Other, _)) => false,
         };
