@@ -102,6 +102,11 @@ impl Output {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }
 
+    /// Whether the run writes the last line of JSON anywhere.
+    pub(crate) fn has_figures(&self) -> bool {
+        self.format == Format::Json || self.reports.iter().any(|report| report.format == Format::Json)
+    }
+
     /// The rest of the document, printed at the end.
     pub(crate) fn end(&self, status: u8, view: &View) -> Option<RenderedText> {
         match self.format {

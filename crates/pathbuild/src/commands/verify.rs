@@ -8,9 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::verify::{
-    CheckRecord, MoveComparison, Outcome, Request, VerifiedProgram, VerifyOptions, summary,
-};
+use pathbuild_workspace::verify::{CheckRecord, MoveComparison, Outcome, Request, VerifyOptions, summary};
 use pathbuild_workspace::waivers::Coverage;
 use serde_json::{Value, json};
 
@@ -51,7 +49,10 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     let (mut report, mut diagnostics) = (CheckReport::default(), verified.problems);
     let mut files = Vec::new();
     for (file, verified) in verified.programs {
-        report.add(context, &file, &verified);
+        if let Some(comparison) = &verified.comparison {
+            report_comparison(context, &file, comparison);
+        }
+        report.add(file.to_string(), verified.checks);
         diagnostics.extend(verified.diagnostics);
         files.push(file);
     }
@@ -124,40 +125,52 @@ fn conclude(
 
 /// The checks of the programs of a run.
 #[derive(Default)]
-struct CheckReport {
-    /// The summaries, each with its programs.
-    lines: Vec<(String, Vec<String>)>,
-    records: Vec<Value>,
-}
+struct CheckReport(Vec<(String, Vec<CheckRecord>)>);
 
 impl CheckReport {
-    /// Reports what was compared with the drawing, and adds the checks of a program.
-    fn add(&mut self, context: &Context, file: &Utf8Path, verified: &VerifiedProgram) {
-        if let Some(comparison) = &verified.comparison {
-            report_comparison(context, file, comparison);
-        }
-        if verified.checks.is_empty() {
-            return;
-        }
-        let (file, line) = (file.to_string(), summary(&verified.checks, context.lang()));
-        let checks: Vec<Value> = verified.checks.iter().map(|record| row(record, context.lang())).collect();
-        self.records.push(json!({ "program": file, "checks": checks }));
-        match self.lines.iter_mut().find(|(known, _)| *known == line) {
-            Some((_, files)) => files.push(file),
-            None => self.lines.push((line, vec![file])),
+    /// Adds the checks of a program.
+    fn add(&mut self, file: String, checks: Vec<CheckRecord>) {
+        if !checks.is_empty() {
+            self.0.push((file, checks));
         }
     }
 
-    /// Prints the summaries, and adds the records to the document of the run.
+    /// Prints a summary for all programs with the same checks, and adds the checks of each program to the document of the run.
     fn finish(self, context: &Context) {
-        for (line, files) in &self.lines {
-            let programs = match &**files {
-                [file] => file.clone(),
+        for (line, files) in self.summaries(context.lang()) {
+            let programs = match &*files {
+                [file] => (*file).to_owned(),
                 files => context.phrase("{} programs", "{} Programme", &files.len().to_string()),
             };
             context.printer.status(format_args!("{programs}: {line}"));
         }
-        context.output.figure("checks", self.records);
+        if context.output.has_figures() {
+            let record = |(file, checks): &(String, Vec<CheckRecord>)| {
+                let checks: Vec<Value> = checks.iter().map(|record| row(record, context.lang())).collect();
+                json!({ "program": file, "checks": checks })
+            };
+            context.output.figure("checks", self.0.iter().map(record).collect::<Vec<_>>());
+        }
+    }
+
+    /// The summaries, each with its programs.
+    fn summaries(&self, lang: Lang) -> Vec<(String, Vec<&str>)> {
+        let mut texts: Vec<(&[CheckRecord], usize)> = Vec::new();
+        let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
+        for (file, checks) in &self.0 {
+            let known = texts.iter().find(|(known, _)| known == checks).map(|(_, line)| *line);
+            let line = known.unwrap_or_else(|| {
+                let text = summary(checks, lang);
+                let line = lines.iter().position(|(known, _)| *known == text).unwrap_or(lines.len());
+                if line == lines.len() {
+                    lines.push((text, Vec::new()));
+                }
+                texts.push((checks, line));
+                line
+            });
+            lines[line].1.push(file);
+        }
+        lines
     }
 }
 
