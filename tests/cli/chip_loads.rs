@@ -76,3 +76,18 @@ fn a_rounded_corner_clears_less() {
     assert!(rapid_beside_a_cut(&tool("corner-radius = 2\n"), 1.5));
     assert!(!rapid_beside_a_cut(&tool("shape = \"other\"\n"), 0.0));
 }
+
+#[test]
+fn a_corner_is_not_rounder_than_the_tool() {
+    let found = |diameter: &str, radius: &str| {
+        let tool = format!("[tool.mill]\ndiameter = {diameter}\ncorner-radius = {radius}\n");
+        Place::new().file("pathbuild.toml", tool).run("config show --format concise")
+    };
+    for (diameter, radius) in [("6", "3"), ("3.175", "1.5875"), ("6.35", "3.175001")] {
+        assert_eq!(found(diameter, radius).status, Some(0), "{radius}");
+    }
+    let run = found("6", "3.00001");
+    let shown = format!("{}{}", run.stdout, run.stderr);
+    assert!(run.status == Some(2) && shown.contains("pathbuild.toml:3:"), "{run}");
+    assert!(shown.contains("at most half of `diameter`"), "{run}");
+}

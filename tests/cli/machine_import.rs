@@ -179,3 +179,16 @@ fn tool_libraries_become_tools() {
     assert!(again.stderr.contains("nothing differs"), "{again}");
     assert_eq!(place.run("config show").status, Some(0));
 }
+
+/// A tool whose tip no tool has is an error that names it, and nothing is written.
+#[test]
+fn a_corner_radius_above_half_of_the_diameter_is_refused() {
+    let library =
+        |radius: &str| FUSION.replace("\"NOF\": 4, \"RE\": 0.03", &format!("\"NOF\": 4, \"RE\": {radius}"));
+    let import =
+        |radius: &str| Place::new().file("fusion.json", library(radius)).run("machine import fusion.json");
+    assert_eq!(import("0.125").status, Some(0));
+    let run = import("0.126");
+    assert!(run.status == Some(1) && run.stderr.contains("tool 4 (1/4 bull nose)"), "{run}");
+    assert!(run.stdout.is_empty() || !run.stdout.contains("corner-radius"), "{run}");
+}

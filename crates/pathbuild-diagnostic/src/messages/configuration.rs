@@ -264,6 +264,8 @@ words! {
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
     /// A tolerance of the part check.
     PART_TOLERANCE: "a number of at least 0.005", "eine Zahl von mindestens 0.005";
+    /// A corner radius.
+    CORNER_RADIUS: "a number of at most half of `diameter`", "eine Zahl von höchstens der Hälfte von `diameter`";
     /// A whole number from 1 up.
     COUNT: "a whole number from 1 up", "eine ganze Zahl ab 1";
     /// Regular expressions.

@@ -29,6 +29,13 @@ messages! {
         help_en: "name the machine's ini file as well, or give --units mm or --units inch",
         help_de: "auch die ini-Datei der Maschine nennen, oder --units mm bzw. --units inch angeben",
     }
+    /// A tool whose tip cannot have its shape.
+    CORNER_TOO_ROUND: UnreadableDescription {
+        en: "the corner radius of tool {number} ({name}) is {radius} mm, which is more than half of its diameter, {diameter} mm",
+        de: "der Eckenradius von Werkzeug {number} ({name}) ist {radius} mm, mehr als die Hälfte seines Durchmessers von {diameter} mm",
+        help_en: "correct the tool in the library, and export it again",
+        help_de: "das Werkzeug in der Bibliothek berichtigen und sie noch einmal exportieren",
+    }
     /// The configuration cannot take the values.
     NOT_EDITABLE: UnreadableDescription {
         en: "the values cannot be inserted into this configuration",

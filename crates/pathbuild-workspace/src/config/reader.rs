@@ -225,6 +225,13 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.report(fault);
     }
 
+    /// Reports the value of a key that does not suit another key of the table.
+    pub(super) fn unsuited(&mut self, name: &'static str, expected: &'static Text) {
+        let Some(value) = self.content.get(name) else { return };
+        self.reader.key = format!("{}{name}", self.prefix);
+        _ = self.reader.expected::<()>(Value::Prose(expected), value);
+    }
+
     /// Reads a nested table; a missing one counts as empty.
     pub(super) fn section<T: Default>(
         &mut self,

@@ -296,6 +296,10 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let chip_load = table.take("chip-load", &EXTENT).and_then(|value| value.value);
     let corner_radius = table.take("corner-radius", &NOT_NEGATIVE).map_or(0.0, |value| value.value);
     let length = table.take("length", &POSITIVE).and_then(|value| value.value);
+    if diameter.is_some_and(|diameter| is_too_round(corner_radius, diameter)) {
+        table.unsuited("corner-radius", &messages::CORNER_RADIUS);
+        return None;
+    }
     Some(Tool {
         name: name.into(),
         diameter: diameter?,
@@ -310,6 +314,13 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
         corner_radius,
         length,
     })
+}
+
+/// Whether a corner radius is more than half of the diameter, both in mm.
+pub(crate) fn is_too_round(corner_radius: f64, diameter: f64) -> bool {
+    /// What the conversion of both from inches may add, in mm.
+    const ROUNDED: f64 = 2e-6;
+    2.0 * corner_radius > diameter + ROUNDED
 }
 
 fn shown_tool(tool: &Tool) -> Option<String> {

@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 
 use super::entries::rounded;
 use super::{DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
+use crate::config::is_too_round;
 
 /// Gives the text of a tool bit that a FreeCAD library names.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
@@ -257,6 +258,13 @@ impl Described {
         }
     }
 
+    fn number_of(&self, key: &str) -> Option<f64> {
+        self.values.iter().find_map(|(known, quantity, _)| match quantity {
+            Quantity::Number(number) if *known == key => Some(*number),
+            _ => None,
+        })
+    }
+
     fn flutes(&mut self, flutes: Option<f64>, source: &str) {
         if let Some(flutes) = flutes.filter(|flutes| *flutes > 0.0 && flutes.fract() == 0.0) {
             self.values.push(("flutes", Quantity::Number(flutes), source.to_owned()));
@@ -308,9 +316,14 @@ impl Tools {
         self.problems.push(at(problem, tool.line));
     }
 
-    /// Adds a tool, unless it has no diameter, without which the configuration takes none.
+    /// Adds a tool, unless it has no diameter, without which the configuration takes none, or a tip that no tool has.
     fn add(&mut self, tool: Described) {
-        if tool.values.iter().all(|(key, ..)| *key != "diameter") {
+        let Some(diameter) = tool.number_of("diameter") else { return };
+        let radius = tool.number_of("corner-radius").unwrap_or_default();
+        if is_too_round(radius, diameter) {
+            let problem = Diagnostic::new(&say::CORNER_TOO_ROUND).quoting("name", tool.name.as_str());
+            let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
+            self.problems.push(at(problem.with("radius", radius).with("diameter", diameter), tool.line));
             return;
         }
         let number = tool.number.map(|number| format!("T{number}"));
