@@ -6,7 +6,8 @@ use crate::support::Place;
 const SUBROUTINE: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\no100 sub\nG91 G1 X10 F100\nG90\no100 endsub\nG1 Z-1 F100\no100 call\no100 call\nM2\n";
 const M98: &str = "%\nO1000\nG21 G90\nG0 Z5.\nG0 X0. Y0.\nG1 Z-1. F100.\nM98 P2000 L3\nG0 Z5.\nM30\n";
 const BODY: &str = "O2000\nG91 G1 X10. F100.\nG90\nM99\n%\n";
-const BRANCH: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\no100 if [#1 GT 2]\nG1 Z-1 F100\no100 endif\nM2\n";
+const LOOP: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\no1 while [#1 LT 2]\no2 if [#1 GE 0]\nG91 G1 X10 F100\nG90\no2 endif\n#1=[#1+1]\no1 endwhile\nM2\n";
+const CALCULATED: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\no[99+1] call\nG1 Z-1 F100\nM2\n";
 const PLAIN: &str = "%\nO1000\nG21 G90\nG0 Z5.\nG0 X0. Y0.\nG1 Z-1. F100.\nG0 Z5.\nM30\n%\n";
 
 fn place() -> Place {
@@ -14,16 +15,20 @@ fn place() -> Place {
         .file("sub.ngc", SUBROUTINE)
         .file("same.nc", format!("{M98}{BODY}"))
         .file("elsewhere.nc", format!("{M98}%\n"))
-        .file("branch.ngc", BRANCH)
+        .file("loop.ngc", LOOP)
+        .file("calculated.ngc", CALCULATED)
         .file("plain.nc", PLAIN)
 }
 
 #[test]
-fn subprograms_of_the_same_file_count_wherever_they_are_called() {
+fn subprograms_and_loops_of_the_same_file_count_wherever_they_run() {
     let place = place();
-    for (file, dialect, cut) in
-        [("sub.ngc", "linuxcnc", "26.0"), ("same.nc", "fanuc", "36.0"), ("same.nc", "haas", "36.0")]
-    {
+    for (file, dialect, cut) in [
+        ("sub.ngc", "linuxcnc", "26.0"),
+        ("loop.ngc", "linuxcnc", "26.0"),
+        ("same.nc", "fanuc", "36.0"),
+        ("same.nc", "haas", "36.0"),
+    ] {
         let run = place.run(&format!("import {file} --dialect {dialect} --rapid 1000"));
         assert_eq!(run.status, Some(0), "{run}");
         assert!(run.stdout.contains(&format!(" {cut} mm cutting")), "{run}");
@@ -36,7 +41,7 @@ fn subprograms_of_the_same_file_count_wherever_they_are_called() {
 #[test]
 fn lengths_and_times_of_what_is_not_followed_are_not_known() {
     let place = place();
-    for (file, dialect, line) in [("branch.ngc", "linuxcnc", 4), ("elsewhere.nc", "fanuc", 7)] {
+    for (file, dialect, line) in [("calculated.ngc", "linuxcnc", 4), ("elsewhere.nc", "fanuc", 7)] {
         let run = place.run(&format!("import {file} --dialect {dialect} --rapid 1000"));
         assert_eq!(
             run.stdout.matches(&format!("not known: line {line} is not followed")).count(),

@@ -965,6 +965,27 @@ fn subprograms_run_where_they_are_called() {
             "o1 sub\no2 repeat [5]\nG0 X1\no1 return\no2 endrepeat\no1 endsub\no1 call\nG0 X9\nM2",
             "1 9",
         ),
+        (LinuxCnc, "o1 while [#5 lt 3]\n#5=[#5+1]\nG0 X#5\no1 endwhile\nG0 X9\nM2", "1 2 3 9"),
+        (LinuxCnc, "o1 while [0]\nG0 X1\no1 endwhile\nG0 X9\nM2", "9"),
+        (LinuxCnc, "o1 do\n#5=[#5+1]\nG0 X#5\no1 while [#5 lt 2]\nG0 X9\nM2", "1 2 9"),
+        (LinuxCnc, "o1 do\nG0 X1\no1 while [0]\nM2", "1"),
+        (LinuxCnc, "o1 if [1]\nG0 X1\no1 else\nG0 X2\no1 endif\nG0 X9\nM2", "1 9"),
+        (LinuxCnc, "o1 if [0]\nG0 X1\no1 elseif [0]\nG0 X2\no1 else\nG0 X3\no1 endif\nM2", "3"),
+        (LinuxCnc, "o1 if [0]\nG0 X1\no1 elseif [1]\nG0 X2\no1 elseif [1]\nG0 X3\no1 endif\nM2", "2"),
+        // The condition of a branch that is not reached has no value, and needs none.
+        (LinuxCnc, "o1 if [1]\nG0 X1\no1 elseif [#<none>]\nG0 X2\no1 endif\nM2", "1"),
+        (
+            LinuxCnc,
+            "o1 while [1]\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\no3 if [#5 gt 3]\no1 break\no3 endif\nG0 X#5\no1 endwhile\nM2",
+            "1 3",
+        ),
+        // `break` may leave an outer loop.
+        (LinuxCnc, "o1 while [1]\no2 while [1]\nG0 X1\no1 break\no2 endwhile\no1 endwhile\nG0 X9\nM2", "1 9"),
+        (
+            LinuxCnc,
+            "o1 sub\no2 while [1]\nG0 X1\no1 return\no2 endwhile\no1 endsub\no3 do\no1 call\no3 while [0]\nM2",
+            "1",
+        ),
         (Fanuc, "M98 P2000 L2\nG0 X9.\nM30\nO2000\nG0 X1.\nM99", "1 1 9"),
         (Fanuc, "M98 P32000\nG0 X9.\nM30\nO2000 G0 X1.\nM99", "1 1 1 9"),
         (Haas, "M97 P7 L2\nG0 X9.\nM30\nN7 G0 X1.\nM99", "1 1 9"),
@@ -996,6 +1017,15 @@ fn calls_that_cannot_be_followed_are_reported() {
         "G0 X1\no1 endrepeat\nM2",
         "o1 repeat [-1]\nG0 X1\nM2",
         "o[1] call\nM2",
+        "o1 while [1]\nG0 X1\nM2",
+        "o1 while [1]\no1 endwhile\nM2",
+        "o1 do\no1 continue\no1 while [0]\nM2",
+        "o1 if [0]\nG0 X1\nM2",
+        "o1 if\no1 endif\nM2",
+        "o1 break\nM2",
+        "o1 repeat [2]\no1 break\no1 endrepeat\nM2",
+        "o1 sub\no2 break\no1 endsub\no2 do\no1 call\no2 while [0]\nM2",
+        "o1 for [1]\nM2",
         "o1 repeat [1000]\no2 repeat [1001]\n(a)\no2 endrepeat\no1 endrepeat\nM2",
     ] {
         assert_eq!(unfollowed(LinuxCnc, program), 1, "{program}");

@@ -19,6 +19,7 @@ fn programs_move_as_linuxcnc_moves_them() {
     let Some(rs274) = rs274() else { return };
     for (name, text) in [
         ("arcs", include_str!("programs/arcs.ngc")),
+        ("branches", include_str!("programs/branches.ngc")),
         ("cycles", include_str!("programs/cycles.ngc")),
         ("expressions", include_str!("programs/expressions.ngc")),
         ("offsets", include_str!("programs/offsets.ngc")),

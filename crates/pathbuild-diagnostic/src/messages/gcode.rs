@@ -302,8 +302,8 @@ messages! {
     }
     /// Subroutines and branches.
     O_WORD: WordNotFollowed {
-        en: "branches and calculated O words are not followed; the lines below are read once, in the order of the file",
-        de: "Verzweigungen und berechnete O-Wörter werden nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
+        en: "this O word is not followed; the lines below are read once, in the order of the file",
+        de: "dieses O-Wort wird nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
         help_en: "write the moves out, or check the program at the control",
         help_de: "die Bewegungen ausschreiben oder das Programm an der Steuerung prüfen",
     }
@@ -325,8 +325,22 @@ messages! {
     CALLED_WITHOUT_END: WordNotFollowed {
         en: "{name} has no end in this file",
         de: "{name} hat in dieser Datei kein Ende",
-        help_en: "end subprograms with M99 or endsub, and loops with endrepeat",
-        help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat",
+        help_en: "end subprograms with M99 or endsub, loops with endrepeat or endwhile, do with while, and branches with endif",
+        help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat oder endwhile, do mit while, Verzweigungen mit endif",
+    }
+    /// `continue` in a loop that begins with `do`.
+    CONTINUED_DO: WordNotFollowed {
+        en: "continue in the do loop {name} is not followed, because LinuxCNC may then leave later loops too late",
+        de: "continue in der do-Schleife {name} wird nicht verfolgt, weil LinuxCNC spätere Schleifen danach womöglich zu spät verlässt",
+        help_en: "write a while loop, or an if around the rest of the pass",
+        help_de: "eine while-Schleife schreiben oder den Rest des Durchgangs in ein if setzen",
+    }
+    /// `break` or `continue` outside of its loop.
+    LEFT_WITHOUT_LOOP: WordNotFollowed {
+        en: "this leaves the loop {name}, which is not running here",
+        de: "das verlässt die Schleife {name}, die hier nicht läuft",
+        help_en: "write the number of the surrounding while or do",
+        help_de: "die Nummer der umgebenden Schleife mit while oder do angeben",
     }
     /// The end of a subprogram in the main program.
     END_WITHOUT_CALL: WordNotFollowed {

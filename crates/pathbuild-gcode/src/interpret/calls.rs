@@ -1,4 +1,4 @@
-//! Subprograms, which run wherever they are called, and loops with a number of repetitions. (book: program/reading, "Subprograms")
+//! Subprograms, which run wherever they are called, loops and branches. (book: program/reading, "Subprograms")
 //!
 //! Only subprograms in the same file can be followed: `o100 sub`, `O100`, and for M97 the lines from a block number on.
 
@@ -13,7 +13,7 @@ use super::codes;
 use super::evaluate::name_of;
 use super::execute::{Interpreter, Jump, SubprogramName, ValueFault, limits, whole};
 use super::switches::CALLS;
-use crate::read::{Block, BlockReader, OWord, OWordKind, Place, Value};
+use crate::read::{Block, BlockReader, Code, OWord, OWordKind, Place, Value};
 
 /// Maximum depth of calls and loops, as in LinuxCNC.
 const DEEPEST: usize = 10;
@@ -26,6 +26,8 @@ const MOST_LINES: u32 = 1_000_000;
 enum Outcome {
     Returned,
     Repeated,
+    /// `break` or `continue` ended a pass through the loop that [`Runner::left`] names. The flag says whether another pass may follow.
+    Left(bool),
     /// There are no more lines.
     NoLines,
     /// The program has ended, or the caller wants no more steps, or too much has been executed.
@@ -40,12 +42,24 @@ pub(super) struct Runner<'r, 'i> {
     definitions: Option<HashMap<SubprogramName, Place>>,
     /// The subprograms that are being executed.
     active: Vec<SubprogramName>,
+    /// The loops with a condition that the current subprogram is executing.
+    loops: Vec<OpenLoop>,
+    /// The name of the loop that `break` or `continue` leaves.
+    left: Box<str>,
     /// The number of calls and loops that are being executed.
     depth: usize,
     /// Lines executed by calls and loops.
     lines: u32,
     /// Whether any line contained a word.
     pub(super) has_words: bool,
+}
+
+/// A loop with a condition.
+#[derive(Debug)]
+struct OpenLoop {
+    name: Box<str>,
+    /// Whether it tests its condition after each pass.
+    is_do: bool,
 }
 
 impl<'r, 'i> Runner<'r, 'i> {
@@ -58,6 +72,8 @@ impl<'r, 'i> Runner<'r, 'i> {
             each,
             definitions: None,
             active: Vec::new(),
+            loops: Vec::new(),
+            left: Box::default(),
             depth: 0,
             lines: 0,
             has_words: false,
@@ -72,7 +88,9 @@ impl<'r, 'i> Runner<'r, 'i> {
     }
 
     fn run(&mut self, reader: &mut BlockReader<'_>) -> Outcome {
-        while let Some(block) = reader.next_block() {
+        loop {
+            let before = reader.place();
+            let Some(block) = reader.next_block() else { return Outcome::NoLines };
             self.has_words |= !block.words.is_empty() || !block.settings.is_empty() || block.o_word.is_some();
             self.interpreter.block(&block);
             let line = block.line;
@@ -95,15 +113,36 @@ impl<'r, 'i> Runner<'r, 'i> {
                 }
                 Some(Jump::Return) => return Outcome::Returned,
                 Some(Jump::EndRepeat) => return Outcome::Repeated,
-                Some(Jump::Pass(name)) => self.pass(reader, &name, OWordKind::EndSub, line),
+                Some(Jump::Pass(name, end)) => self.pass(reader, &name, end, line),
+                Some(Jump::Branch(name)) => self.branch(reader, &name, line),
                 Some(Jump::Call(name, times, values)) => self.call(reader, name, times, &values, line),
                 Some(Jump::Repeat(name, times)) => self.repeat(reader, &name, times, line),
+                Some(Jump::While(name)) if self.is_end_of_do(&name) => return Outcome::Repeated,
+                Some(Jump::While(name)) => self.repeat_while(reader, name, before, line),
+                Some(Jump::Do(name)) => self.repeat_do(reader, name, line),
+                Some(Jump::Leave(name, goes_on)) => {
+                    let open = self.loops.iter().find(|open| open.name == name);
+                    let message = match open.map(|open| open.is_do && goes_on) {
+                        Some(false) => {
+                            self.left = name;
+                            return Outcome::Left(goes_on);
+                        }
+                        // After it, rs274 runs a loop once more that a later `break` leaves from within another one.
+                        Some(true) => &say::CONTINUED_DO,
+                        None => &say::LEFT_WITHOUT_LOOP,
+                    };
+                    self.report(message, line, &format!("o{name}"), 0);
+                    continue;
+                }
             };
             if outcome != Outcome::Repeated {
                 return outcome;
             }
         }
-        Outcome::NoLines
+    }
+
+    fn is_end_of_do(&self, name: &str) -> bool {
+        self.loops.last().is_some_and(|open| open.is_do && *open.name == *name)
     }
 
     /// Runs a subprogram. `Repeated` means that the lines after the call are next.
@@ -135,6 +174,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         let is_local = matches!(name, SubprogramName::Subroutine(_));
         self.active.push(name);
         let saved = is_local.then(|| self.interpreter.parameters.enter(values));
+        let loops = std::mem::take(&mut self.loops);
         let mut outcome = Outcome::Returned;
         for _ in 0..times {
             self.interpreter.begins_subprogram = true;
@@ -147,11 +187,12 @@ impl<'r, 'i> Runner<'r, 'i> {
             self.interpreter.parameters.leave(saved);
         }
         self.active.pop();
+        self.loops = loops;
         self.depth -= 1;
         match outcome {
             Outcome::Ended => Outcome::Ended,
             Outcome::Returned => Outcome::Repeated,
-            Outcome::NoLines | Outcome::Repeated => {
+            Outcome::NoLines | Outcome::Repeated | Outcome::Left(_) => {
                 self.report(&say::CALLED_WITHOUT_END, line, &shown, 0);
                 Outcome::Repeated
             }
@@ -175,6 +216,82 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
+    /// Runs a loop whose condition is in the line after `condition`, and its lines after that.
+    fn repeat_while(
+        &mut self,
+        reader: &mut BlockReader<'_>,
+        name: Box<str>,
+        condition: Place,
+        line: u32,
+    ) -> Outcome {
+        let start = reader.place();
+        match self.end(reader, &name, OWordKind::EndWhile, line) {
+            Some(_) => self.repeat_if(reader, OpenLoop { name, is_do: false }, start, condition, line),
+            None => Outcome::NoLines,
+        }
+    }
+
+    fn repeat_do(&mut self, reader: &mut BlockReader<'_>, name: Box<str>, line: u32) -> Outcome {
+        let start = reader.place();
+        match self.end(reader, &name, OWordKind::While, line) {
+            Some(condition) => self.repeat_if(reader, OpenLoop { name, is_do: true }, start, condition, line),
+            None => Outcome::NoLines,
+        }
+    }
+
+    /// Runs the lines from `start` on as long as the condition holds.
+    fn repeat_if(
+        &mut self,
+        reader: &BlockReader<'_>,
+        open: OpenLoop,
+        start: Place,
+        condition: Place,
+        line: u32,
+    ) -> Outcome {
+        if !self.enter(line) {
+            return Outcome::Repeated;
+        }
+        let name = open.name.clone();
+        let mut is_untested = open.is_do;
+        self.loops.push(open);
+        let outcome = loop {
+            if !std::mem::take(&mut is_untested) && !self.holds(reader, condition) {
+                break Outcome::Repeated;
+            }
+            match self.body(reader, start) {
+                Outcome::Repeated => {}
+                Outcome::Left(goes_on) if self.left == name => {
+                    if !goes_on {
+                        break Outcome::Repeated;
+                    }
+                }
+                outcome => break outcome,
+            }
+        };
+        self.loops.pop();
+        self.depth -= 1;
+        outcome
+    }
+
+    /// Whether the condition in the line after a place holds.
+    fn holds(&mut self, reader: &BlockReader<'_>, place: Place) -> bool {
+        reader.again_from(place).next_block().is_some_and(|block| self.interpreter.condition(&block))
+    }
+
+    /// Skips the lines up to the next branch whose condition holds, or to the end of the branches.
+    fn branch(&mut self, reader: &mut BlockReader<'_>, name: &str, line: u32) -> Outcome {
+        while let Some(block) = reader.next_block() {
+            let word = block.o_word.filter(|word| &*name_of_o_word(&block, *word) == name);
+            match word.map(|word| word.kind) {
+                Some(OWordKind::Else | OWordKind::EndIf) => return Outcome::Repeated,
+                Some(OWordKind::ElseIf) if self.interpreter.condition(&block) => return Outcome::Repeated,
+                _ => {}
+            }
+        }
+        self.report(&say::CALLED_WITHOUT_END, line, &format!("o{name}"), 0);
+        Outcome::NoLines
+    }
+
     /// Executes the lines from a place on.
     fn body(&mut self, reader: &BlockReader<'_>, place: Place) -> Outcome {
         let mut body = reader.again_from(place);
@@ -183,16 +300,23 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Skips the lines up to the end of a subroutine or a loop.
+    /// Skips the lines up to the end of a subroutine, a loop or branches.
     fn pass(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Outcome {
-        while let Some(block) = reader.next_block() {
+        self.end(reader, name, end, line).map_or(Outcome::NoLines, |_| Outcome::Repeated)
+    }
+
+    /// Skips the lines up to their end, and returns the place before that.
+    fn end(&mut self, reader: &mut BlockReader<'_>, name: &str, end: OWordKind, line: u32) -> Option<Place> {
+        loop {
+            let before = reader.place();
+            let Some(block) = reader.next_block() else { break };
             let is_end = |word: OWord| word.kind == end && &*name_of_o_word(&block, word) == name;
             if block.o_word.is_some_and(is_end) {
-                return Outcome::Repeated;
+                return Some(before);
             }
         }
         self.report(&say::CALLED_WITHOUT_END, line, &format!("o{name}"), 0);
-        Outcome::NoLines
+        None
     }
 
     /// Begins a call or a loop, unless too many are being executed.
@@ -260,26 +384,65 @@ fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Place> {
 impl Interpreter<'_> {
     /// Follows an O word, or reports that it is not followed.
     pub(super) fn o_word(&mut self, block: &Block<'_>, word: OWord) -> Result<(), ValueFault> {
-        let mut values = Vec::with_capacity(block.arguments.len());
-        for argument in block.arguments {
-            values.push(self.value(block, Value::Expression(*argument), word.span)?.0);
-        }
         let call = StatedWord { letter: 'O', code: 0, group: None, effect: WordEffect::Call };
         self.step(block, Action::Word(call));
         let name = name_of_o_word(block, word);
-        let times = values.first().copied().and_then(whole);
-        self.jump = match (word.kind, times) {
-            (OWordKind::Sub, _) => Some(Jump::Pass(name)),
-            (OWordKind::Call, _) => Some(Jump::Call(SubprogramName::Subroutine(name), 1, values)),
-            (OWordKind::Return | OWordKind::EndSub, _) => Some(Jump::Return),
-            (OWordKind::Repeat, Some(times)) => Some(Jump::Repeat(name, times)),
-            (OWordKind::EndRepeat, _) => Some(Jump::EndRepeat),
-            (OWordKind::Repeat | OWordKind::Other, _) => {
+        self.jump = match word.kind {
+            OWordKind::Sub => Some(Jump::Pass(name, OWordKind::EndSub)),
+            OWordKind::Call => {
+                Some(Jump::Call(SubprogramName::Subroutine(name), 1, self.arguments(block, word)?))
+            }
+            OWordKind::Return | OWordKind::EndSub => Some(Jump::Return),
+            OWordKind::Repeat => self.repetitions(block, word, name)?,
+            OWordKind::If => (!self.condition(block)).then_some(Jump::Branch(name)),
+            // The branch before it was executed.
+            OWordKind::ElseIf | OWordKind::Else => Some(Jump::Pass(name, OWordKind::EndIf)),
+            OWordKind::EndIf => None,
+            OWordKind::While => Some(Jump::While(name)),
+            OWordKind::Do => Some(Jump::Do(name)),
+            OWordKind::Break => Some(Jump::Leave(name, false)),
+            OWordKind::Continue => Some(Jump::Leave(name, true)),
+            OWordKind::EndRepeat | OWordKind::EndWhile => Some(Jump::EndRepeat),
+            OWordKind::Other => {
                 self.report(block, &say::O_WORD, word.span, |d| d);
                 None
             }
         };
         Ok(())
+    }
+
+    fn repetitions(
+        &mut self,
+        block: &Block<'_>,
+        word: OWord,
+        name: Box<str>,
+    ) -> Result<Option<Jump>, ValueFault> {
+        let times = self.arguments(block, word)?.first().copied().and_then(whole);
+        if times.is_none() {
+            self.report(block, &say::O_WORD, word.span, |d| d);
+        }
+        Ok(times.map(|times| Jump::Repeat(name, times)))
+    }
+
+    fn arguments(&mut self, block: &Block<'_>, word: OWord) -> Result<Vec<f64>, ValueFault> {
+        let value = |argument: &Code| Ok(self.value(block, Value::Expression(*argument), word.span)?.0);
+        block.arguments.iter().map(value).collect()
+    }
+
+    /// Whether the condition of a block's O word holds. One without a value is reported, and does not hold.
+    fn condition(&mut self, block: &Block<'_>) -> bool {
+        let Some(word) = block.o_word else { return false };
+        match self.arguments(block, word) {
+            Ok(values) if values.is_empty() => {
+                self.report(block, &say::O_WORD, word.span, |d| d);
+                false
+            }
+            Ok(values) => values[0] != 0.0,
+            Err((fault, span)) => {
+                self.report(block, &say::NO_VALUE, span, |d| d.with("reason", fault.0));
+                false
+            }
+        }
     }
 
     /// Follows M97, M98 and M99.

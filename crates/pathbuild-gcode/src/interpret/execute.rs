@@ -10,7 +10,7 @@ use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::state::{Heights, Options, State};
 use crate::dialect::{Acceptance, Percent, Rules, beginning_of};
-use crate::read::{At, Block, Problems, Span};
+use crate::read::{At, Block, OWordKind, Problems, Span};
 
 /// The state of a program, and the effects of its blocks.
 pub(super) struct Interpreter<'i> {
@@ -334,11 +334,19 @@ pub(super) enum Jump {
     Call(SubprogramName, u32, Vec<f64>),
     /// Runs the lines up to the end of the loop several times.
     Repeat(Box<str>, u32),
-    /// Passes over the definition of a subroutine.
-    Pass(Box<str>),
+    /// Passes over the lines up to the O word of this name that ends them.
+    Pass(Box<str>, OWordKind),
+    /// Continues with the next branch whose condition holds.
+    Branch(Box<str>),
+    /// Begins a loop whose condition is tested before each pass, or ends a pass through the loop that began with `do`.
+    While(Box<str>),
+    /// Begins a loop whose condition is tested after each pass.
+    Do(Box<str>),
+    /// Ends a pass through the loop of this name. The flag says whether another pass may follow.
+    Leave(Box<str>, bool),
     /// Ends the subprogram.
     Return,
-    /// Ends a pass through the loop.
+    /// Ends a pass through the innermost loop.
     EndRepeat,
 }
 

@@ -132,7 +132,16 @@ pub enum OWordKind {
     Call,
     Repeat,
     EndRepeat,
-    /// A branch, another loop, or a name that is calculated. Its values are not read.
+    If,
+    ElseIf,
+    Else,
+    EndIf,
+    While,
+    EndWhile,
+    Do,
+    Break,
+    Continue,
+    /// An unknown keyword, or a name that is calculated. Its values are not read.
     Other,
 }
 

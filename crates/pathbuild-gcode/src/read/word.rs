@@ -178,13 +178,22 @@ impl Line<'_> {
 }
 
 /// The O words that are followed, in lower case.
-const O_WORDS: [(&[u8], OWordKind); 6] = [
+const O_WORDS: [(&[u8], OWordKind); 15] = [
     (b"sub", OWordKind::Sub),
     (b"endsub", OWordKind::EndSub),
     (b"return", OWordKind::Return),
     (b"call", OWordKind::Call),
     (b"repeat", OWordKind::Repeat),
     (b"endrepeat", OWordKind::EndRepeat),
+    (b"if", OWordKind::If),
+    (b"elseif", OWordKind::ElseIf),
+    (b"else", OWordKind::Else),
+    (b"endif", OWordKind::EndIf),
+    (b"while", OWordKind::While),
+    (b"endwhile", OWordKind::EndWhile),
+    (b"do", OWordKind::Do),
+    (b"break", OWordKind::Break),
+    (b"continue", OWordKind::Continue),
 ];
 
 impl Line<'_> {
