@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use pathbuild_diagnostic::{Code, Diagnostic};
-use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Spindle, Step, Turning};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Spindle, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
 /// The statistics of a program with a rapid feed in mm/min, calculated from its moves. A compatible program has those of the original tool.
@@ -161,7 +161,7 @@ impl Summary {
             has_changes: steps.iter().any(|step| matches!(step.action, Action::ChangeTool(_))),
             layers,
             tool: layers.then_some(1),
-            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            spindle: Spindle::UNSTATED,
             counting: Counting::default(),
         };
         for step in steps {
@@ -202,7 +202,7 @@ impl Collector {
                 self.tool = Some(tool.unwrap_or(0));
                 self.summary.tool_changes += 1;
                 if self.layers {
-                    self.spindle.speed = 0.0;
+                    self.spindle.speed = None;
                 }
             }
             Action::Spindle(spindle) => self.spindle = *spindle,
@@ -224,7 +224,7 @@ impl Collector {
         used.tally.add(it, has_length);
         if let Pace::Feed(feed) = it.pace {
             note(&mut used.feeds, &mut known.feeds, feed);
-            note(&mut used.speeds, &mut known.speeds, speed);
+            note(&mut used.speeds, &mut known.speeds, speed.unwrap_or_default());
         }
     }
 

@@ -75,7 +75,7 @@ fn cuts(read: &Interpretation) -> Vec<Cut> {
     for step in &read.steps {
         match &step.action {
             Action::ChangeTool(number) => (layer, speed) = (number.unwrap_or(0), 0.0),
-            Action::Spindle(spindle) => speed = spindle.speed,
+            Action::Spindle(spindle) => speed = spindle.speed.unwrap_or_default(),
             Action::Move(it) => {
                 if let Pace::Feed(feed) = it.pace {
                     cuts.push((layer, speed, it.from.at, it.to.at, feed));

@@ -101,8 +101,13 @@ pub enum WordEffect {
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Spindle {
     pub turning: Turning,
-    /// Speed in 1/min, as set by S.
-    pub speed: f64,
+    /// Speed in 1/min, as set by S; `None` before any S.
+    pub speed: Option<f64>,
+}
+
+impl Spindle {
+    /// The state before the program says anything about it.
+    pub const UNSTATED: Self = Self { turning: Turning::Unstated, speed: None };
 }
 
 /// Whether the spindle turns, and in which direction. The names are part of the hash of options in programs.

@@ -279,7 +279,7 @@ impl Builder {
             Turning::Unstated => None,
             turning => Some(turning),
         };
-        self.state.speed = (spindle.speed > 0.0).then_some(spindle.speed);
+        self.state.speed = spindle.speed.filter(|speed| *speed > 0.0);
         self.update();
     }
 

@@ -137,8 +137,8 @@ fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Di
     }
     let (mut broken, mut doubts) = (Vec::new(), Vec::new());
     for mut problem in rules.finish() {
-        // A program of other origin gets a warning for this; one that we are about to write must not have it.
-        if problem.message == &gcode::SPINDLE_LEFT_ON {
+        // A program of other origin gets a warning for these; one that we are about to write must not have them.
+        if [&gcode::SPINDLE_LEFT_ON, &gcode::SPINDLE_WITHOUT_SPEED].contains(&problem.message) {
             problem.severity = Severity::Error;
         }
         match problem {
@@ -333,7 +333,13 @@ pub(super) fn is_started(steps: &[Step]) -> bool {
 
 /// Whether a rule of `verify` concerns the spindle.
 pub(super) fn is_rule_of_spindle(problem: &Diagnostic) -> bool {
-    [&gcode::SPINDLE_OFF, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINDLE_LEFT_ON].contains(&problem.message)
+    let rules = [
+        &gcode::SPINDLE_OFF,
+        &gcode::SPINDLE_AT_ZERO,
+        &gcode::SPINDLE_WITHOUT_SPEED,
+        &gcode::SPINDLE_LEFT_ON,
+    ];
+    rules.contains(&problem.message)
 }
 
 fn is_cut(movement: &Move, surface: f64) -> bool {

@@ -172,7 +172,7 @@ type Effect = (Move, Option<Spindle>);
 /// The relevant parts of a program: each cut with the spindle's state, and rapid moves below S.
 fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let options = Options { heights: Heights::Nominal, ..Options::default() };
-    let mut spindle = Spindle { turning: Turning::Unstated, speed: 0.0 };
+    let mut spindle = Spindle::UNSTATED;
     let low = program.start_height() - 0.05;
     let mut effects = Vec::new();
     let mut has_length = false;

@@ -48,6 +48,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
     (["spindle not started", "Spindel nicht eingeschaltet"], |program| {
         program.replaced(r"M0?3([^\d]|$)", "$1", 1)
     }),
+    (["no spindle speed", "keine Drehzahl"], |program| program.replaced(r"S\s*[\d.]+", "", usize::MAX)),
     (["spindle speed ten times as high", "zehnfache Drehzahl"], |program| {
         program.scaled('S', 10.0, program.lateral().next()?)
     }),

@@ -1,6 +1,6 @@
 //! The modal state of a control.
 
-use pathbuild_motion::{Axes, Coolant, Plane, Position, Spindle, Turning, WorkSystem};
+use pathbuild_motion::{Axes, Coolant, Plane, Position, Spindle, WorkSystem};
 
 use super::codes::{FeedUnit, Motion};
 use crate::dialect::{Rules, StartMotion};
@@ -86,7 +86,7 @@ impl State {
             feed_unit: FeedUnit::PerMinute,
             feed: 0.0,
             feed_cleared: None,
-            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            spindle: Spindle::UNSTATED,
             coolant: Coolant::default(),
             tool: None,
             layer: 1,

@@ -58,9 +58,8 @@ impl Interpreter<'_> {
         self.state.layer = layer;
         let speeds = &self.state.layer_speeds;
         let known = speeds.iter().find(|(other, _)| *other == layer).map(|(_, speed)| *speed);
-        let speed = known.unwrap_or(0.0);
-        if self.state.spindle.speed != speed {
-            self.state.spindle.speed = speed;
+        if self.state.spindle.speed != known {
+            self.state.spindle.speed = known;
             self.step(block, Action::Spindle(self.state.spindle));
         }
     }
@@ -319,7 +318,7 @@ impl Interpreter<'_> {
         if self.rules.layers && slot.value == 0.0 {
             return self.out_of_range(block, "S", slot, &limits::POSITIVE);
         }
-        self.state.spindle.speed = slot.value;
+        self.state.spindle.speed = Some(slot.value);
         if !self.rules.layers {
             return;
         }
@@ -368,7 +367,7 @@ impl Interpreter<'_> {
     pub(super) fn feed(&mut self, block: &Block<'_>, movement: &Move) -> f64 {
         let per_minute = match self.state.feed_unit {
             FeedUnit::PerMinute => self.state.feed,
-            FeedUnit::PerTurn => self.state.feed * self.state.spindle.speed,
+            FeedUnit::PerTurn => self.state.feed * self.state.spindle.speed.unwrap_or_default(),
             FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * movement.length(),
             FeedUnit::InverseTime => 0.0,
         };

@@ -26,7 +26,7 @@ impl ChipLoadRules {
             Action::Spindle(spindle) => {
                 self.speed = match spindle.turning {
                     Turning::Off => Some(0.0),
-                    _ => Some(spindle.speed).filter(|speed| *speed > 0.0),
+                    _ => spindle.speed.filter(|speed| *speed > 0.0),
                 };
             }
             Action::Move(motion) => {

@@ -80,9 +80,9 @@ impl<'m> Limits<'m> {
             // S and M3 may be in lines of their own.
             Action::Spindle(spindle)
                 if spindle.turning != Turning::Off
-                    && self.last_speed.replace(spindle.speed) != Some(spindle.speed) =>
+                    && std::mem::replace(&mut self.last_speed, spindle.speed) != spindle.speed =>
             {
-                check_speed(step.line, spindle.speed, self.machine, problems);
+                check_speed(step.line, spindle.speed.unwrap_or_default(), self.machine, problems);
             }
             _ => {}
         }

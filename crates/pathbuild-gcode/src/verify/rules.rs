@@ -64,7 +64,7 @@ impl<'c> Rules<'c> {
             at: Position::default(),
             line: 0,
             is_raised: false,
-            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            spindle: Spindle::UNSTATED,
             cut_before_spindle: None,
             spindle_said: false,
             spindle_line: 0,
@@ -182,19 +182,23 @@ impl<'c> Rules<'c> {
         if self.is_above_stock(line, movement) {
             return;
         }
-        let message = match self.spindle.turning {
-            Turning::Unstated => {
+        let (message, severity) = match (self.spindle.turning, self.spindle.speed) {
+            (Turning::Unstated, _) => {
                 self.cut_before_spindle.get_or_insert(line);
                 return;
             }
-            Turning::Off => &say::SPINDLE_OFF,
-            Turning::Clockwise | Turning::CounterClockwise if self.spindle.speed == 0.0 => {
-                &say::SPINDLE_WITHOUT_SPEED
+            (Turning::Off, _) => (&say::SPINDLE_OFF, Severity::Error),
+            (Turning::Clockwise | Turning::CounterClockwise, Some(0.0)) => {
+                (&say::SPINDLE_AT_ZERO, Severity::Error)
             }
-            Turning::Clockwise | Turning::CounterClockwise => return,
+            // The control may know a speed from the program before.
+            (Turning::Clockwise | Turning::CounterClockwise, None) => {
+                (&say::SPINDLE_WITHOUT_SPEED, Severity::Warning)
+            }
+            (Turning::Clockwise | Turning::CounterClockwise, Some(_)) => return,
         };
         if !std::mem::replace(&mut self.spindle_said, true) {
-            self.problems.add_at_line(message, line, |d| d);
+            self.problems.add_at_line(message, line, |diagnostic| Diagnostic { severity, ..diagnostic });
         }
     }
 

@@ -86,7 +86,9 @@ fn step_text(step: &Step) -> String {
         Action::Dwell(seconds) => format!("dwell {seconds}"),
         Action::SelectTool(tool) => format!("select {tool}"),
         Action::ChangeTool(tool) => format!("tool {}", tool.unwrap_or(0)),
-        Action::Spindle(spindle) => format!("spindle {:?} {}", spindle.turning, spindle.speed),
+        Action::Spindle(spindle) => {
+            format!("spindle {:?} {}", spindle.turning, spindle.speed.unwrap_or_default())
+        }
         Action::Coolant(coolant) => format!("coolant mist={} flood={}", coolant.mist, coolant.flood),
         Action::System(system) => format!("system {}", system.name()),
         Action::Word(word) => format!("word {}{}", word.letter, f64::from(word.code) / 10.0),

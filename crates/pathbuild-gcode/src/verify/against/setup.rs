@@ -93,7 +93,7 @@ impl<'w> Setup<'w> {
             at: Position::default(),
             inserted: None,
             length: None,
-            spindle: Spindle { turning: Turning::Unstated, speed: 0.0 },
+            spindle: Spindle::UNSTATED,
             spindle_line: 0,
             running: 0.0,
             reported: Reported::default(),
@@ -205,8 +205,9 @@ impl<'w> Setup<'w> {
         }
         // If the drawing leaves the spindle alone, the program must not mention it at all: S0 would stop a running spindle.
         let is_left_alone = self.expected.turning == Some(Turning::Unstated);
-        let is_foot =
-            self.dialect != Dialect::Native && spindle.turning == Turning::Unstated && spindle.speed == 0.0;
+        let is_foot = self.dialect != Dialect::Native
+            && spindle.turning == Turning::Unstated
+            && spindle.speed.unwrap_or_default() == 0.0;
         if is_left_alone && !is_foot {
             extra(line, "M3, M4, M5, S".to_owned(), problems);
         }
@@ -315,13 +316,16 @@ impl<'w> Setup<'w> {
         let turning = self.expected.turning.filter(|_| !is_tied);
         let differs = turning.is_some_and(|turning| turning != self.spindle.turning);
         let speed = self.expected.speed.filter(|_| self.expected.turning != Some(Turning::Unstated));
-        differs || speed.is_some_and(|speed| libm::fabs(speed - self.spindle.speed) > SAME_SPEED)
+        differs
+            || speed.is_some_and(|speed| {
+                self.spindle.speed.is_none_or(|found| libm::fabs(speed - found) > SAME_SPEED)
+            })
     }
 
     fn spindle_differs(&self, line: u32, message: &'static Message, problems: &mut Problems) {
         let (expected, found) = (self.expected, self.spindle);
         problems.add_at_line(message, line, |d| {
-            d.quoting("found", spindle_text(Some(found.turning), Some(found.speed)))
+            d.quoting("found", spindle_text(Some(found.turning), found.speed))
                 .quoting("expected", spindle_text(expected.turning, expected.speed))
                 .with("seconds", self.spin_up)
         });
