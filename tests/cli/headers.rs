@@ -73,6 +73,48 @@ fn without_a_surface_a_rapid_move_at_cutting_depth_is_doubtful() {
     assert_eq!(codes(&slots(&low, THROUGH), ""), ["PB781"]);
 }
 
+/// Where no cutter is known, one of 50 mm may have cleared the material between two slots.
+#[test]
+fn without_a_cutter_only_what_no_cutter_can_have_cleared_is_doubtful() {
+    let head = "G90 G21\nT1 M6\n";
+    assert_eq!(codes(&slots(head, "G0 Y25"), ""), [""; 0]);
+    assert_eq!(codes(&slots(head, "G0 Y35"), ""), ["PB781"]);
+    assert_eq!(codes(&slots(head, "G0 Z5\nG0 Y35\nG0 Z1"), ""), [""; 0]);
+    assert_eq!(codes(&slots(head, "G0 Y25"), "--cutter 6"), ["PB781"]);
+    assert_eq!(codes(&slots(head, "G0 Y35"), "--cutter 70"), [""; 0]);
+}
+
+/// The higher of both surfaces counts.
+#[test]
+fn a_surface_that_the_program_contradicts_is_told() {
+    let plunge = |z: &str| format!("G0 Z5\nG0 Y20\nG0 Z{z}");
+    assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0")), "--surface 0"), [""; 0]);
+    assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0")), "--surface -0.5"), ["PB777"]);
+    assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("-0.1")), "--surface -0.5"), ["PB777", "PB741"]);
+    assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0.4")), "--surface 0.5"), ["PB777", "PB741"]);
+    assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0.5")), "--surface 0.5"), ["PB777"]);
+}
+
+/// A native program whose header names no T, because it mills parts of T 2 and T 4: the latter decides.
+#[test]
+fn a_surface_below_the_plunges_of_a_native_program_is_told() {
+    let slot = |t: &str, y: &str| {
+        format!("G00 Z{t}\nG01 F150.000 Z1.000\nG01 F150.000 X40.000 Y{y} Z1.000\nG00 Z20.000\n")
+    };
+    let head = "%\n(pathbuild 0.1.0 0123456789abcdef-01234567 native O2)\n(Path 1234.1P, drawing 1234.1P.dxf)\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z20.000\n";
+    let low = slot("2.000", "0.000");
+    let high = slot("4.000", "9.000");
+    let text = format!(
+        "{head}G00 X0.000 Y0.000\n{low}(START Subpath 1234.2P)\nG00 X0.000 Y9.000\n{high}(END Subpath 1234.2P)\nM30\n%\n"
+    );
+    let place = Place::new().file("a_Milling.gcode", text);
+    let told = |surface: &str| {
+        let run = place.run(&format!("verify . --surface {surface} --format concise"));
+        codes_of(&run).contains(&"PB777".into())
+    };
+    assert!(told("0") && told("2") && !told("4") && told("5"));
+}
+
 #[test]
 fn a_stock_block_gives_the_surface() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, OVER), ""), [""; 0]);

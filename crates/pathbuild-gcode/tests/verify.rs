@@ -10,8 +10,9 @@ use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
-    Checks, Cutter, Machine, Stock, StockSpan, Travel, coarse_arcs, rapids_at_depth, verify,
+    Checks, Cutter, DepthRules, Machine, Stock, StockSpan, Travel, coarse_arcs, verify,
 };
+use pathbuild_motion::Step;
 
 const FINE: [&str; 0] = [];
 
@@ -538,10 +539,18 @@ fn numbers_beyond_all_measure_take_no_time() {
     assert!(found.iter().any(|it| it.code().name() == "limit-reached"), "{}", spelled_out(&found));
 }
 
+fn rapids_at_depth(steps: &[Step], stock: &Stock) -> Vec<String> {
+    let mut rules = DepthRules::default();
+    for step in steps {
+        rules.step(step);
+    }
+    rules.finish(steps, stock).iter().map(fault_text).collect()
+}
+
 /// Rapid moves at cutting depth, with a cutter of 6 mm and an unknown surface.
 fn at_depth(program: &str) -> Vec<String> {
     let stock = Stock::with_unknown_surface(&[(0, Cutter::flat(6.0))]);
-    rapids_at_depth(&run(program).steps, &stock).iter().map(fault_text).collect()
+    rapids_at_depth(&run(program).steps, &stock)
 }
 
 #[test]
@@ -573,7 +582,7 @@ fn a_thin_cutter_leaves_no_rapid_move_at_depth_undoubted() {
     let at_depth = |diameter: f64, between: &str| {
         let stock = Stock::with_unknown_surface(&[(0, Cutter::flat(diameter))]);
         let program = format!("G0 X0 Y0 Z5\nG1 Z-0.1 F100\nX20\n{between}\nG1 Z-0.1\nX0\nG0 Z5");
-        rapids_at_depth(&run(&program).steps, &stock).iter().map(fault_text).collect::<Vec<_>>()
+        rapids_at_depth(&run(&program).steps, &stock)
     };
     for diameter in [0.01, 0.1, 3.0, 50.0] {
         assert_eq!(at_depth(diameter, "G0 Y60"), ["5 rapid-at-depth"], "{diameter}");

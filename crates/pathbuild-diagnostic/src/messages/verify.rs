@@ -267,6 +267,20 @@ messages! {
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
+    /// A surface that the program states and that differs from that of an option.
+    OTHER_SURFACE_GIVEN: Disagreement {
+        en: "the header says that the surface is at Z {found}, but --surface says {given}",
+        de: "laut Kopf liegt die Oberfläche bei Z {found}, --surface sagt {given}",
+        help_en: "correct the wrong one; until then, the check of rapid moves assumes material up to the higher one",
+        help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zur höheren",
+    }
+    /// Plunges of a native program that begin to cut at another height than that of an option.
+    PLUNGES_ABOVE_SURFACE: Disagreement {
+        en: "plunges of this program begin to cut at Z {found}, but --surface says {given}",
+        de: "das Eintauchen beginnt in diesem Programm bei Z {found} zu fräsen, --surface sagt {given}",
+        help_en: "correct the wrong one; until then, the check of rapid moves assumes material up to the higher one",
+        help_de: "das Falsche berichtigen; bis dahin rechnet die Prüfung der Eilgänge mit Material bis zur höheren",
+    }
     /// A check that is required and was not made.
     CHECK_NOT_MADE: UnmadeCheck {
         en: "the required check `{check}` was not made: {reason}",
@@ -329,6 +343,13 @@ messages! {
         de: "ein Eilgang auf Z {z} über {point}, wo nichts so tief gefräst wurde: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
         help_en: "raise the cutter first; if the material does not reach there, `--surface` gives its height, for an exact check",
         help_de: "den Fräser vorher anheben; reicht das Material nicht bis dorthin, gibt `--surface` seine Höhe für eine genaue Prüfung an",
+    }
+    /// The same where the cutter is unknown.
+    RAPID_FAR_FROM_CUTS: RapidAtDepth {
+        en: "a rapid move at Z {z} past {point}, where no cutter of up to {widest} mm can have cut to that depth: the program cuts as deep just before or after it, so there is probably material",
+        de: "ein Eilgang auf Z {z} über {point}, wo kein Fräser bis {widest} mm so tief gefräst haben kann: davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
+        help_en: "raise the cutter first; `--cutter` gives its diameter for a closer check, and `--surface` the height of the material for an exact one",
+        help_de: "den Fräser vorher anheben; `--cutter` gibt seinen Durchmesser für eine genauere Prüfung an, `--surface` die Höhe des Materials für eine genaue",
     }
     /// A cut before X and Y are known, as in a program that is incremental from its beginning.
     UNKNOWN_POSITION: UnknownPosition {

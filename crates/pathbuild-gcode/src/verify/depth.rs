@@ -12,16 +12,34 @@ use super::material::{self, RESIDUE, Stock};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Reports rapid moves with travel in the plane, at or below a height at which the program has just cut or cuts next, through points that
-/// are not cut to that depth. The surface of `stock` is [unknown](Stock::with_unknown_surface).
-pub fn rapids_at_depth(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
-    let mut depths = Depths::default();
-    each_move(program, &mut |index, _, movement| depths.add(index, movement));
-    let mut problems = Problems::default();
-    if !depths.found.is_empty() {
-        material::check(&CutsAndFound { program, found: &depths.found }, stock, &mut problems);
+/// Finds rapid moves with travel in the plane, at or below a height at which the program has just cut or cuts next: pass every step of a
+/// program, then call [`finish`](Self::finish).
+#[derive(Debug, Default)]
+pub struct DepthRules {
+    depths: Depths,
+    /// Number of moves so far.
+    moves: usize,
+}
+
+impl DepthRules {
+    /// Passes the next step of the program.
+    pub fn step(&mut self, step: &Step) {
+        if let Action::Move(movement) = &step.action {
+            self.depths.add(self.moves, movement);
+            self.moves += 1;
+        }
     }
-    problems.into_diagnostics()
+
+    /// Reports those moves that lead through points that the program does not cut to their depth. The surface of `stock` is
+    /// [unknown](Stock::with_unknown_surface). Without such moves the program is not processed again.
+    pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
+        let found = &self.depths.found;
+        let mut problems = Problems::default();
+        if !found.is_empty() {
+            material::check(&CutsAndFound { program, found }, stock, &mut problems);
+        }
+        problems.into_diagnostics()
+    }
 }
 
 /// Passes on the moves, counted from 0.
@@ -51,7 +69,7 @@ impl<P: Program + ?Sized> Program for CutsAndFound<'_, P> {
 }
 
 /// Follows the heights at which a program cuts.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Depths {
     /// Height from which the tool goes down by feed. Feed moves that are not below it are moves in the air.
     top: Option<f64>,

@@ -454,7 +454,7 @@ impl Stock {
         stock.with_resolution(resolution)
     }
 
-    /// Stock with an unknown surface, for [`rapids_at_depth`](super::rapids_at_depth); the cutters must be in the order of their lines. The
+    /// Stock with an unknown surface, for [`DepthRules`](super::DepthRules); the cutters must be in the order of their lines. The
     /// whole diameter removes material, but only the centre line collides with it, because the shape of the stock is unknown as well.
     pub fn with_unknown_surface(cutters: &[(u32, Cutter)]) -> Self {
         let piece = |(line, cutter): &(u32, Cutter)| StockSpan {
@@ -497,6 +497,16 @@ impl Stock {
         });
         pieces.extend(section.piece(cutter));
         (!pieces.is_empty()).then(|| Self::of_pieces(pieces))
+    }
+
+    /// The stock, and material up to `surface` wherever it is lower or unknown.
+    #[must_use]
+    pub fn reaching(self, surface: f64) -> Self {
+        let first = self.pieces.first().map(|first| StockSpan { line: 0, surface, ..*first });
+        let raised = |piece: StockSpan| StockSpan { surface: piece.surface.max(surface), ..piece };
+        let begins_late = |first: &StockSpan| self.pieces.iter().all(|piece| piece.line > first.line);
+        let first = first.filter(begins_late);
+        Self::of_pieces(first.into_iter().chain(self.pieces.iter().copied().map(raised)).collect())
     }
 
     /// The pieces, in the order of their lines.
@@ -545,8 +555,8 @@ impl Stock {
         self.pieces.iter().map(|piece| piece.cutter.diameter).fold(0.0, f64::max)
     }
 
-    /// The highest surface.
-    pub(super) fn highest(&self) -> Option<f64> {
+    /// Height in mm of the highest surface.
+    pub fn highest(&self) -> Option<f64> {
         self.highest
     }
 

@@ -25,7 +25,7 @@ pub use against::{Against, Agreement, Clamps, Drawn, PastClamps, ToolUse};
 pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
-pub use depth::rapids_at_depth;
+pub use depth::DepthRules;
 pub use machine::{Machine, MachineRules, Travel};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use rapids::{beyond_machine, rapids_into_material};

@@ -103,10 +103,7 @@ fn rapids(sources: &Sources<'_>, is_limit_reached: bool) -> Outcome {
     };
     let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
     let values = RapidValues { cutters, cutter_origin, surface, surface_origin };
-    match cutter_origin.max(surface_origin) {
-        Origin::Program => Outcome::Assumed(values),
-        _ => Outcome::Made(Some(values)),
-    }
+    if sources.are_only_stated() { Outcome::Assumed(values) } else { Outcome::Made(Some(values)) }
 }
 
 /// The checks of a program in a line.

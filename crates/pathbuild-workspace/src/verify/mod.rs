@@ -18,8 +18,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, Checks, ChipLoadRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock,
-    WordRules, coarse_arcs, verify_with,
+    Against, Checks, ChipLoadRules, DepthRules, Machine, MachineRules, PastClamps, PostWords,
+    StatedStatistics, Stock, WordRules, coarse_arcs, verify_with,
 };
 use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -343,11 +343,13 @@ impl<'v> Examination<'v> {
         };
         let checks = Checks { stock: self.sources.stock(), machine: None };
         let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
+        let mut depths = DepthRules::default();
         let mut found = verify_with(&program.drawn(), &checks, &mut |step| {
             nominal.step(step);
             chip_loads.step(step);
+            depths.step(step);
         });
-        found.extend(self.sources.doubtful_rapids(&found));
+        found.extend(self.sources.doubtful_rapids(depths, &found));
         for word in program.words_left_out() {
             nominal.left_out(word.line, &word.word);
         }

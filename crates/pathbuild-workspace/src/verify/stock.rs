@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
-use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapids_at_depth};
+use pathbuild_gcode::verify::{Cutter, DepthRules, Stock, StockSpan};
 use pathbuild_motion::ChipLoad;
 
 use super::against::ReferenceProgram;
@@ -76,21 +76,32 @@ impl<'s> Sources<'s> {
         self.cutters.as_deref()
     }
 
-    /// The surface is taken from the command line, else from the drawing if it has only one, else from the heights at which a native
-    /// program's plunges begin to cut, else from the header.
+    /// The surface is taken from the command line, else from the drawing if it has only one, else from the program itself. Where the
+    /// command line and the program disagree, the higher one counts.
     fn known_stock(&self) -> Option<Stock> {
-        let cutters = self.cutters()?;
-        let uniform = |surface: f64| {
-            let pieces =
-                cutters.iter().map(|(line, cutter)| StockSpan { line: *line, surface, cutter: *cutter });
-            Stock::of_pieces(pieces.collect())
+        let stock = match (self.options().surface, self.drawn_surface()) {
+            (Some(given), Some(_)) => self.uniform(given),
+            (Some(given), None) => match self.stated_stock() {
+                Some(stated) => Some(stated.reaching(given)),
+                None => self.uniform(given),
+            },
+            (None, Some(drawn)) => self.uniform(drawn),
+            (None, None) => self.stated_stock(),
         };
-        if let Some(surface) = self.options().surface.or(self.drawn_surface()) {
-            return Some(self.limited(uniform(surface)));
-        }
+        stock.map(|stock| self.limited(stock))
+    }
+
+    /// The material up to the heights at which a native program's plunges begin to cut, else up to the surface in the header.
+    fn stated_stock(&self) -> Option<Stock> {
+        let cutters = self.cutters()?;
         let native = (self.program.dialect == Dialect::Native)
             .then(|| Stock::of_native_text(&self.program.drawn(), cutters.first()?.1));
-        native.flatten().or_else(|| self.header.surface.map(uniform)).map(|stock| self.limited(stock))
+        native.flatten().or_else(|| self.uniform(self.header.surface?))
+    }
+
+    fn uniform(&self, surface: f64) -> Option<Stock> {
+        let span = |(line, cutter): &(u32, Cutter)| StockSpan { line: *line, surface, cutter: *cutter };
+        Some(Stock::of_pieces(self.cutters()?.iter().map(span).collect()))
     }
 
     /// Where the cutters come from: the last of these places, if the program has several tools.
@@ -101,22 +112,35 @@ impl<'s> Sources<'s> {
 
     /// Where the surface comes from, with its height if it is the same everywhere.
     pub(super) fn surface(&self) -> Option<(Origin, Option<f64>)> {
-        let drawn = self.drawn_surface();
-        let given = self.options().surface.map(|surface| (Origin::Option, Some(surface)));
-        let known = given.or(drawn.map(|surface| (Origin::Drawing, Some(surface))));
-        known.or_else(|| self.stock().map(|stock| (Origin::Program, stock.common_surface())))
+        let common = self.stock().and_then(Stock::common_surface);
+        match (self.options().surface, self.drawn_surface()) {
+            (Some(given), _) if self.stock().is_none() || common == Some(given) => {
+                Some((Origin::Option, Some(given)))
+            }
+            (None, Some(drawn)) => Some((Origin::Drawing, Some(drawn))),
+            (Some(_), _) | (None, None) => self.stock().map(|_| (Origin::Program, common)),
+        }
+    }
+
+    /// Whether only the program itself states the cutter or the surface.
+    pub(super) fn are_only_stated(&self) -> bool {
+        let is_surface_known = self.options().surface.or(self.drawn_surface()).is_some();
+        !is_surface_known || self.cutter_origin() == Some(Origin::Program)
     }
 
     /// Reports rapid moves at cutting depth, unless the surface is known by more than the comments of another CAM, or the line has an
-    /// error already.
-    pub(super) fn doubtful_rapids(&self, found: &[Diagnostic]) -> Vec<Diagnostic> {
+    /// error already. A cutter that is not known may be as wide as [`WIDEST`].
+    pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
             || self.program.dialect == Dialect::Native
             || self.header.is_of_pathbuild;
-        let Some(cutters) = self.cutters().filter(|_| !is_known) else { return Vec::new() };
-        let stock = self.limited(Stock::with_unknown_surface(cutters));
-        let mut doubts = rapids_at_depth(&self.program.drawn(), &stock);
+        if is_known {
+            return Vec::new();
+        }
+        let widest = [(0, Cutter::flat(WIDEST))];
+        let stock = Stock::with_unknown_surface(self.cutters().unwrap_or(&widest));
+        let mut doubts = rules.finish(&self.program.drawn(), &self.limited(stock));
         let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
         doubts.retain(|doubt| match doubt.code() {
             Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
@@ -125,6 +149,10 @@ impl<'s> Sources<'s> {
         // A limit that stops this check makes no program wrong, because the check only raises doubts.
         for doubt in &mut doubts {
             doubt.severity = Severity::Warning;
+            if self.cutters().is_none() && doubt.code() == Code::RapidAtDepth {
+                doubt.message = &say::RAPID_FAR_FROM_CUTS;
+                doubt.arguments.push(("widest", WIDEST.into()));
+            }
         }
         doubts
     }
@@ -182,7 +210,18 @@ impl<'s> Sources<'s> {
             &SURFACE,
             different(self.options().surface, surface),
         ));
+        found.extend(self.other_surface_given());
         found
+    }
+
+    /// Compares the command line with the highest surface that the program states, unless there is a drawing.
+    fn other_surface_given(&self) -> Option<Diagnostic> {
+        let given = self.options().surface.filter(|_| self.verifier.against.is_none());
+        let stated = self.header.surface.or_else(|| self.stated_stock()?.highest());
+        let (given, stated) = different(given, stated)?;
+        let is_in_header = self.header.surface.is_some();
+        let message = if is_in_header { &say::OTHER_SURFACE_GIVEN } else { &say::PLUNGES_ABOVE_SURFACE };
+        Some(Diagnostic::new(message).with("found", stated).with("given", given))
     }
 
     /// Warns about tools that are not in the table, unless the table has no numbers at all.
@@ -282,6 +321,9 @@ fn different(one: Option<f64>, other: Option<f64>) -> Option<(f64, f64)> {
 
 /// Tolerance in mm within which diameters and heights are equal.
 const SAME: f64 = 1e-6;
+
+/// Diameter in mm of the widest cutter that is assumed where none is known. A wider one may have cleared whatever lies between two cuts.
+const WIDEST: f64 = 50.0;
 
 static HEADER: Text = Text { en: "the header", de: "der Kopf" };
 static TABLE: Text = Text { en: "`[tool]`", de: "`[tool]`" };
