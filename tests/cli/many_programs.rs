@@ -90,6 +90,29 @@ fn results_are_kept_as_long_as_nothing_they_depend_on_changes() {
     }
 }
 
+/// A baseline applies to kept results: of a directory, of a program in it, and after its end.
+#[test]
+fn accepted_findings_hold_for_kept_results_and_directories() {
+    let place = place();
+    let accept = format!("verify nc {OPTIONS} --accept PB741 --until 2031-12-31 --reason");
+    let accept: Vec<&str> = accept.split(' ').chain(["open slot"]).collect();
+    assert_eq!(place.run_with(&accept).status, Some(0));
+    let run = |arguments: &str| place.run(&format!("verify {arguments} {OPTIONS} -v"));
+    for arguments in ["nc", "nc/a.nc", "nc/deep", "nc/*.nc nc/deep"] {
+        let run = run(&format!("{arguments} --date 2031-12-31"));
+        assert!(run.status == Some(0) && plunging(&run).is_empty(), "{run}");
+        assert!(!run.stderr.contains("PB610"), "{run}");
+        let all = run.stderr.matches("still hold: ").count();
+        assert!(all == 1 && !run.stderr.contains("still hold: 0"), "{run}");
+    }
+    let after = run("nc --date 2032-01-01");
+    assert_eq!(plunging(&after), ["nc/a.nc", "nc/deep/c.tap"], "{after}");
+    // The entry of a mended program matches nothing where that program is covered.
+    fs::write(place.path().join("nc/a.nc"), GOOD).unwrap();
+    assert!(!run("nc/deep --date 2031-12-31").stderr.contains("PB610"));
+    assert!(run("nc --date 2031-12-31").stderr.contains("PB610"));
+}
+
 /// With a drawing, the result depends on it as well.
 #[test]
 fn a_result_depends_on_the_drawing() {
