@@ -6,7 +6,7 @@ use crate::support::Place;
 const SUBROUTINE: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\no100 sub\nG91 G1 X10 F100\nG90\no100 endsub\nG1 Z-1 F100\no100 call\no100 call\nM2\n";
 const M98: &str = "%\nO1000\nG21 G90\nG0 Z5.\nG0 X0. Y0.\nG1 Z-1. F100.\nM98 P2000 L3\nG0 Z5.\nM30\n";
 const BODY: &str = "O2000\nG91 G1 X10. F100.\nG90\nM99\n%\n";
-const LOOP: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\no1 while [#1 LT 2]\no2 if [#1 GE 0]\nG91 G1 X10 F100\nG90\no2 endif\n#1=[#1+1]\no1 endwhile\nM2\n";
+const LOOP: &str = "#1=0\nG21 G90\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\no1 while [#1 LT 2]\no2 if [#1 GE 0]\nG91 G1 X10 F100\nG90\no2 endif\n#1=[#1+1]\no1 endwhile\nM2\n";
 const CALCULATED: &str = "G21 G90\nG0 Z5\nG0 X0 Y0\no[99+1] call\nG1 Z-1 F100\nM2\n";
 const PLAIN: &str = "%\nO1000\nG21 G90\nG0 Z5.\nG0 X0. Y0.\nG1 Z-1. F100.\nG0 Z5.\nM30\n%\n";
 

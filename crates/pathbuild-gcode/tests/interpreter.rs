@@ -965,9 +965,9 @@ fn subprograms_run_where_they_are_called() {
             "o1 sub\no2 repeat [5]\nG0 X1\no1 return\no2 endrepeat\no1 endsub\no1 call\nG0 X9\nM2",
             "1 9",
         ),
-        (LinuxCnc, "o1 while [#5 lt 3]\n#5=[#5+1]\nG0 X#5\no1 endwhile\nG0 X9\nM2", "1 2 3 9"),
+        (LinuxCnc, "#5=0\no1 while [#5 lt 3]\n#5=[#5+1]\nG0 X#5\no1 endwhile\nG0 X9\nM2", "1 2 3 9"),
         (LinuxCnc, "o1 while [0]\nG0 X1\no1 endwhile\nG0 X9\nM2", "9"),
-        (LinuxCnc, "o1 do\n#5=[#5+1]\nG0 X#5\no1 while [#5 lt 2]\nG0 X9\nM2", "1 2 9"),
+        (LinuxCnc, "#5=0\no1 do\n#5=[#5+1]\nG0 X#5\no1 while [#5 lt 2]\nG0 X9\nM2", "1 2 9"),
         (LinuxCnc, "o1 do\nG0 X1\no1 while [0]\nM2", "1"),
         (LinuxCnc, "o1 if [1]\nG0 X1\no1 else\nG0 X2\no1 endif\nG0 X9\nM2", "1 9"),
         (LinuxCnc, "o1 if [0]\nG0 X1\no1 elseif [0]\nG0 X2\no1 else\nG0 X3\no1 endif\nM2", "3"),
@@ -976,7 +976,7 @@ fn subprograms_run_where_they_are_called() {
         (LinuxCnc, "o1 if [1]\nG0 X1\no1 elseif [#<none>]\nG0 X2\no1 endif\nM2", "1"),
         (
             LinuxCnc,
-            "o1 while [1]\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\no3 if [#5 gt 3]\no1 break\no3 endif\nG0 X#5\no1 endwhile\nM2",
+            "#5=0\no1 while [1]\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\no3 if [#5 gt 3]\no1 break\no3 endif\nG0 X#5\no1 endwhile\nM2",
             "1 3",
         ),
         // `break` may leave an outer loop.
