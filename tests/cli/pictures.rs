@@ -192,3 +192,27 @@ fn regions_of_findings_about_a_part_are_filled() {
     assert_eq!((colours("PB213"), colours("PB215")), ([true, false], [false, true]));
     assert_eq!(seen.keys().filter(|name| name.contains("-PB21")).count(), 2, "{:?}", seen.keys());
 }
+
+/// Corners that the cutter does not reach, an outline without a path, and a support bar that another path of a project cuts away.
+#[test]
+fn regions_that_no_cut_or_another_path_makes_are_filled() {
+    let folder = support::project().join("docs/drawings/part");
+    let mut place = Place::new().file("pathbuild.toml", fs::read(folder.join("pathbuild.toml")).unwrap());
+    for name in ["1121.1P.dxf", "1125.1P.dxf", "1127.1P.dxf"] {
+        place = place.file(name, fs::read(folder.join(name)).unwrap());
+    }
+    let groove = "layer 1129.1P\nstart 0,0 \"O2 T2 M20x2 I0.5 F150 B-0.2\"\nmill 0,0 0,-5\nend 0,-5\n";
+    let project = "layer 8122.1P\nstart 0,-6 \"O2 T2 M20x2 S10 F150\"\nsubpath 0,-6 40,-6 \">1121.1P\"\n\
+                   sweep 40,-6 13,26\nsubpath 13,26 13,21 \">1129.1P\"\nend 13,21\n";
+    let place = place.file("1129.1P.dxf", dxf(groove)).file("8122.1P.dxf", dxf(project));
+    let run = place.run("check . --pictures seen --no-cache");
+    let seen = pictures(&place, "seen");
+    let has = |drawing: &str, code: &str, attribute: &str| {
+        let mut found = seen.iter().filter(|(name, _)| name.starts_with(drawing) && name.contains(code));
+        found.next().is_some_and(|(_, picture)| picture.contains(attribute))
+    };
+    assert!(has("1125.1P", "PB216", "fill=\"#9628c8\""), "{run}");
+    assert!(has("1127.1P", "PB220", "fill=\"#9628c8\""), "{run}");
+    assert!(has("8122.1P", "PB218", "stroke=\"#e50d1a\""), "{run}");
+    assert!(!seen.keys().any(|name| name.starts_with("1121.1P")), "{:?}", seen.keys());
+}

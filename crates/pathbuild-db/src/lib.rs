@@ -28,5 +28,5 @@ pub use queries::{
     combinations, content, content_hash, drawing_names, drawn_path, embeds, embeds_others, file_index,
     holders, in_force, keep_outs, likely_file, locate, may_hold, name_table, other_layers, path, path_index,
     path_names, path_place, placed_keep_outs, placed_parts, prefetch, program, q_project, q_project_findings,
-    raw_file, resolve_path, search_path, summary, trace, traced_program, unlistable, unlisted,
+    raw_file, resolve_path, search_path, summary, trace, traced_program, uncut_rings, unlistable, unlisted,
 };

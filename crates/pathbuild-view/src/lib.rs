@@ -16,7 +16,7 @@ mod svg;
 
 pub use build::{
     DrawnSource, EmittedText, GcodeSource, PartSource, ProgramSource, drawn_path, findings, finished_part,
-    gcode_path, keep_out, other_layers, program_path,
+    gcode_path, keep_out, other_layers, outline, program_path,
 };
 pub use changes::{Change, ChangeKind, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]

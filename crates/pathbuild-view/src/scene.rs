@@ -36,6 +36,9 @@ pub struct Scene {
     pub other_layers: Vec<OtherShape>,
     /// Clamps, which the tool must not enter below their height.
     pub keep_outs: Vec<KeepOut>,
+    /// Outlines of parts that no path comes near.
+    #[serde(skip)]
+    pub uncut: Vec<Vec<Shape>>,
     /// Findings, numbered from 1.
     pub findings: Vec<Finding>,
 }
@@ -422,6 +425,7 @@ impl Scene {
             paths: Vec::new(),
             other_layers: Vec::new(),
             keep_outs: Vec::new(),
+            uncut: Vec::new(),
             findings: Vec::new(),
         }
     }
@@ -438,6 +442,18 @@ impl Shape {
         match self {
             Self::Line { from, .. } | Self::Arc(ArcShape { from, .. }) => *from,
             Self::Circle { centre, .. } => *centre,
+        }
+    }
+
+    /// The directions at its start and at its end, of any length; zero for a circle.
+    pub(crate) fn directions(&self) -> [Point; 2] {
+        match self {
+            Self::Line { from, to } => [[to[0] - from[0], to[1] - from[1]]; 2],
+            Self::Arc(arc) => [arc.from, arc.to].map(|[x, y]| {
+                let sign = if arc.clockwise { -1.0 } else { 1.0 };
+                [-sign * (y - arc.centre[1]), sign * (x - arc.centre[0])]
+            }),
+            Self::Circle { .. } => [[0.0; 2]; 2],
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
-use pathbuild_path::{NeighbourGouge, Origin, PlacedCuts, Placement, Xy};
+use pathbuild_path::{Curve, NeighbourGouge, Origin, PlacedCuts, Placement, Xy};
 
 use crate::database::Db;
 use crate::inputs::{Settings, Target};
@@ -17,28 +17,40 @@ use crate::queries::part::{file_parts, parts_of, path_cuts};
 /// element, reported in the path that contains both.
 pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most paths embed no others; no query is needed then.
-    let has_neighbours =
-        Settings::get(db).language(db).part.is_some() && closure(db, target).reached.len() > 1;
-    if has_neighbours { cuts_into_neighbours(db, target) } else { &[] }
+    if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
+}
+
+/// The middle lines of the support bars that cuts of other paths take away, in the program.
+pub(super) fn bars_lost_to_neighbours(db: &dyn Db, target: Target) -> Vec<Curve> {
+    let program = has_neighbours(db, target).then(|| placed_program(db, target)).flatten();
+    program.map(|program| program.lost_bars()).unwrap_or_default()
+}
+
+fn has_neighbours(db: &dyn Db, target: Target) -> bool {
+    Settings::get(db).language(db).part.is_some() && closure(db, target).reached.len() > 1
 }
 
 #[salsa::tracked]
 fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
+    let Some(program) = placed_program(db, target) else { return Vec::new() };
+    let mut found = program.findings();
+    soften(db, &mut found);
+    found
+}
+
+/// The paths of a program at their places; `None` if it has errors or no parts.
+fn placed_program(db: &dyn Db, target: Target) -> Option<PlacedProgram<'_>> {
     let closure = closure(db, target);
-    let (Some(settings), Some(root)) = (&Settings::get(db).language(db).part, closure.root) else {
-        return Vec::new();
-    };
+    let (settings, root) = (Settings::get(db).language(db).part.as_ref()?, closure.root?);
     let has_parts = |file| file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
     let is_known = !closure.has_errors() && closure.missing_options.is_empty();
     if !is_known || !closure.files(db).into_iter().any(has_parts) {
-        return Vec::new();
+        return None;
     }
     let mut program = PlacedProgram { db, tolerance: settings.tolerance, paths: Vec::new() };
     let start = path_cuts(db, root).map_or(Xy::origin(), |cuts| cuts.ends.0);
     program.add(root, Placement::from_origin(start), 0.0, None);
-    let mut found = program.findings();
-    soften(db, &mut found);
-    found
+    Some(program)
 }
 
 /// The paths of a program at their places.
@@ -134,6 +146,17 @@ impl<'db> PlacedProgram<'db> {
             found.append(&mut bars);
         }
         found
+    }
+
+    /// The middle lines of the bars that cuts of other paths take away.
+    fn lost_bars(&self) -> Vec<Curve> {
+        let numbers = 0..self.paths.len();
+        let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));
+        let foreign = pairs.filter(|(owner, cutting)| self.is_foreign(*owner, *cutting));
+        let taken = foreign.flat_map(|(owner, cutting)| {
+            self.paths[owner].cuts.taken_by(&self.paths[cutting].cuts, self.tolerance).bars
+        });
+        taken.map(|lost| lost.middle).collect()
     }
 
     /// Whether a path has nothing to do with the parts of another: neither the same drawing in the same place, nor embedded in it.

@@ -14,6 +14,7 @@ use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile, Target};
 use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, path_index, soften};
+use crate::queries::neighbours::bars_lost_to_neighbours;
 use crate::queries::programs::{TracedProgram, traced_program};
 use crate::queries::raw::read_layers_as;
 
@@ -104,6 +105,9 @@ pub struct PlacedPart<'db> {
     pub left: &'db [LeftMaterial],
     /// The middle lines of the support bars that its path loses, as drawn.
     pub lost_bars: &'db [Curve],
+    /// The middle lines of the support bars that the paths of a project take away from each other, in the program; all of them with its
+    /// first part.
+    pub bars_lost_to_neighbours: Vec<Curve>,
     /// The stretches on which cuts go into it, in the program.
     pub gouges: Vec<Curve>,
     /// Whether nothing holds it.
@@ -123,6 +127,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
     let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
     let mut all = Vec::new();
+    let mut foreign = bars_lost_to_neighbours(db, target);
     let radius = traced.program.tool / 2.0;
     let ways = milled_ways(traced);
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
@@ -146,6 +151,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
                 drawn,
                 left: std::mem::take(&mut left),
                 lost_bars: std::mem::take(&mut lost_bars),
+                bars_lost_to_neighbours: std::mem::take(&mut foreign),
                 gouges: gouging_ways(drawn, &occurrence.placement, raised, ways, [radius, tolerance]),
                 is_loose: findings.loose.contains(part),
                 radius,
@@ -170,6 +176,15 @@ fn milled_ways(traced: &TracedProgram) -> Vec<(u32, Way)> {
 fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {
     let index = path_index(db, instance.file(db), instance.name(db));
     index.as_ref().is_some_and(|index| index.examples == *instance.bindings(db))
+}
+
+/// The outlines of a drawing's parts that no path comes near (PB220).
+pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
+    let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {
+        return Vec::new();
+    };
+    let ring = |(part, ring): &(usize, usize)| Some(&*found.parts.get(*part)?.rings.get(*ring)?.curves);
+    findings.uncut.iter().filter_map(ring).collect()
 }
 
 /// PB220 for outlines that no path comes near. Their positions are read again.

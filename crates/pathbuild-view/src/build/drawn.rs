@@ -180,6 +180,8 @@ pub struct PartSource<'a> {
     pub left: &'a [pathbuild_path::LeftMaterial],
     /// The middle lines of support bars that are cut away, as drawn.
     pub lost_bars: &'a [Curve],
+    /// The middle lines of support bars that other paths of a project cut away, in the program.
+    pub bars_lost_to_neighbours: &'a [Curve],
     /// The stretches on which cuts go into it, in the program.
     pub gouges: &'a [Curve],
     /// Its place in the program.
@@ -196,9 +198,12 @@ pub struct PartSource<'a> {
 
 /// A finished part at its place in a program.
 pub fn finished_part(source: &PartSource<'_>) -> FinishedPart {
-    let PartSource { part, left, lost_bars, gouges, placement, is_loose, radius, top, tolerance } = *source;
-    let shapes =
-        |curves: &[Curve]| curves.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect();
+    let PartSource { part, left, gouges, placement, is_loose, radius, top, tolerance, .. } = *source;
+    let shapes = |curves: &[Curve]| -> Vec<Shape> {
+        curves.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect()
+    };
+    let mut lost_bars = shapes(source.lost_bars);
+    lost_bars.extend(outline(source.bars_lost_to_neighbours));
     FinishedPart {
         rings: part.rings.iter().map(|ring| shapes(&ring.curves)).collect(),
         top,
@@ -208,11 +213,16 @@ pub fn finished_part(source: &PartSource<'_>) -> FinishedPart {
             .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
         nests: part.rings.iter().map(|ring| ring.nest).collect(),
-        gouges: gouges.iter().map(curve_shape).collect(),
-        lost_bars: shapes(lost_bars),
+        gouges: outline(gouges),
+        lost_bars,
         radius,
         is_loose,
     }
+}
+
+/// The shapes of curves.
+pub fn outline(curves: &[Curve]) -> Vec<Shape> {
+    curves.iter().map(curve_shape).collect()
 }
 
 /// Whether two shapes of one entity are the same. For special circles, the position in the file decides.

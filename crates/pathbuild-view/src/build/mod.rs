@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 
 use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath};
 
-pub use drawn::{DrawnSource, PartSource, drawn_path, finished_part, keep_out, other_layers};
+pub use drawn::{DrawnSource, PartSource, drawn_path, finished_part, keep_out, other_layers, outline};
 pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
 
 // Findings with their places.

@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING};
 use super::frame::VisibleParts;
 use super::frame::{Frame, PageTransform, Room, widen};
-use super::stock::MilledStock;
+use super::stock::{LEFT, MilledStock};
 use super::things;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
@@ -55,6 +55,10 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     canvas.open("id=\"drawing\"");
     let mut room = Room::new([[0.0; 2], SIZE]);
     things::under(&mut canvas, &near, &frame, &mut room);
+    for ring in &near.uncut {
+        let style = format!("fill=\"{LEFT}\" fill-opacity=\"0.35\"");
+        canvas.path(&things::outline(ring, &frame.of_drawing()), &style);
+    }
     let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };
     for path in &near.paths {
         let place = frame.of_path(path);
@@ -68,13 +72,16 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
 }
 
 /// Draws the stock around a place as it is when all moves are done. `number` tells the pictures of a document apart.
-pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, number: usize) -> String {
+/// `has_corners`: whether to fill corners that the cutter does not reach.
+pub fn stock_cutout_svg(scene: &Scene, spot: &Spot, has_corners: bool, number: usize) -> String {
     let window = window(spot);
     let scale = SIZE[0] / (window[1][0] - window[0][0]);
     let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
     let mut canvas = Canvas::new(SIZE[0], SIZE[1]);
     canvas.open("id=\"drawing\"");
-    MilledStock::of(scene).near(window).draw(&mut canvas, &frame, &format!("stock{number}"));
+    let mut stock = MilledStock::of(scene).near(window);
+    stock.has_corners = has_corners;
+    stock.draw(&mut canvas, &frame, &format!("stock{number}"));
     canvas.close();
     mark(&mut canvas, spot, &frame.of_drawing());
     ruler(&mut canvas, scale);
@@ -119,6 +126,7 @@ fn near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
         paths,
         other_layers: scene.other_layers.iter().filter(is_other_near).cloned().collect(),
         keep_outs: scene.keep_outs.iter().filter(is_clamp_near).cloned().collect(),
+        uncut: scene.uncut.iter().filter(|ring| ring.iter().any(is_near)).cloned().collect(),
         ..Scene::new(&scene.title)
     }
 }

@@ -22,7 +22,7 @@ const EDGE: &str = "#4a3012";
 const THROUGH: &str = "#ccd6e0";
 /// Rapid moves through material, cuts into parts and support bars that are cut away.
 const WRONG: &str = "#e50d1a";
-const LEFT: &str = "#9628c8";
+pub(super) const LEFT: &str = "#9628c8";
 const REMOVED_NOW: &str = "#0072b2";
 const LOOSE: &str = "#e69f00";
 const OUTLINE: &str = "#0b57c4";
@@ -51,6 +51,8 @@ pub(super) struct MilledStock<'s> {
     hits: Vec<Swept>,
     /// Highest upper face and deepest cut.
     range: [f64; 2],
+    /// Whether corners that the cutter does not reach are filled.
+    pub(super) has_corners: bool,
 }
 
 /// A rectangle of stock, and its upper face.
@@ -150,7 +152,7 @@ impl<'s> MilledStock<'s> {
         sort(&mut strokes);
         let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
         let hits = scene.paths.iter().flat_map(|path| hits(scene, path, blank)).collect();
-        Self { scene, blanks, strokes, hits, range: [top, low] }
+        Self { scene, blanks, strokes, hits, range: [top, low], has_corners: false }
     }
 
     /// Both stocks in one, with the cuts of this one marked where they are deeper; `None` if the other one has all
@@ -216,6 +218,11 @@ impl<'s> MilledStock<'s> {
         self.parts(|part, path, number| {
             left(canvas, part, &frame.of_path(path), &format!("{id}-outside-{number}"));
         });
+        if self.has_corners {
+            self.parts(|part, path, number| {
+                corners(canvas, part, &frame.of_path(path), &format!("{id}-corners-{number}"));
+            });
+        }
         self.strokes(canvas, &place, &self.strokes[middle..]);
         self.parts(|part, path, number| {
             wrong(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
@@ -552,7 +559,8 @@ fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &st
     if part.left.is_empty() {
         return;
     }
-    outside(canvas, part, place, id);
+    let reach = part.left.iter().map(|left| left.reach).fold(0.0, f64::max);
+    outside(canvas, part, place, reach, id);
     canvas.open(&format!("clip-path=\"url(#{id})\""));
     for stretch in &part.left {
         let data: String = stretch.outline.iter().map(|shape| things::shape(shape, place)).collect();
@@ -560,6 +568,40 @@ fn left(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &st
     }
     canvas.close();
 }
+
+/// Fills the inner corners of a part, outside of it. The cuts, which are drawn over them, leave what the cutter does not reach.
+fn corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+    let sharp = |ring: &Vec<Shape>| {
+        let next = ring.iter().cycle().skip(1);
+        let corners = ring.iter().zip(next).filter_map(|(shape, next)| {
+            let reach = part.radius * sharpness(shape.directions()[1], next.directions()[0])?;
+            Some((next.start(), reach))
+        });
+        corners.collect::<Vec<_>>()
+    };
+    let sharp: Vec<(Point, f64)> = part.rings.iter().flat_map(sharp).collect();
+    let reach = sharp.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
+    outside(canvas, part, place, reach, id);
+    canvas.open(&format!("clip-path=\"url(#{id})\" fill=\"{LEFT}\""));
+    for (corner, reach) in sharp {
+        canvas.circle(place.at(corner), reach * place.scale(), "");
+    }
+    canvas.close();
+}
+
+/// How far from a corner a round cutter touches its sides, in radii of the cutter, which is on the right. `None` if the outline does not turn
+/// to that side.
+fn sharpness([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
+    let (across, along) = (x * next_y - y * next_x, x * next_x + y * next_y);
+    let norm = libm::hypot(x, y) * libm::hypot(next_x, next_y);
+    (across < -SMOOTH * norm).then(|| (-across / (norm + along).max(SMOOTH * norm)).min(SHARPEST))
+}
+
+/// Sine of the turn up to which an outline is smooth.
+const SMOOTH: f64 = 0.01;
+
+/// Upper bound on the reach of a corner, in radii of the cutter.
+const SHARPEST: f64 = 10.0;
 
 /// Draws what is wrong about a part: cuts into it, support bars that are cut away, and that nothing holds it.
 fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
@@ -588,12 +630,11 @@ fn wrong(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &s
 }
 
 /// Defines the outside of a part for clipping: a frame around its rings, which run around their material on the left.
-fn outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
+fn outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
     let mut corners = None;
     for shape in part.rings.iter().flatten() {
         widen(&mut corners, shape.extent());
     }
-    let reach = part.left.iter().map(|left| left.reach).fold(0.0, f64::max);
     let [low, high] = corners.unwrap_or_default();
     let ([left, bottom], [right, top]) =
         (place.at(low.map(|at| at - reach)), place.at(high.map(|at| at + reach)));

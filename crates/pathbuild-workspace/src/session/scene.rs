@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_db::{
     Database, Db, DrawnPath, PlacedPart, Settings, SourceFile, Target, TracedProgram, assigned_texts,
-    drawn_path, in_force, keep_outs, other_layers, path_names, placed_parts, program,
+    drawn_path, in_force, keep_outs, other_layers, path_names, placed_parts, program, uncut_rings,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{Header, WriteOptions};
@@ -109,6 +109,7 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     let paths = path_names(db, file).iter().filter_map(|name| drawn_path(db, file, name));
     scene.paths.extend(paths.map(|drawn| view::drawn_path(&drawn_source(db, file, drawn, &[]))));
     scene.other_layers = view::other_layers(other_layers(db, file));
+    scene.uncut = uncut_rings(db, file).into_iter().map(view::outline).collect();
     scene
 }
 
@@ -166,6 +167,7 @@ pub(crate) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart>
             part: part.drawn,
             left: part.left,
             lost_bars: part.lost_bars,
+            bars_lost_to_neighbours: &part.bars_lost_to_neighbours,
             gouges: &part.gouges,
             placement: &part.placement,
             is_loose: part.is_loose,

@@ -34,7 +34,8 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
             known = Some((place, scene));
         }
         let scene = known.as_ref()?.1.as_ref()?;
-        Some(stock_cutout_svg(scene, &spot(diagnostic)?, index))
+        let has_corners = diagnostic.code() == Code::UnreachableCorner;
+        Some(stock_cutout_svg(scene, &spot(diagnostic)?, has_corners, index))
     };
     let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &'d Diagnostic)| {
