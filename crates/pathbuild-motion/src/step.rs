@@ -354,6 +354,16 @@ impl Move {
         }
     }
 
+    /// Whether all axes are known at both ends.
+    pub fn is_known(&self) -> bool {
+        self.from.known.and(self.to.known) == Axes::ALL
+    }
+
+    /// Whether X and Y are the same at both ends.
+    pub fn keeps_xy(&self) -> bool {
+        self.from.at[..2] == self.to.at[..2]
+    }
+
     /// Whether the move is vertical: its length in the plane XY is below 0.0005 mm, less than a program with three decimals can express.
     pub fn is_vertical(&self) -> bool {
         let in_plane = match self.shape {

@@ -389,7 +389,7 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     let mut moves = Moves { line: first.line, steps };
     let mut level = None;
     while let Some(way) = moves.take(|movement| movement.pace == Pace::Rapid) {
-        level = Some(if way.to.z() < way.from.z() && is_vertical(&way) { way.from.z() } else { way.to.z() });
+        level = Some(if way.to.z() < way.from.z() && way.keeps_xy() { way.from.z() } else { way.to.z() });
     }
     let first = moves.take(is_drilling)?;
     let (mut last, mut pecks) = (first, false);
@@ -398,9 +398,8 @@ pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     }
     let dwell = moves.dwell();
     let retract = first.from.z();
-    let exit = moves.take(|movement| {
-        movement.pace == Pace::Rapid && is_vertical(movement) && movement.to.z() >= retract
-    })?;
+    let exit = moves
+        .take(|movement| movement.pace == Pace::Rapid && movement.keeps_xy() && movement.to.z() >= retract)?;
     let kind = match (pecks, dwell) {
         (false, None) => HoleKind::Plain,
         (false, Some(seconds)) => HoleKind::Dwell { seconds },
@@ -441,7 +440,7 @@ impl<'a> Moves<'a> {
     /// Takes the moves of a peck: out of the hole, back down, and deeper.
     fn peck(&mut self, retract: f64) -> Option<Move> {
         let before = self.steps;
-        let is_rapid = |movement: &Move| movement.pace == Pace::Rapid && is_vertical(movement);
+        let is_rapid = |movement: &Move| movement.pace == Pace::Rapid && movement.keeps_xy();
         let deeper = self.take(|movement| is_rapid(movement) && movement.to.z() == retract).and_then(|_| {
             self.take(|movement| is_rapid(movement) && movement.to.z() <= retract);
             self.take(is_drilling)
@@ -465,13 +464,9 @@ impl<'a> Moves<'a> {
     }
 }
 
-fn is_vertical(movement: &Move) -> bool {
-    movement.from.at[..2] == movement.to.at[..2]
-}
-
 fn is_drilling(movement: &Move) -> bool {
     matches!(movement.pace, Pace::Feed(_))
-        && is_vertical(movement)
+        && movement.keeps_xy()
         && movement.to.z() < movement.from.z()
         && movement.from.known == Axes::ALL
 }

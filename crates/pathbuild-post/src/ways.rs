@@ -311,7 +311,7 @@ impl<'m> Way<'m> {
         if lowest >= self.clearance - self.slack {
             return true;
         }
-        if movement.from.known.and(movement.to.known) != Axes::ALL {
+        if !movement.is_known() {
             // Above a known position, coming from a height above everything.
             return movement.to.known == Axes::ALL
                 && is_vertical
@@ -329,9 +329,7 @@ impl<'m> Way<'m> {
     /// The straight moves of the job between known positions that may pass over the rectangle between two corners.
     fn legs(&self, corners: [[f64; 2]; 2]) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         self.near(corners)
-            .filter(|movement| {
-                movement.from.known.and(movement.to.known) == Axes::ALL && movement.named.is_none()
-            })
+            .filter(|movement| movement.is_known() && movement.named.is_none())
             .map(|movement| (movement.from.at, movement.to.at))
     }
 

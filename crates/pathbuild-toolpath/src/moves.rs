@@ -134,11 +134,7 @@ pub fn kind_of_move(movement: &Move) -> &'static Text {
     match movement.pace {
         Pace::Rapid => &words::RAPID_MOVE,
         Pace::Probe { .. } => &words::PROBING_MOVE,
-        Pace::Feed(_)
-            if movement.from.at[..2] == movement.to.at[..2] && movement.shape == MoveShape::Line =>
-        {
-            &words::PLUNGE
-        }
+        Pace::Feed(_) if movement.keeps_xy() && movement.shape == MoveShape::Line => &words::PLUNGE,
         Pace::Feed(_) => &words::CUT,
     }
 }

@@ -82,7 +82,7 @@ struct Depths {
 
 impl Depths {
     fn add(&mut self, index: usize, movement: &Move) {
-        let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+        let is_known = movement.is_known();
         match movement.pace {
             Pace::Rapid if !is_known => self.top = movement.to.known.has(Axes::Z).then(|| movement.to.z()),
             _ if !is_known => {}
@@ -94,7 +94,7 @@ impl Depths {
 
     fn rapid(&mut self, index: usize, movement: &Move) {
         let height = movement.from.z().max(movement.to.z());
-        if movement.from.at[..2] != movement.to.at[..2] {
+        if !movement.keeps_xy() {
             if self.cut.is_some_and(|cut| height <= cut + RESIDUE) {
                 self.found.insert(index);
             } else {

@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
-use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, widest_chord};
+use pathbuild_motion::{Action, Move, MoveShape, Pace, widest_chord};
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
@@ -123,7 +123,7 @@ pub(super) fn has_room<'c>(
 
 fn each_known_move(program: &(impl Program + ?Sized), take: &mut dyn FnMut(u32, &Move)) {
     program.each(&mut |step| match &step.action {
-        Action::Move(movement) if movement.from.known.and(movement.to.known) == Axes::ALL => {
+        Action::Move(movement) if movement.is_known() => {
             take(step.line, movement);
         }
         _ => {}
@@ -212,7 +212,7 @@ impl<'s> Bench<'s> {
 
     /// Handles rapid moves down and up again without any cut there, as if a hole were drilled with them.
     fn dips(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let stays = movement.pace == Pace::Rapid && movement.from.at[..2] == movement.to.at[..2];
+        let stays = movement.pace == Pace::Rapid && movement.keeps_xy();
         let (from, to) = (movement.from.z(), movement.to.z());
         if let Some((dipped, down)) = self.dip.take().filter(|_| stays && to > from) {
             problems.add_at_line(&say::RAPID_DIP, dipped, |d| d.with("z", down.to.z()));
@@ -253,7 +253,7 @@ impl<'s> Bench<'s> {
     /// The first material along a rapid move. Cells that are only touched do not count.
     fn hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
         let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
-        let is_plunge = movement.from.at[..2] == movement.to.at[..2];
+        let is_plunge = movement.keeps_xy();
         let message = match is_plunge {
             _ if piece.surface == f64::INFINITY => &say::RAPID_AT_DEPTH,
             true => &say::RAPID_PLUNGE,
@@ -294,7 +294,7 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
 
 /// The stock at a cutting move; `None` if it is unknown or the move does not cut below the surface.
 pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option<StockSpan> {
-    let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+    let is_known = movement.is_known();
     let piece = stock.at(line).filter(|_| is_known && matches!(movement.pace, Pace::Feed(_)))?;
     (movement.from.z().min(movement.to.z()) < piece.surface).then_some(*piece)
 }
@@ -302,7 +302,7 @@ pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option
 /// Whether a rapid move can hit material: it is not above all of it, and not straight up.
 fn is_low_rapid(movement: &Move, stock: &Stock) -> bool {
     let is_above = stock.highest().is_none_or(|highest| movement.from.z().min(movement.to.z()) >= highest);
-    let goes_up = movement.from.at[..2] == movement.to.at[..2] && movement.to.z() >= movement.from.z();
+    let goes_up = movement.keeps_xy() && movement.to.z() >= movement.from.z();
     movement.pace == Pace::Rapid && !is_above && !goes_up
 }
 
@@ -338,7 +338,7 @@ impl MovePiece {
 
 /// Number of parts required because a move is not level, at least 1.
 pub(super) fn slopes(movement: &Move) -> f64 {
-    let is_plunge = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.shape, MoveShape::Line);
+    let is_plunge = movement.keeps_xy() && matches!(movement.shape, MoveShape::Line);
     let rise = libm::fabs(movement.to.z() - movement.from.z());
     if is_plunge { 1.0 } else { (rise / STEP).ceil().clamp(1.0, MOST) }
 }
@@ -576,9 +576,7 @@ struct Section {
 impl Section {
     /// Checks two consecutive moves for a descent by rapid followed by a descent at feed.
     fn hand_over(&mut self, first: &Move, second: &Move) {
-        let is_vertical = |movement: &Move| {
-            movement.from.at[..2] == movement.to.at[..2] && movement.to.z() < movement.from.z()
-        };
+        let is_vertical = |movement: &Move| movement.keeps_xy() && movement.to.z() < movement.from.z();
         if is_vertical(first)
             && is_vertical(second)
             && first.pace == Pace::Rapid

@@ -87,7 +87,7 @@ fn low_at<'s>(
     tops: &LazyCell<Tops, impl FnOnce() -> Tops>,
 ) -> Option<(&'s StockSpan, f64)> {
     let low = it.from.z().min(it.to.z()) + material::RESIDUE;
-    let goes_up = stays(it) && it.to.z() >= it.from.z();
+    let goes_up = it.keeps_xy() && it.to.z() >= it.from.z();
     if goes_up || stock.highest().is_none_or(|highest| low >= highest) {
         return None;
     }
@@ -126,13 +126,9 @@ fn is_same(one: f64, other: f64) -> bool {
 
 /// Whether two consecutive rapid moves go down below the surface and up again.
 fn is_dip(line: u32, down: &Move, up: &Move, stock: &Stock) -> bool {
-    let is_down = down.pace == Pace::Rapid && stays(down) && down.to.z() < down.from.z();
+    let is_down = down.pace == Pace::Rapid && down.keeps_xy() && down.to.z() < down.from.z();
     let is_below = || stock.at(line).is_some_and(|piece| down.to.z() < piece.surface - material::RESIDUE);
-    is_down && stays(up) && up.to.z() > up.from.z() && is_below()
-}
-
-fn stays(it: &Move) -> bool {
-    it.from.at[..2] == it.to.at[..2]
+    is_down && up.keeps_xy() && up.to.z() > up.from.z() && is_below()
 }
 
 /// The program of a drawing as steps.

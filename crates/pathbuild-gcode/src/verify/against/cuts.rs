@@ -397,7 +397,7 @@ impl Way<'_> {
 
     /// Whether a move is only due to rounding.
     fn stands(&self, movement: &Move) -> bool {
-        movement.from.known.and(movement.to.known) == Axes::ALL && self.is_near(&movement.from, &movement.to)
+        movement.is_known() && self.is_near(&movement.from, &movement.to)
     }
 
     fn is_same(&self, found: &Move, expected: &Move) -> bool {
