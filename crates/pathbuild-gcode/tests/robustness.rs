@@ -6,7 +6,7 @@ use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret};
 use pathbuild_gcode::read::BlockReader;
 use pathbuild_gcode::statistics::Summary;
-use pathbuild_gcode::verify::{Checks, Machine, Tolerance, compare, verify};
+use pathbuild_gcode::verify::{Machine, MachineRules, Tolerance, compare, verify};
 use proptest::prelude::*;
 
 fn dialects() -> impl Strategy<Value = Dialect> {
@@ -38,10 +38,10 @@ fn run(text: &[u8], dialect: Dialect) {
     assert!(time.is_finite() && time >= 0.0, "{time}");
     let summary = Summary::of(&result.steps, dialect == Dialect::Xpertmill);
     assert!(summary.total.cutting().length.is_finite() && summary.total.sum(1.0).time >= 0.0, "{summary:?}");
-    verify(
-        &result.steps,
-        &Checks { stock: None, machine: Some(&Machine { feed: Some(1.0), ..Machine::default() }) },
-    );
+    let machine = Machine { feed: Some(1.0), ..Machine::default() };
+    let mut limits = MachineRules::new(&machine);
+    verify(&result.steps[..], None, &mut |step| limits.step(step));
+    limits.finish();
     let lines =
         u32::try_from(text.split(|byte| *byte == b'\n' || *byte == b'\r').count()).expect("few lines");
     for problem in &result.problems {

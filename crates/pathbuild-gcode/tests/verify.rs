@@ -10,7 +10,7 @@ use pathbuild_gcode::dialect::Dialect::{Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
-    Checks, Cutter, DepthRules, Machine, Stock, StockSpan, Travel, coarse_arcs, verify,
+    Cutter, DepthRules, Machine, MachineRules, Stock, StockSpan, Travel, coarse_arcs,
 };
 use pathbuild_motion::Step;
 
@@ -21,13 +21,26 @@ fn run(program: &str) -> Interpretation {
     interpret(text.as_bytes(), Native, &Options::default())
 }
 
-fn wrong(program: &str, checks: &Checks<'_>) -> Vec<String> {
-    verify(&run(program).steps, checks).iter().map(fault_text).collect()
+fn verify(steps: &[Step], stock: Option<&Stock>) -> Vec<Diagnostic> {
+    pathbuild_gcode::verify::verify(steps, stock, &mut |_| {})
+}
+
+fn wrong(program: &str, stock: Option<&Stock>) -> Vec<String> {
+    verify(&run(program).steps, stock).iter().map(fault_text).collect()
+}
+
+/// The problems of a program for a machine.
+fn wrong_on(machine: &Machine, program: &str) -> Vec<String> {
+    let mut rules = MachineRules::new(machine);
+    for step in &run(program).steps {
+        rules.step(step);
+    }
+    rules.finish().iter().map(fault_text).collect()
 }
 
 /// The problems on material up to Z 5 with a cutter of 2 mm.
 fn on_stock(program: &str) -> Vec<String> {
-    wrong(program, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None })
+    wrong(program, Some(&Stock::uniform(5.0, 2.0)))
 }
 
 /// A slot from (0, 0) to (20, 0), down to Z 1, with the cutter at its end.
@@ -116,9 +129,7 @@ fn the_centre_of_a_small_helix_may_be_reached_by_rapid() {
 fn the_surface_is_that_of_the_line() {
     let piece = |line, surface| StockSpan { line, surface, cutter: Cutter::flat(2.0) };
     let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\nG0 X50\nG0 Z5\nG1 Z1\nG0 Z10";
-    let verified = |pieces: Vec<StockSpan>| {
-        wrong(program, &Checks { stock: Some(&Stock::of_pieces(pieces)), machine: None })
-    };
+    let verified = |pieces: Vec<StockSpan>| wrong(program, Some(&Stock::of_pieces(pieces)));
     assert_eq!(verified(vec![piece(1, 5.0)]), FINE);
     assert_eq!(verified(vec![piece(1, 5.0), piece(6, 8.0)]), ["7 rapid-plunge"]);
     assert_eq!(verified(vec![piece(7, 5.0)]), FINE);
@@ -139,7 +150,7 @@ fn a_large_program_is_checked_more_coarsely_not_never() {
     let rows: String = (0..5).map(row).collect();
     let steps = run(&format!("G0 X0 Y0 Z10\n{rows}G0 X500 Y20.5\nG0 Z0")).steps;
     let stock = Stock::uniform(5.0, 2.0).with_resolution(0.02);
-    let problems = verify(&steps, &Checks { stock: Some(&stock), machine: None });
+    let problems = verify(&steps, Some(&stock));
     let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
     // 20240 mm² divided into 16 million cells.
     let help = plunge.help(Lang::En).expect("help");
@@ -168,10 +179,7 @@ fn no_more_cells_are_visited_than_the_limit_says() {
     let steps = run(&format!("G0 X0 Y0 Z10\n{slopes}G0 Z10")).steps;
     let with = |cells| {
         let stock = Stock::uniform(5.0, 2.0).with_cells(cells);
-        verify(&steps, &Checks { stock: Some(&stock), machine: None })
-            .iter()
-            .map(fault_text)
-            .collect::<Vec<_>>()
+        verify(&steps, Some(&stock)).iter().map(fault_text).collect::<Vec<_>>()
     };
     assert_eq!(with(1_000_000_000), FINE);
     assert_eq!(with(1_000_000), ["6 limit-reached"]);
@@ -184,7 +192,7 @@ fn a_program_that_cannot_be_followed_says_so() {
     };
     let said = |length| {
         let steps = run(&format!("G0 X0 Y0 Z10\n{}", rows(length))).steps;
-        let problems = verify(&steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
+        let problems = verify(&steps, Some(&Stock::uniform(5.0, 2.0)));
         problems.iter().map(|problem| (fault_text(problem), problem.severity)).collect::<Vec<_>>()
     };
     assert_eq!(said(1_000), []);
@@ -193,7 +201,7 @@ fn a_program_that_cannot_be_followed_says_so() {
 
 #[test]
 fn the_cutter_is_raised_before_it_moves_in_the_plane() {
-    let wrong = |program| wrong(program, &Checks::default());
+    let wrong = |program| wrong(program, None);
     assert_eq!(wrong("G0 X1 Y1\nG0 Z5"), ["2 start-not-raised"]);
     assert_eq!(wrong("G0 Z5\nG0 X1 Y1"), FINE);
     assert_eq!(wrong("G0 X1 Y1 Z5\nG1 X2"), FINE);
@@ -207,11 +215,7 @@ fn the_cutter_is_raised_before_it_moves_in_the_plane() {
 fn the_program_ends_above_the_material() {
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99"), ["3 end-not-raised"]);
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nG0 Z5"), FINE);
-    assert_eq!(
-        wrong("G0 X0 Y0 Z5\nG1 Z4.99", &Checks::default()),
-        FINE,
-        "where the surface is, is not known"
-    );
+    assert_eq!(wrong("G0 X0 Y0 Z5\nG1 Z4.99", None), FINE, "where the surface is, is not known");
 }
 
 #[test]
@@ -223,7 +227,7 @@ fn rapid_moves_down_are_not_diagonal() {
 
 #[test]
 fn the_spindle_turns_while_cutting() {
-    let wrong = |program| wrong(program, &Checks::default());
+    let wrong = |program| wrong(program, None);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG1 Z1\nM3 S1000\nG1 Z0"), ["3 spindle-off"]);
     assert_eq!(
         wrong("M3 S1000\nG0 X0 Y0 Z5\nG1 Z1\nM5\nG1 Z2\nZ3\nM4\nG1 Z1\nG0 Z5\nM5\nG0 X1"),
@@ -238,7 +242,7 @@ fn the_spindle_turns_while_cutting() {
 
 #[test]
 fn cuts_are_made_where_the_program_has_stated_x_and_y() {
-    let wrong = |program| wrong(program, &Checks::default());
+    let wrong = |program| wrong(program, None);
     assert_eq!(wrong("G91\nG0 Z5\nG0 X9 Y9\nG1 Z-6\nX20\nX9"), ["5 unknown-position"]);
     assert_eq!(wrong("G0 Z5\nX9\nG1 Z-6"), FINE, "a rotary axis may have taken the place of the other");
     assert_eq!(wrong("G0 Z5\nX0 Y0\nG91\nX9 Y9\nG1 Z-6\nX20"), FINE);
@@ -248,7 +252,7 @@ fn cuts_are_made_where_the_program_has_stated_x_and_y() {
 #[test]
 fn an_arc_does_not_turn_back_from_both_its_neighbours() {
     let corner = |arc: &str, out: &str| {
-        wrong(&format!("G0 X0 Y0 Z1\nG1 X10\n{arc} X15 Y5 I0 J5\nG1 {out}\nG0 Z9"), &Checks::default())
+        wrong(&format!("G0 X0 Y0 Z1\nG1 X10\n{arc} X15 Y5 I0 J5\nG1 {out}\nG0 Z9"), None)
     };
     assert_eq!(corner("G3", "Y20"), FINE);
     assert_eq!(corner("G2", "Y20"), ["4 doubtful-arc"]);
@@ -260,7 +264,7 @@ fn an_arc_does_not_turn_back_from_both_its_neighbours() {
 
 #[test]
 fn a_program_without_spindle_words_is_not_asked_for_them() {
-    assert_eq!(wrong("S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5", &Checks::default()), FINE);
+    assert_eq!(wrong("S1000\nG0 X0 Y0 Z5\nG1 Z1\nG0 Z5", None), FINE);
 }
 
 #[test]
@@ -272,7 +276,7 @@ fn tools_are_changed_above_the_material() {
 
 #[test]
 fn probes_go_down() {
-    let wrong = |program| wrong(program, &Checks::default());
+    let wrong = |program| wrong(program, None);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z6"), ["3 useless-probe"]);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.2 Z5"), ["3 useless-probe"]);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z4.999"), FINE);
@@ -282,7 +286,7 @@ fn probes_go_down() {
 
 #[test]
 fn a_probe_is_raised_before_it_moves_on() {
-    let wrong = |program| wrong(program, &Checks::default());
+    let wrong = |program| wrong(program, None);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG4 P4\nG0 X9"), ["5 probe-not-raised"]);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 Z0\nG4 P4\nG0 Z5\nG0 X9"), FINE);
     assert_eq!(wrong("G0 X0 Y0 Z5\nG38.3 X9\nG0 X8"), FINE, "back from an edge");
@@ -293,7 +297,7 @@ fn the_spindle_stands_at_the_end() {
     let ends = |end: &str| {
         let program = format!("%\nG21\nM3 S1000\nG0 X0 Y0 Z5\n{end}%\n");
         let steps = interpret(program.as_bytes(), Native, &Options::default()).steps;
-        verify(&steps, &Checks::default()).iter().map(fault_text).collect::<Vec<_>>()
+        verify(&steps, None).iter().map(fault_text).collect::<Vec<_>>()
     };
     assert_eq!(ends(""), ["3 spindle-left-on"]);
     for end in ["M5\n", "M30\n", "M2\n"] {
@@ -317,7 +321,7 @@ fn arcs_have_three_decimals() {
 fn moves_stay_within_the_machines_travel() {
     let travel = Travel::Placed([(-10.0, 100.0), (0.0, 50.0), (-5.0, 30.0)]);
     let machine = Machine { travel: Some(travel), ..Machine::default() };
-    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("G0 X-10 Y50 Z30\nG0 X100 Y0 Z-5"), FINE);
     assert_eq!(
         wrong("G0 X0 Y0 Z0\nX-10.1\nX-10.2\nX100.1\nY-0.1\nZ30.1"),
@@ -331,7 +335,7 @@ fn moves_stay_within_the_machines_travel() {
 #[test]
 fn a_program_is_not_larger_than_the_machine() {
     let machine = Machine { travel: Some(Travel::Size([100.0, 50.0, 30.0])), ..Machine::default() };
-    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("G0 X-1000 Y0 Z0\nX-900 Y50 Z-30"), FINE);
     assert_eq!(wrong("G0 X-1000 Y0 Z0\nX-899.9 Y50 Z-30\nX-1001"), ["3 outside-machine"]);
 }
@@ -339,7 +343,7 @@ fn a_program_is_not_larger_than_the_machine() {
 #[test]
 fn feeds_are_those_that_the_axes_can_do() {
     let machine = Machine { rates: [Some(1000.0), Some(1000.0), Some(200.0)], ..Machine::default() };
-    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    let wrong = |program| wrong_on(&machine, program);
     assert_eq!(
         wrong("G0 X0 Y0 Z0\nG1 X10 F1000\nX20 F1001\nX30\nZ1 F201\nZ2 F200"),
         ["4 feed-too-high", "6 feed-too-high"]
@@ -355,7 +359,7 @@ fn feeds_are_those_that_the_axes_can_do() {
 #[test]
 fn a_feed_is_at_most_the_machines() {
     let machine = Machine { feed: Some(1000.0), ..Machine::default() };
-    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("G0 X0 Y0 Z0\nG1 X10 Y10 F1000\nX20 F1001\nX30\nX40 F999"), ["4 feed-too-high"]);
 }
 
@@ -363,7 +367,7 @@ fn a_feed_is_at_most_the_machines() {
 fn an_axis_without_ends_goes_anywhere() {
     let free = (f64::NEG_INFINITY, f64::INFINITY);
     let machine = Machine { travel: Some(Travel::Placed([free, (0.0, 10.0), free])), ..Machine::default() };
-    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("G0 Z1\nG0 X999999 Y10"), FINE);
     assert_eq!(wrong("G0 Z1\nG0 X999999 Y10.001"), ["3 outside-machine"]);
 }
@@ -371,7 +375,7 @@ fn an_axis_without_ends_goes_anywhere() {
 #[test]
 fn speeds_are_the_spindles() {
     let machine = Machine { spindle: Some((1000.0, 24000.0)), ..Machine::default() };
-    let wrong = |program| wrong(program, &Checks { stock: None, machine: Some(&machine) });
+    let wrong = |program| wrong_on(&machine, program);
     assert_eq!(wrong("M3 S1000\nS24000\nM5 S0"), FINE);
     assert_eq!(wrong("M3 S999\nS24001"), ["2 spindle-speed", "3 spindle-speed"]);
     assert_eq!(wrong("M3 S999\nM5"), ["2 spindle-speed"], "a spindle that stops has no speed");
@@ -381,15 +385,14 @@ fn speeds_are_the_spindles() {
 fn the_vendors_xpertmill_example_breaks_no_rule() {
     let example = "% //Programmstart\nG71\nG0 X-1.8 Y-1.8 Z0\nG1 Z-2.851 F500 S30000\nM6 5\nS20000\nG0X2 Z-5.25\nG1X8.5 Y2.5 Z-6 F1200\nM30\n";
     let steps = interpret(example.as_bytes(), Xpertmill, &Options::default()).steps;
-    assert!(verify(&steps, &Checks::default()).is_empty());
+    assert!(verify(&steps, None).is_empty());
 }
 
 #[test]
 fn a_report_says_where_and_how_high() {
     let text = format!("G17 G21 G90 G94 F100\n{SLOT}\nG0 X10 Y1\nG0 Z10\nM30\n");
     let result = interpret(text.as_bytes(), Native, &Options::default());
-    let mut problems =
-        verify(&result.steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
+    let mut problems = verify(&result.steps, Some(&Stock::uniform(5.0, 2.0)));
     quote(&mut problems, text.as_bytes());
     let [problem] = &problems[..] else { panic!("{}", spelled_out(&problems)) };
     assert!(
@@ -423,7 +426,7 @@ fn all_wrong(text: &[u8], cutter: f64) -> (Vec<Diagnostic>, bool) {
     let result = interpret(text, Native, &options);
     let stock = Stock::of_native_text(&result.steps, Cutter::flat(cutter));
     let mut problems = result.problems;
-    problems.extend(verify(&result.steps, &Checks { stock: stock.as_ref(), machine: None }));
+    problems.extend(verify(&result.steps, stock.as_ref()));
     (problems, stock.is_some())
 }
 
@@ -484,8 +487,7 @@ fn a_hole_is_not_drilled_by_rapid_moves() {
 
 #[test]
 fn the_spindle_has_a_speed_while_cutting() {
-    let with =
-        |spindle: &str| wrong(&format!("{spindle}\nG0 X0 Y0 Z5\nG1 Z1\nX5\nG0 Z5\nM5"), &Checks::default());
+    let with = |spindle: &str| wrong(&format!("{spindle}\nG0 X0 Y0 Z5\nG1 Z1\nX5\nG0 Z5\nM5"), None);
     assert_eq!(with("M3 S12000"), FINE);
     assert_eq!(with("S100 M3"), FINE);
     assert_eq!(with("M3 S0"), ["4 spindle-off"]);
@@ -504,11 +506,11 @@ fn moves_above_the_material_need_no_spindle() {
 fn it_is_said_once_until_the_spindle_is_switched_again() {
     let cuts = "G1 Z1\nX5\nX6";
     assert_eq!(
-        wrong(&format!("G0 X0 Y0 Z5\n{cuts}\nM5\n{cuts}\nM5\nM3 S0\n{cuts}\nM5"), &Checks::default()),
+        wrong(&format!("G0 X0 Y0 Z5\n{cuts}\nM5\n{cuts}\nM5\nM3 S0\n{cuts}\nM5"), None),
         ["3 spindle-off", "8 spindle-off", "13 spindle-off"]
     );
     let again = format!("M3 S5\nM5\nG0 X0 Y0 Z5\n{cuts}\nM5\n{cuts}");
-    assert_eq!(wrong(&again, &Checks::default()), ["5 spindle-off"], "it was off before");
+    assert_eq!(wrong(&again, None), ["5 spindle-off"], "it was off before");
 }
 
 #[test]
@@ -521,7 +523,7 @@ fn the_machines_places_are_not_approached_from_depth() {
 
 #[test]
 fn offsets_do_not_outlast_the_program() {
-    let with = |program: &str| verify(&run(program).steps, &Checks::default());
+    let with = |program: &str| verify(&run(program).steps, None);
     let left =
         |program: &str| with(program).iter().map(|it| (fault_text(it), it.is_error())).collect::<Vec<_>>();
     assert_eq!(left("G92 X0 Y0 Z5\nG1 X5"), [("2 offset-left-on".to_owned(), false)]);
@@ -535,7 +537,7 @@ fn offsets_do_not_outlast_the_program() {
 fn numbers_beyond_all_measure_take_no_time() {
     let text = "G21 G90 G17\nG0 X0 Y2000000000\nG1 F500 Z-1\nG3 X0 Y0 I0 J-1.5\nM30\n";
     let steps = interpret(text.as_bytes(), Native, &Options::default()).steps;
-    let found = verify(&steps, &Checks { stock: Some(&Stock::uniform(5.0, 2.0)), machine: None });
+    let found = verify(&steps, Some(&Stock::uniform(5.0, 2.0)));
     assert!(found.iter().any(|it| it.code().name() == "limit-reached"), "{}", spelled_out(&found));
 }
 

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
-use pathbuild_gcode::verify::{Checks, Machine, Rules, Stock, Tolerance};
+use pathbuild_gcode::verify::{Machine, MachineRules, Rules, Stock, Tolerance};
 use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, Named, Pace, Position, Step, ToolLength, Turning, WorkSystem,
 };
@@ -131,12 +131,19 @@ const MOST_DOUBTS: usize = 5;
 /// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
 fn broken_rules(steps: &[Step], job: &Job, machine: Option<&Machine>) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
-    let mut rules = Rules::new(&Checks { stock: stock.as_ref(), machine });
+    let mut rules = Rules::new(stock.as_ref());
+    let mut limits = machine.map(MachineRules::new);
     for step in steps {
+        if let Some(limits) = &mut limits {
+            limits.step(step);
+        }
         rules.step(step);
     }
+    let mut found = limits.map(MachineRules::finish).unwrap_or_default();
+    found.extend(rules.finish());
+    found.sort_by_key(|problem| problem.place.line);
     let (mut broken, mut doubts) = (Vec::new(), Vec::new());
-    for mut problem in rules.finish() {
+    for mut problem in found {
         // A program of other origin gets a warning for these; one that we are about to write must not have them.
         if [&gcode::SPINDLE_LEFT_ON, &gcode::SPINDLE_WITHOUT_SPEED].contains(&problem.message) {
             problem.severity = Severity::Error;

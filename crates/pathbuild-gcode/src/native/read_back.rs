@@ -14,7 +14,7 @@ use crate::dialect::Dialect;
 use crate::interpret::{Heights, Options, interpret_each, interpret_parts};
 use crate::native::number::{FIRST_PARAMETER, Formulas, f3, height_of};
 use crate::provenance::Provenance;
-use crate::verify::{Checks, Difference, Rules, Tolerance, compare, is_near, is_same_move};
+use crate::verify::{Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
 /// Number of decimals.
 const DECIMALS: i32 = 3;
@@ -42,7 +42,7 @@ pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
 
 /// Checks the rules of `verify` that do not depend on the material.
 fn check_rules(text: &str) -> Result<(), Box<Diagnostic>> {
-    let mut rules = Rules::new(&Checks::default());
+    let mut rules = Rules::new(None);
     interpret_each(text.as_bytes(), Dialect::Native, &nominal(), &mut |step| rules.step(&step));
     let broken = rules.finish().into_iter().find(is_broken);
     broken.map_or(Ok(()), |broken| Err(told(&broken)))
@@ -57,7 +57,7 @@ fn is_broken(problem: &Diagnostic) -> bool {
 /// find them equivalent.
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
     let mut abreast = Abreast::new(program.moves(), Tolerance::of_decimals(DECIMALS));
-    let mut rules = Rules::new(&Checks::default());
+    let mut rules = Rules::new(None);
     let mut each = |step: motion::Step| {
         rules.step(&step);
         if let Some((_, it)) = step.as_move() {

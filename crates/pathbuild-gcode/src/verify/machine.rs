@@ -34,57 +34,75 @@ const AXES: [char; 3] = ['X', 'Y', 'Z'];
 /// Finds what exceeds the capabilities of a machine: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct MachineRules<'m> {
-    limits: Limits<'m>,
+    machine: &'m Machine,
+    reach: Reach,
+    last_feed: Option<f64>,
+    last_speed: Option<f64>,
     problems: Problems,
 }
 
 impl<'m> MachineRules<'m> {
     /// Starts at the beginning of a program.
     pub fn new(machine: &'m Machine) -> Self {
-        Self { limits: Limits::new(machine), problems: Problems::default() }
+        Self {
+            machine,
+            reach: Reach::default(),
+            last_feed: None,
+            last_speed: None,
+            problems: Problems::default(),
+        }
     }
 
     /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
-        self.limits.step(step, &mut self.problems);
-    }
-
-    /// Returns all problems, ordered by line.
-    pub fn finish(self) -> Vec<Diagnostic> {
-        self.problems.into_diagnostics()
-    }
-}
-
-/// Reports what exceeds the capabilities of a machine.
-#[derive(Debug)]
-pub(super) struct Limits<'m> {
-    machine: &'m Machine,
-    reach: Reach,
-    last_feed: Option<f64>,
-    last_speed: Option<f64>,
-}
-
-impl<'m> Limits<'m> {
-    pub(super) fn new(machine: &'m Machine) -> Self {
-        Self { machine, reach: Reach::default(), last_feed: None, last_speed: None }
-    }
-
-    pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
         match &step.action {
             Action::Move(movement) => {
                 if let Some(travel) = &self.machine.travel {
-                    self.reach.check(step.line, movement, travel, problems);
+                    self.reach.check(step.line, movement, travel, &mut self.problems);
                 }
-                check_feed(step.line, movement, self.machine, &mut self.last_feed, problems);
+                self.check_feed(step.line, movement);
             }
             // S and M3 may be in lines of their own.
             Action::Spindle(spindle)
                 if spindle.turning != Turning::Off
                     && std::mem::replace(&mut self.last_speed, spindle.speed) != spindle.speed =>
             {
-                check_speed(step.line, spindle.speed.unwrap_or_default(), self.machine, problems);
+                self.check_speed(step.line, spindle.speed.unwrap_or_default());
             }
             _ => {}
+        }
+    }
+
+    /// Returns all problems, ordered by line.
+    pub fn finish(self) -> Vec<Diagnostic> {
+        self.problems.into_diagnostics()
+    }
+
+    /// Reports a feed with a component along an axis that is too high; once until the feed changes.
+    fn check_feed(&mut self, line: u32, movement: &Move) {
+        let Some(feed) = movement.pace.feed().filter(|feed| Some(*feed) != self.last_feed) else { return };
+        if let Some(most) = self.machine.feed.filter(|most| feed > *most) {
+            self.last_feed = Some(feed);
+            return self
+                .problems
+                .add_at_line(&say::FEED_ABOVE_MOST, line, |d| d.with("feed", feed).with("most", most));
+        }
+        for (axis, share) in movement.axis_shares().into_iter().enumerate() {
+            if let Some(most) = self.machine.rates[axis].filter(|most| feed * share > most * (1.0 + 1e-9)) {
+                self.last_feed = Some(feed);
+                return self.problems.add_at_line(&say::FEED_TOO_HIGH, line, |d| {
+                    d.with("feed", feed).with("axis", AXES[axis]).with("most", most)
+                });
+            }
+        }
+    }
+
+    fn check_speed(&mut self, line: u32, speed: f64) {
+        let Some((least, most)) = self.machine.spindle else { return };
+        if speed != 0.0 && !(least..=most).contains(&speed) {
+            self.problems.add_at_line(&say::SPINDLE_SPEED, line, |d| {
+                d.with("speed", speed).with("least", least).with("most", most)
+            });
         }
     }
 }
@@ -138,39 +156,5 @@ impl Reach {
                 d.with("axis", AXES[axis]).with("size", size).with("most", most)
             });
         }
-    }
-}
-
-/// Reports a feed with a component along an axis that is too high; once until the feed changes.
-fn check_feed(
-    line: u32,
-    movement: &Move,
-    machine: &Machine,
-    last: &mut Option<f64>,
-    problems: &mut Problems,
-) {
-    let Some(feed) = movement.pace.feed().filter(|feed| Some(*feed) != *last) else { return };
-    if let Some(most) = machine.feed.filter(|most| feed > *most) {
-        *last = Some(feed);
-        return problems
-            .add_at_line(&say::FEED_ABOVE_MOST, line, |d| d.with("feed", feed).with("most", most));
-    }
-    let shares = movement.axis_shares();
-    for (axis, share) in shares.into_iter().enumerate() {
-        if let Some(most) = machine.rates[axis].filter(|most| feed * share > most * (1.0 + 1e-9)) {
-            *last = Some(feed);
-            return problems.add_at_line(&say::FEED_TOO_HIGH, line, |d| {
-                d.with("feed", feed).with("axis", AXES[axis]).with("most", most)
-            });
-        }
-    }
-}
-
-fn check_speed(line: u32, speed: f64, machine: &Machine, problems: &mut Problems) {
-    let Some((least, most)) = machine.spindle else { return };
-    if speed != 0.0 && !(least..=most).contains(&speed) {
-        problems.add_at_line(&say::SPINDLE_SPEED, line, |d| {
-            d.with("speed", speed).with("least", least).with("most", most)
-        });
     }
 }

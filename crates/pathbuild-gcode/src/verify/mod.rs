@@ -36,34 +36,21 @@ pub use words::{PostWords, WordRules};
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// What a program is checked against.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Checks<'c> {
-    /// The material, if it is known, for rapid moves and tool changes in it.
-    pub stock: Option<&'c Stock>,
-    /// The machine, if it is known, for its travel, feeds and speeds.
-    pub machine: Option<&'c Machine>,
-}
-
-/// Reports what is wrong with the effects of a program, ordered by line.
-pub fn verify(program: &(impl Program + ?Sized), checks: &Checks<'_>) -> Vec<Diagnostic> {
-    verify_with(program, checks, &mut |_| {})
-}
-
-/// Like [`verify`], but also passes each step to `take`, so that the program need not be processed again for another purpose. Only the map
-/// of the material requires further passes.
-pub fn verify_with(
+/// Reports what is wrong with the effects of a program, ordered by line. If the material is known, rapid moves and tool changes in it are
+/// found too. Each step is also passed to `each`, so that the program need not be processed again for another purpose; only the map of
+/// the material requires further passes.
+pub fn verify(
     program: &(impl Program + ?Sized),
-    checks: &Checks<'_>,
+    stock: Option<&Stock>,
     each: &mut dyn FnMut(&Step),
 ) -> Vec<Diagnostic> {
-    let mut rules = Rules::new(checks);
+    let mut rules = Rules::new(stock);
     program.each(&mut |step| {
         rules.step(step);
         each(step);
     });
     let mut found = rules.finish();
-    if let Some(stock) = checks.stock {
+    if let Some(stock) = stock {
         let mut problems = Problems::default();
         material::check(program, stock, &mut problems);
         found.append(&mut problems.into_diagnostics());

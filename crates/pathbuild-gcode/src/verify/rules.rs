@@ -8,8 +8,6 @@ use pathbuild_motion::{
     Action, Arc, Axes, Change, Move, MoveShape, Pace, Plane, Position, Spindle, Step, Turning,
 };
 
-use super::Checks;
-use super::machine::Limits;
 use super::material::Stock;
 use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
@@ -23,7 +21,6 @@ const SAME_HEIGHT: f64 = 0.002;
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, which may hold together")]
 pub struct Rules<'c> {
     stock: Option<&'c Stock>,
-    limits: Option<Limits<'c>>,
     problems: Problems,
     at: Position,
     /// The last line with a move.
@@ -55,11 +52,10 @@ impl fmt::Debug for Rules<'_> {
 }
 
 impl<'c> Rules<'c> {
-    /// Starts at the beginning of a program.
-    pub fn new(checks: &Checks<'c>) -> Self {
+    /// Starts at the beginning of a program, whose material may be known.
+    pub fn new(stock: Option<&'c Stock>) -> Self {
         Self {
-            stock: checks.stock,
-            limits: checks.machine.map(Limits::new),
+            stock,
             problems: Problems::default(),
             at: Position::default(),
             line: 0,
@@ -79,9 +75,6 @@ impl<'c> Rules<'c> {
     /// Passes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
-        if let Some(limits) = &mut self.limits {
-            limits.step(step, &mut self.problems);
-        }
         match &step.action {
             Action::Move(movement) => self.moves(line, movement),
             Action::Spindle(spindle) => self.switch(line, *spindle),
@@ -114,7 +107,7 @@ impl<'c> Rules<'c> {
 
     /// Checks moves to machine positions, which lead there by a straight rapid from the position of the tool.
     fn home(&mut self, line: u32, movement: &Move) {
-        let stays = movement.to.known.has(Axes::XY) && movement.from.at[..2] == movement.to.at[..2];
+        let stays = movement.to.known.has(Axes::XY) && movement.keeps_xy();
         if movement.named.is_none() || stays || !movement.from.known.has(Axes::Z) {
             return;
         }
@@ -151,7 +144,7 @@ impl<'c> Rules<'c> {
         if self.is_raised {
             return;
         }
-        let goes_home = movement.named.is_some() && movement.from.at[..2] == movement.to.at[..2];
+        let goes_home = movement.named.is_some() && movement.keeps_xy();
         self.is_raised = movement.to.known.has(Axes::Z) || goes_home;
         let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty();
         if moves_in_plane && !self.is_raised {
@@ -161,8 +154,8 @@ impl<'c> Rules<'c> {
     }
 
     fn diagonal(&mut self, line: u32, movement: &Move) {
-        let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
-        let is_diagonal = movement.from.at[..2] != movement.to.at[..2] && movement.to.z() < movement.from.z();
+        let is_known = movement.is_known();
+        let is_diagonal = !movement.keeps_xy() && movement.to.z() < movement.from.z();
         if movement.pace == Pace::Rapid
             && is_known
             && is_diagonal
@@ -204,7 +197,7 @@ impl<'c> Rules<'c> {
 
     /// Whether a move stays above the material, as far as that is known.
     fn is_above_stock(&self, line: u32, movement: &Move) -> bool {
-        let is_known = movement.from.known.and(movement.to.known) == Axes::ALL;
+        let is_known = movement.is_known();
         let surface = self.stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
         is_known && surface.is_some_and(|surface| movement.from.z().min(movement.to.z()) >= surface)
     }
@@ -220,7 +213,7 @@ impl<'c> Rules<'c> {
 
     /// Checks the move after a probe, when the touched material is still below the tool.
     fn after_probe(&mut self, line: u32, movement: &Move) {
-        let stays_in_plane = movement.from.at[..2] == movement.to.at[..2];
+        let stays_in_plane = movement.keeps_xy();
         let is_known = movement.from.known.and(movement.to.known).and(Axes::XY) == Axes::XY;
         if self.has_probed && is_known && !stays_in_plane {
             self.problems.add_at_line(&say::PROBE_NOT_RAISED, line, |d| d);
@@ -308,15 +301,15 @@ fn is_opposite(one: [f64; 2], other: [f64; 2]) -> bool {
 
 /// Whether a move sets the height at the beginning of a program, as Easel does with `G1 Z0.15` before it starts the spindle.
 fn is_first_height(movement: &Move) -> bool {
-    let stays = movement.from.at[..2] == movement.to.at[..2] && matches!(movement.shape, MoveShape::Line);
+    let stays = movement.keeps_xy() && matches!(movement.shape, MoveShape::Line);
     stays && !movement.from.known.has(Axes::Z) && movement.to.known.has(Axes::Z)
 }
 
 /// Checks that a probe moves towards the material, which is below.
 fn probe(line: u32, movement: &Move, problems: &mut Problems) {
     let Pace::Probe { toward: true, .. } = movement.pace else { return };
-    let stays_in_plane = movement.from.at[..2] == movement.to.at[..2];
-    if movement.from.known.and(movement.to.known) != Axes::ALL || !stays_in_plane {
+    let stays_in_plane = movement.keeps_xy();
+    if !movement.is_known() || !stays_in_plane {
         return;
     }
     if movement.to.z() == movement.from.z() {

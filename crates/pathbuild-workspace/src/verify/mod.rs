@@ -18,8 +18,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, Checks, ChipLoadRules, DepthRules, Machine, MachineRules, PastClamps, PostWords,
-    StatedStatistics, Stock, WordRules, coarse_arcs, verify_with,
+    Against, ChipLoadRules, DepthRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock,
+    WordRules, coarse_arcs, verify,
 };
 use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -341,10 +341,9 @@ impl<'v> Examination<'v> {
             words: against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
             clamps: against.and_then(|against| against.past_clamps(program.dialect)),
         };
-        let checks = Checks { stock: self.sources.stock(), machine: None };
         let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
         let mut depths = DepthRules::default();
-        let mut found = verify_with(&program.drawn(), &checks, &mut |step| {
+        let mut found = verify(&program.drawn(), self.sources.stock(), &mut |step| {
             nominal.step(step);
             chip_loads.step(step);
             depths.step(step);
