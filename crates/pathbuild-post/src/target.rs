@@ -6,8 +6,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 use pathbuild_gcode::dialect::{
-    Acceptance, Charset, Dialect, LineLength, Percent, Rules, Spelling, Style, ascii, is_active_comment,
-    within_comment,
+    Charset, Dialect, LineLength, Percent, Rules, Spelling, Style, ascii, is_active_comment, within_comment,
 };
 use pathbuild_gcode::read::LONGEST_LINE;
 
@@ -37,12 +36,12 @@ impl Target {
 
     /// Whether the control supports the cycle G81.
     pub(super) fn has_cycles(&self) -> bool {
-        self.rules.words.g(810) == Acceptance::Taken
+        self.rules.words.has_g(810)
     }
 
     /// Whether the control supports M3.
     pub(super) fn switches_spindle(&self) -> bool {
-        self.rules.words.m(30) == Acceptance::Taken
+        self.rules.words.has_m(30)
     }
 
     /// Length of the mark that opens a comment at the beginning of a text, and the mark that closes it, unless it extends to the end of the
@@ -243,8 +242,8 @@ impl Checker<'_> {
     fn takes(&self, letter: u8, value: f64) -> bool {
         let words = self.target.rules.words;
         match letter {
-            b'G' => tenths(value).is_some_and(|code| words.g(code) != Acceptance::Unknown),
-            b'M' => tenths(value).is_some_and(|code| words.m(code) == Acceptance::Taken),
+            b'G' => tenths(value).is_some_and(|code| words.has_g(code)),
+            b'M' => tenths(value).is_some_and(|code| words.has_m(code)),
             b'N' => self.target.spelling.block_numbers.is_some(),
             letter => words.letters.contains(letter),
         }

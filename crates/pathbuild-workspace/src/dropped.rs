@@ -109,13 +109,12 @@ impl DroppedProgram {
 impl Assumptions {
     /// The options of `verify`. Adds what is wrong with the texts.
     fn options(&self, problems: &mut Vec<Diagnostic>) -> VerifyOptions {
-        let named = |name: &String| Dialect::ALL.iter().copied().find(|dialect| dialect.name() == name);
         let mut value = |text: Option<&String>, read: fn(&str) -> Result<f64, Box<Diagnostic>>| {
             read(text?).map_err(|problem| problems.push(*problem)).ok()
         };
         VerifyOptions {
             reading: ReadingOptions {
-                dialect: self.dialect.as_ref().and_then(named),
+                dialect: self.dialect.as_ref().and_then(|name| name.parse().ok()),
                 ..ReadingOptions::default()
             },
             cutter: value(self.cutter.as_ref(), |text| positive("cutter", text)),

@@ -9,8 +9,6 @@ pub struct Words {
     pub g: &'static [u16],
     /// Accepted G codes with another meaning than in RS274; they are not followed.
     pub g_own: &'static [u16],
-    /// G codes that are ignored.
-    pub g_ignored: &'static [u16],
     /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
     /// M codes that are ignored.
@@ -19,17 +17,6 @@ pub struct Words {
     pub own_m_codes: bool,
     /// Whether unknown words are ignored with a warning, whereas other controls stop.
     pub lenient: bool,
-}
-
-/// How a dialect handles a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Acceptance {
-    /// It is accepted.
-    Taken,
-    /// It is known, but has no effect.
-    Ignored,
-    /// It is unknown.
-    Unknown,
 }
 
 /// A set of letters, with one bit for each ASCII character.
@@ -54,29 +41,27 @@ impl Letters {
 }
 
 impl Words {
-    /// How the dialect handles a G code.
-    pub fn g(&self, code: u16) -> Acceptance {
-        look_up(code, self.g, self.g_ignored)
+    /// Whether the dialect accepts a G code.
+    pub fn has_g(&self, code: u16) -> bool {
+        self.g.binary_search(&code).is_ok()
     }
 
-    /// How the dialect handles an M code.
-    pub fn m(&self, code: u16) -> Acceptance {
-        if self.own_m_codes && (1000..2000).contains(&code) {
-            return Acceptance::Taken;
-        }
-        look_up(code, self.m, self.m_ignored)
+    /// Whether the dialect accepts an M code.
+    pub fn has_m(&self, code: u16) -> bool {
+        self.own_m_codes && (1000..2000).contains(&code) || self.m.binary_search(&code).is_ok()
     }
 }
 
-fn look_up(code: u16, taken: &[u16], ignored: &[u16]) -> Acceptance {
-    if taken.binary_search(&code).is_ok() {
-        Acceptance::Taken
-    } else if ignored.contains(&code) {
-        Acceptance::Ignored
-    } else {
-        Acceptance::Unknown
-    }
-}
+/// What most dialects have in common.
+const PLAIN: Words = Words {
+    letters: Letters(0),
+    g: &[],
+    g_own: &[],
+    m: &[],
+    m_ignored: &[],
+    own_m_codes: false,
+    lenient: false,
+};
 
 pub(super) static RS274: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
@@ -85,12 +70,8 @@ pub(super) static RS274: Words = Words {
         550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 800, 810, 820, 830, 840, 850, 860, 870, 880,
         890, 900, 910, 920, 921, 922, 923, 930, 940, 980, 990,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 480, 490, 600],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static LINUXCNC: Words = Words {
@@ -102,15 +83,12 @@ pub(super) static LINUXCNC: Words = Words {
         760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 901, 910, 911, 920, 921, 922, 923, 930,
         940, 950, 960, 970, 980, 990,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300, 480, 490, 500, 510, 520, 530, 600, 610, 620, 630,
         640, 650, 660, 670, 680, 700, 710, 720, 730, 980, 990,
     ],
-    m_ignored: &[],
     own_m_codes: true,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static GRBL: Words = Words {
@@ -119,23 +97,18 @@ pub(super) static GRBL: Words = Words {
         0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 431,
         490, 530, 540, 550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[0, 20, 30, 40, 50, 80, 90, 300],
     m_ignored: &[10],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static XPERTMILL: Words = Words {
     letters: Letters::new(b"FGIJMRSTXYZ"),
     g: &[0, 10, 20, 30, 700, 710],
-    g_own: &[],
-    g_ignored: &[],
     m: &[60, 300],
     m_ignored: &[30, 40, 50, 70, 80, 90],
-    own_m_codes: false,
     lenient: true,
+    ..PLAIN
 };
 
 /// The words common to GRBL and RS274/NGC, because the native program is written for senders of both.
@@ -146,12 +119,8 @@ pub(super) static NATIVE: Words = Words {
         420, 430, 431, 490, 530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 610, 611, 640, 730, 800, 810,
         820, 830, 840, 850, 860, 870, 880, 890, 900, 901, 910, 911, 920, 921, 922, 923, 930, 940, 980, 990,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 480, 490, 600],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static MACH3: Words = Words {
@@ -162,12 +131,8 @@ pub(super) static MACH3: Words = Words {
         800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 901, 910, 911, 920, 921, 922, 923, 930, 940,
         950, 980, 990,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 300, 470, 480, 490, 980, 990],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static FANUC: Words = Words {
@@ -178,12 +143,8 @@ pub(super) static FANUC: Words = Words {
         650, 660, 670, 680, 690, 730, 740, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910,
         920, 940, 950, 960, 970, 980, 990,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 980, 990],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static HAAS: Words = Words {
@@ -194,15 +155,11 @@ pub(super) static HAAS: Words = Words {
         690, 700, 710, 720, 730, 740, 760, 770, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910,
         920, 930, 940, 950, 980, 990,
     ],
-    g_own: &[],
-    g_ignored: &[],
     m: &[
         0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 290, 300, 310, 330, 410, 420, 830, 840, 880, 890, 970,
         980, 990,
     ],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static MARLIN: Words = Words {
@@ -213,26 +170,19 @@ pub(super) static MARLIN: Words = Words {
     ],
     // G60 stores the position, and G61 returns to it.
     g_own: &[600, 610],
-    g_ignored: &[],
     m: &[
         0, 10, 30, 40, 50, 70, 80, 90, 170, 180, 420, 820, 830, 840, 850, 1050, 1100, 1140, 1170, 1180, 2010,
         2030, 2040, 2050, 2200, 2260, 2800, 3000, 4000, 4100,
     ],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 /// The words of Estlcam, which has neither coordinate systems nor cycles. M10 and M11 switch an output.
 pub(super) static ESTLCAM: Words = Words {
     letters: Letters::new(b"FGIJKMNRSTXYZ"),
     g: &[0, 10, 20, 30, 170, 200, 210, 900, 910],
-    g_own: &[],
-    g_ignored: &[],
     m: &[0, 10, 30, 40, 50, 60, 80, 90, 100, 110, 300],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };
 
 pub(super) static DIN: Words = Words {
@@ -243,9 +193,6 @@ pub(super) static DIN: Words = Words {
     ],
     // G53 removes the offsets permanently, and G92 may limit the speed.
     g_own: &[530, 920],
-    g_ignored: &[],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300],
-    m_ignored: &[],
-    own_m_codes: false,
-    lenient: false,
+    ..PLAIN
 };

@@ -9,7 +9,7 @@ use super::codes;
 use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::state::{Heights, Options, State};
-use crate::dialect::{Acceptance, Percent, Rules, beginning_of};
+use crate::dialect::{Percent, Rules, beginning_of};
 use crate::read::{At, Block, OWordKind, Problems, Span};
 
 /// The state of a program, and the effects of its blocks.
@@ -53,7 +53,7 @@ impl<'i> Interpreter<'i> {
 
     /// Returns the problems found, if the file ends in this line.
     pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
-        let has_end = [20, 300].iter().any(|code| self.rules.words.m(*code) == Acceptance::Taken);
+        let has_end = [20, 300].iter().any(|code| self.rules.words.has_m(*code));
         if !self.ended && !is_framed && has_end {
             let words = match self.rules.spelling.percent {
                 Percent::Frame => "M2, M30, %",

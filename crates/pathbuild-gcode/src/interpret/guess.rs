@@ -9,7 +9,7 @@ use pathbuild_motion::Group;
 use super::codes::{Command, name};
 use super::switches::{is_followed_m, is_jump};
 use super::{Options, interpret_each};
-use crate::dialect::{Acceptance, Dialect, DwellUnit, Rules};
+use crate::dialect::{Dialect, DwellUnit, Rules};
 use crate::provenance::Provenance;
 
 /// Number of bytes inspected at the beginning of a file.
@@ -242,7 +242,7 @@ fn union_g_word(code: u16) -> UnionWord {
         Command::NotFollowed(_) => UnionWord::NotFollowed { is_dangerous: true },
         Command::NoEffect(_) if is_tool_offset => UnionWord::NotFollowed { is_dangerous: true },
         Command::NoEffect(Group::CutterCompensation | Group::ToolLength | Group::PathControl)
-            if Dialect::LinuxCnc.rules().words.g(code) == Acceptance::Taken =>
+            if Dialect::LinuxCnc.rules().words.has_g(code) =>
         {
             UnionWord::Followed(code)
         }
@@ -294,13 +294,13 @@ impl Disputes {
 }
 
 fn is_known(rules: &Rules, letter: char, code: u16) -> bool {
-    let acceptance = if letter == 'M' { rules.words.m(code) } else { rules.words.g(code) };
-    acceptance != Acceptance::Unknown
+    let words = rules.words;
+    if letter == 'M' { words.has_m(code) || words.m_ignored.contains(&code) } else { words.has_g(code) }
 }
 
 fn meaning(rules: &Rules, code: u16) -> Option<Meaning> {
     let [inch, mm] = rules.unit_words;
-    if rules.words.g(code) != Acceptance::Taken {
+    if !rules.words.has_g(code) {
         return None;
     }
     Some(match Command::of(code) {

@@ -8,7 +8,6 @@ use super::codes::{self, Command, Motion};
 use super::evaluate::{name_of, parameter_number};
 use super::execute::{Interpreter, Setting, Slot, ValueFault, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
-use crate::dialect::Acceptance;
 use crate::read::{At, Block, Span, Target, Value, Word};
 
 impl Interpreter<'_> {
@@ -155,29 +154,32 @@ impl Interpreter<'_> {
     }
 
     fn g_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
-        let Some(code) = code_of(value) else {
-            let name = block.text_of(word.span).into_owned();
-            return self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, name);
-        };
-        match self.rules.words.g(code) {
-            Acceptance::Taken => {
-                let command = match self.unit_word(code) {
-                    Some(unit) => unit,
-                    None if self.rules.words.g_own.contains(&code) => Command::NotFollowed(Group::NonModal),
-                    None => Command::of(code),
-                };
-                self.words.commands.push((command, code, word.span));
-            }
-            Acceptance::Ignored => self.ignored(block, 'G', code, word.span),
-            Acceptance::Unknown if self.rules.words.lenient && codes::is_cycle(code) => {
-                let name = codes::name('G', code);
-                self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));
-                self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.quoting("word", name));
-            }
-            Acceptance::Unknown => {
-                self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('G', code));
-            }
+        let Some(code) = self.code(block, word, value) else { return };
+        let words = self.rules.words;
+        if words.has_g(code) {
+            let command = match self.unit_word(code) {
+                Some(unit) => unit,
+                None if words.g_own.contains(&code) => Command::NotFollowed(Group::NonModal),
+                None => Command::of(code),
+            };
+            self.words.commands.push((command, code, word.span));
+        } else if words.lenient && codes::is_cycle(code) {
+            let name = codes::name('G', code);
+            self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));
+            self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.quoting("word", name));
+        } else {
+            self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('G', code));
         }
+    }
+
+    /// The number of a G or M word, times ten. Reports one that is no code.
+    fn code(&mut self, block: &Block<'_>, word: &Word, value: f64) -> Option<u16> {
+        let code = code_of(value);
+        if code.is_none() {
+            let name = block.text_of(word.span).into_owned();
+            self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, name);
+        }
+        code
     }
 
     fn unit_word(&self, code: u16) -> Option<Command> {
@@ -188,21 +190,15 @@ impl Interpreter<'_> {
     }
 
     fn m_word(&mut self, block: &Block<'_>, word: &Word, value: f64) {
-        let Some(code) = code_of(value) else {
-            let name = block.text_of(word.span).into_owned();
-            return self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, name);
-        };
-        match self.rules.words.m(code) {
-            Acceptance::Taken => self.words.m_codes.push((code, word.span)),
-            Acceptance::Ignored => self.ignored(block, 'M', code, word.span),
-            Acceptance::Unknown => {
-                self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('M', code));
-            }
+        let Some(code) = self.code(block, word, value) else { return };
+        let (words, name) = (self.rules.words, || codes::name('M', code));
+        if words.has_m(code) {
+            self.words.m_codes.push((code, word.span));
+        } else if words.m_ignored.contains(&code) {
+            self.report(block, &say::IGNORED, word.span, |d| d.quoting("word", name()));
+        } else {
+            self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, name());
         }
-    }
-
-    fn ignored(&mut self, block: &Block<'_>, letter: char, code: u16, span: Span) {
-        self.report(block, &say::IGNORED, span, |d| d.quoting("word", codes::name(letter, code)));
     }
 
     /// Passes on all G and M words of the block that are not motions.
