@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 const SIDE: i32 = 64;
 const CELLS: usize = (SIDE * SIDE) as usize;
 
-/// Cost of a row of a shape, in cells; a shape that meets nothing costs the same.
+/// Cost of a row of a capsule, in cells; a capsule that meets nothing costs the same.
 const ROW: u64 = 16;
 
 /// A sparse grid of heights. Each cell has a single height.
@@ -26,14 +26,6 @@ pub(super) struct HeightMap {
 /// The key of a tile, a row, and the first and last column of the row.
 type Stretch = ((i32, i32), i32, (i32, i32));
 
-/// A convex shape in the plane, described row by row.
-pub(super) trait Shape {
-    /// Least and greatest y.
-    fn rows(&self) -> (f64, f64);
-    /// Least and greatest x at this y, if the shape extends there.
-    fn row(&self, y: f64) -> Option<(f64, f64)>;
-}
-
 impl HeightMap {
     /// Creates a map on which at most `cells` cells may be visited, counting repeated visits. After that, nothing changes and
     /// nothing is found: see [`is_exhausted`](Self::is_exhausted).
@@ -46,12 +38,12 @@ impl HeightMap {
         self.left == 0
     }
 
-    /// Adds material up to `surface` within the shape. Where some is known already, the lower of both heights applies.
-    pub(super) fn add(&mut self, shape: &impl Shape, surface: f64) {
+    /// Adds material up to `surface` within the capsule. Where some is known already, the lower of both heights applies.
+    pub(super) fn add(&mut self, capsule: &Capsule, surface: f64) {
         let surface = rounded(surface);
-        let (first, last) = self.centres_within(shape.rows());
+        let (first, last) = self.centres_within(capsule.rows());
         for row in first..=last {
-            let Some((column, last)) = self.columns(shape, row) else { continue };
+            let Some((column, last)) = self.columns(capsule, row) else { continue };
             if !self.spend(column, last) {
                 return;
             }
@@ -65,10 +57,10 @@ impl HeightMap {
         }
     }
 
-    /// Removes material within the shape down to `z`.
-    pub(super) fn cut(&mut self, shape: &impl Shape, z: f64) {
+    /// Removes material within the capsule down to `z`.
+    pub(super) fn cut(&mut self, capsule: &Capsule, z: f64) {
         let z = rounded(z);
-        for (key, row, (column, last)) in self.stretches(shape) {
+        for (key, row, (column, last)) in self.stretches(capsule) {
             let Some(tile) = self.tiles.get_mut(&key) else { continue };
             for height in &mut tile[cells(row, column, last, key.1)] {
                 if *height > z {
@@ -78,11 +70,11 @@ impl HeightMap {
         }
     }
 
-    /// The highest material within the shape that is above `z`, with its position.
-    pub(super) fn highest_above(&mut self, shape: &impl Shape, z: f64) -> Option<(f64, [f64; 2])> {
+    /// The highest material within the capsule that is above `z`, with its position.
+    pub(super) fn highest_above(&mut self, capsule: &Capsule, z: f64) -> Option<(f64, [f64; 2])> {
         let mut highest = rounded(z);
         let mut place = None;
-        for (key, row, (column, last)) in self.stretches(shape) {
+        for (key, row, (column, last)) in self.stretches(capsule) {
             let Some(tile) = self.tiles.get(&key) else { continue };
             for column in column.max(key.1 * SIDE)..=last.min(key.1 * SIDE + SIDE - 1) {
                 let height = tile[cell(row, column)];
@@ -95,11 +87,11 @@ impl HeightMap {
         place.map(|place| (f64::from(highest), place))
     }
 
-    /// Divides the rows of a shape by existing tiles: the key of each tile, the row, and its columns.
+    /// Divides the rows of a capsule by existing tiles: the key of each tile, the row, and its columns.
     ///
     /// It iterates over tiles, so that the cost of a long move depends on the known material and not on the length of the move.
-    fn stretches(&mut self, shape: &impl Shape) -> Vec<Stretch> {
-        let (first, last) = self.centres_within(shape.rows());
+    fn stretches(&mut self, capsule: &Capsule) -> Vec<Stretch> {
+        let (first, last) = self.centres_within(capsule.rows());
         let mut found = Vec::new();
         self.left = self.left.saturating_sub(ROW);
         let mut row = first;
@@ -109,7 +101,7 @@ impl HeightMap {
             };
             let (begin, end) = (row.max(known * SIDE), last.min(known * SIDE + SIDE - 1));
             for row in begin..=end {
-                if let Some((column, last)) = self.columns(shape, row) {
+                if let Some((column, last)) = self.columns(capsule, row) {
                     self.stretches_of_row(row, column, last, &mut found);
                 }
                 if self.is_exhausted() {
@@ -139,9 +131,9 @@ impl HeightMap {
         !self.is_exhausted()
     }
 
-    /// The first and last column of a row with cell centres inside the shape.
-    fn columns(&self, shape: &impl Shape, row: i32) -> Option<(i32, i32)> {
-        shape.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
+    /// The first and last column of a row with cell centres inside the capsule.
+    fn columns(&self, capsule: &Capsule, row: i32) -> Option<(i32, i32)> {
+        capsule.row((f64::from(row) + 0.5) * self.resolution).map(|ends| self.centres_within(ends))
     }
 
     /// The first and last index of cells with centres between two coordinates. If the last is less than the first, there are none.
@@ -196,9 +188,8 @@ impl Capsule {
         let share = radius / libm::hypot(x, y);
         Self { from, to, radius, beside: [-y * share, x * share] }
     }
-}
 
-impl Shape for Capsule {
+    /// Least and greatest y.
     fn rows(&self) -> (f64, f64) {
         if self.radius < 0.0 {
             return (0.0, -1.0);
@@ -206,6 +197,7 @@ impl Shape for Capsule {
         (self.from[1].min(self.to[1]) - self.radius, self.from[1].max(self.to[1]) + self.radius)
     }
 
+    /// Least and greatest x at this y, if the capsule extends there.
     fn row(&self, y: f64) -> Option<(f64, f64)> {
         let ends = [self.from, self.to].into_iter().filter_map(|centre| disc_row(centre, self.radius, y));
         let sides = [1.0, -1.0].into_iter().filter_map(|side| {

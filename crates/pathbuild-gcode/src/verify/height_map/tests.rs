@@ -1,6 +1,6 @@
 //! Tests which cells a cutter covers along a move.
 
-use super::{Capsule, Shape};
+use super::Capsule;
 
 /// Distance of a point from a segment.
 fn distance([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> f64 {
