@@ -50,95 +50,65 @@ impl fmt::Display for Handle {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u32);
 
-/// The types of DXF entities that pathbuild distinguishes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the DXF names say it")]
-pub enum EntityKind {
-    Line,
-    Arc,
-    Circle,
-    Text,
-    MText,
-    LwPolyline,
-    Polyline,
-    Ellipse,
-    Spline,
-    Insert,
-    Attrib,
-    Body,
-    Face,
-    Helix,
-    MLine,
-    Mesh,
-    Proxy,
-    Ray,
-    Region,
-    Shape,
-    Solid,
-    Solid3D,
-    Surface,
-    Trace,
-    XLine,
-    Other,
-}
-
-impl EntityKind {
-    /// The kind of an entity that no path consists of, by its name in upper case.
-    pub fn foreign(name: &[u8]) -> Self {
-        FOREIGN.into_iter().find(|kind| kind.name().as_bytes() == name).unwrap_or(Self::Other)
-    }
-
-    /// The name in DXF files, known to users of CAD programs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Line => "LINE",
-            Self::Arc => "ARC",
-            Self::Circle => "CIRCLE",
-            Self::Text => "TEXT",
-            Self::MText => "MTEXT",
-            Self::LwPolyline => "LWPOLYLINE",
-            Self::Polyline => "POLYLINE",
-            Self::Ellipse => "ELLIPSE",
-            Self::Spline => "SPLINE",
-            Self::Insert => "INSERT",
-            Self::Attrib => "ATTRIB",
-            Self::Body => "BODY",
-            Self::Face => "3DFACE",
-            Self::Helix => "HELIX",
-            Self::MLine => "MLINE",
-            Self::Mesh => "MESH",
-            Self::Proxy => "ACAD_PROXY_ENTITY",
-            Self::Ray => "RAY",
-            Self::Region => "REGION",
-            Self::Shape => "SHAPE",
-            Self::Solid => "SOLID",
-            Self::Solid3D => "3DSOLID",
-            Self::Surface => "SURFACE",
-            Self::Trace => "TRACE",
-            Self::XLine => "XLINE",
-            Self::Other => "entity",
+/// Declares the types of entities, each with its name in DXF files: those that a path consists of, and the others.
+macro_rules! entities {
+    ($($own:ident $own_name:literal,)* ; $($foreign:ident $foreign_name:literal,)* ; $other:ident $other_name:literal) => {
+        /// The types of DXF entities that pathbuild distinguishes.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        #[expect(missing_docs, reason = "the DXF names say it")]
+        pub enum EntityKind {
+            $($own,)* $($foreign,)* $other,
         }
-    }
+
+        impl EntityKind {
+            /// The kind of an entity that no path consists of, by its name in upper case.
+            pub fn foreign(name: &[u8]) -> Self {
+                let known = [$(Self::$foreign,)*].into_iter().find(|kind| kind.name().as_bytes() == name);
+                known.unwrap_or(Self::$other)
+            }
+
+            /// The name in DXF files, known to users of CAD programs.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$own => $own_name,)*
+                    $(Self::$foreign => $foreign_name,)*
+                    Self::$other => $other_name,
+                }
+            }
+        }
+    };
 }
 
-/// The kinds that no path consists of.
-const FOREIGN: [EntityKind; 15] = [
-    EntityKind::Attrib,
-    EntityKind::Body,
-    EntityKind::Face,
-    EntityKind::Helix,
-    EntityKind::MLine,
-    EntityKind::Mesh,
-    EntityKind::Proxy,
-    EntityKind::Ray,
-    EntityKind::Region,
-    EntityKind::Shape,
-    EntityKind::Solid,
-    EntityKind::Solid3D,
-    EntityKind::Surface,
-    EntityKind::Trace,
-    EntityKind::XLine,
-];
+entities! {
+    Line "LINE",
+    Arc "ARC",
+    Circle "CIRCLE",
+    Text "TEXT",
+    MText "MTEXT",
+    LwPolyline "LWPOLYLINE",
+    Polyline "POLYLINE",
+    Ellipse "ELLIPSE",
+    Spline "SPLINE",
+    Insert "INSERT",
+    ;
+    Attrib "ATTRIB",
+    Body "BODY",
+    Face "3DFACE",
+    Helix "HELIX",
+    MLine "MLINE",
+    Mesh "MESH",
+    Proxy "ACAD_PROXY_ENTITY",
+    Ray "RAY",
+    Region "REGION",
+    Shape "SHAPE",
+    Solid "SOLID",
+    Solid3D "3DSOLID",
+    Surface "SURFACE",
+    Trace "TRACE",
+    XLine "XLINE",
+    ;
+    Other "entity"
+}
 
 /// A place in a file. Each part may be unknown.
 ///
