@@ -1,36 +1,49 @@
 //! The parameter letters, and which of them are permitted on which elements: the table of book: language/letters, used by binding, messages
 //! and the manual.
 
-/// The letter of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the letters are the names; book: language/letters has the table")]
-pub enum Letter {
-    A,
-    B,
-    C,
-    D,
-    E,
-    F,
-    H,
-    I,
-    L,
-    M,
-    N,
-    O,
-    P,
-    Q,
-    R,
-    S,
-    T,
-    U,
-    W,
-    Z,
+/// Declares the letters, each with its character.
+macro_rules! letters {
+    ($($(#[$doc:meta])* $letter:ident $character:literal,)*) => {
+        /// The letter of a parameter.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[expect(missing_docs, reason = "the letters are the names; book: language/letters has the table")]
+        pub enum Letter {
+            $($(#[$doc])* $letter,)*
+        }
+
+        impl Letter {
+            pub(crate) const ALL: [(char, Self); [$($character),*].len()] = [$(($character, Self::$letter)),*];
+        }
+    };
+}
+
+letters! {
+    A 'A',
+    B 'B',
+    C 'C',
+    D 'D',
+    E 'E',
+    F 'F',
+    H 'H',
+    I 'I',
+    L 'L',
+    M 'M',
+    N 'N',
+    O 'O',
+    P 'P',
+    Q 'Q',
+    R 'R',
+    S 'S',
+    T 'T',
+    U 'U',
+    W 'W',
+    Z 'Z',
     /// `>`: the path to embed.
-    Embed,
+    Embed '>',
     /// `@`: the path whose parameters are borrowed.
-    At,
+    At '@',
     /// `:`: the definition or value of a variable.
-    Variable,
+    Variable ':',
 }
 
 /// A set of letters.
@@ -38,32 +51,6 @@ pub enum Letter {
 pub(crate) struct Letters(u32);
 
 impl Letter {
-    pub(crate) const ALL: [(char, Self); 23] = [
-        ('A', Self::A),
-        ('B', Self::B),
-        ('C', Self::C),
-        ('D', Self::D),
-        ('E', Self::E),
-        ('F', Self::F),
-        ('H', Self::H),
-        ('I', Self::I),
-        ('L', Self::L),
-        ('M', Self::M),
-        ('N', Self::N),
-        ('O', Self::O),
-        ('P', Self::P),
-        ('Q', Self::Q),
-        ('R', Self::R),
-        ('S', Self::S),
-        ('T', Self::T),
-        ('U', Self::U),
-        ('W', Self::W),
-        ('Z', Self::Z),
-        ('>', Self::Embed),
-        ('@', Self::At),
-        (':', Self::Variable),
-    ];
-
     /// The number of letters.
     pub(crate) const COUNT: usize = Self::ALL.len();
 
