@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Handle, Point};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Point};
+pub use pathbuild_dxf::Origin as Position;
 use smol_str::SmolStr;
 
 use crate::element::{Element, Marker, Origin};
@@ -56,14 +57,6 @@ pub struct DrawnElements {
 /// The positions of a path's elements in the file, by [`ElementId`](pathbuild_diagnostic::ElementId).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceMap(pub(crate) Vec<Position>);
-
-/// The line and handle of an entity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Position {
-    pub line: u32,
-    pub handle: Option<Handle>,
-}
 
 /// All paths of a drawing, in order of first appearance.
 #[derive(Clone, Debug, Default, PartialEq)]

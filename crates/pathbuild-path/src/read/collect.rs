@@ -76,8 +76,7 @@ pub(super) fn paths<'d>(drawing: &'d Drawing, language: &Language) -> Vec<PathCo
     let mut line_types = LineTypes::new(&language.line_types);
     for (entity, origin) in drawing.entities.iter().zip(&drawing.origins) {
         if let Some(Membership { path, layer }) = layers.membership(entity.layer) {
-            let position = Position { line: origin.line, handle: origin.handle };
-            paths[path].add(entity, layer, position, &mut line_types);
+            paths[path].add(entity, layer, *origin, &mut line_types);
         }
     }
     for fault in &drawing.faults {

@@ -211,6 +211,25 @@ pub(super) fn plane_arc(arc: &pathbuild_dxf::Arc) -> Arc {
     Arc::from_angles(xy(arc.centre), arc.radius, arc.start_angle, arc.end_angle, arc.clockwise)
 }
 
+/// The curve of a line or an arc.
+pub(super) fn curve(geometry: &Geometry) -> Option<Curve> {
+    match geometry {
+        Geometry::Line(line) => Some(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
+        Geometry::Arc(arc) => Some(Curve::Arc(plane_arc(arc))),
+        Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => None,
+    }
+}
+
+/// The start, centre or anchor of an entity.
+pub(super) fn begin(geometry: &Geometry) -> Xy {
+    match geometry {
+        Geometry::Line(line) => xy(line.start),
+        Geometry::Arc(arc) => plane_arc(arc).start,
+        Geometry::Circle(circle) => xy(circle.centre),
+        Geometry::Text(Text { anchor, .. }) | Geometry::MText(MText { anchor, .. }) => xy(*anchor),
+    }
+}
+
 /// Places a problem at an entity of a drawing.
 pub(super) fn at_entity(drawing: &Drawing, entity: usize, point: Xy, problem: Diagnostic) -> Diagnostic {
     let (kind, origin) = (drawing.entities[entity].kind, drawing.origins[entity]);

@@ -15,7 +15,7 @@ use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, Way};
 use crate::language::Language;
 use crate::letter::Letter;
-use crate::read::entities::{AnyText, TextCircle, at_entity, plane_arc, xy};
+use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
 use crate::text::{ParameterText, ParameterTexts, ValueKind, without_percent_codes};
 
 /// The clamps of a drawing. At least the layers with clamps must have been read.
@@ -142,16 +142,11 @@ impl Reading<'_> {
         let (mut outlines, mut parts) = (Vec::new(), Vec::new());
         for number in entities {
             let Entity { group, geometry, .. } = &self.drawing.entities[*number];
-            let mut part = |curve| parts.push(Part { curve, group: *group, entity: *number });
-            match geometry {
-                Geometry::Line(line) => part(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
-                Geometry::Arc(arc) => part(Curve::Arc(plane_arc(arc))),
-                Geometry::Circle(circle) => {
-                    let at = xy(circle.centre);
-                    let arc = Arc::from_angles(at, circle.radius, 0.0, 360.0, false);
-                    outlines.push(ClosedOutline { outline: vec![Curve::Arc(arc)], entity: *number, at });
-                }
-                Geometry::Text(_) | Geometry::MText(_) => {}
+            parts.extend(curve(geometry).map(|curve| Part { curve, group: *group, entity: *number }));
+            if let Geometry::Circle(circle) = geometry {
+                let at = xy(circle.centre);
+                let arc = Arc::from_angles(at, circle.radius, 0.0, 360.0, false);
+                outlines.push(ClosedOutline { outline: vec![Curve::Arc(arc)], entity: *number, at });
             }
         }
         let mut branches = HashSet::new();

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{ElementId, EntityKind, TextFault};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 
 use crate::element::{Origin, Shape, Source};
-use crate::geometry::{Curve, Line};
+use crate::geometry::Curve;
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::line_type::LineType;
@@ -15,7 +15,7 @@ use crate::names::PathName;
 use crate::raw::Position;
 use crate::read::candidates::{Candidate, Owner};
 use crate::read::collect::{self, PathCollector};
-use crate::read::entities::{TextCircle, plane_arc, xy};
+use crate::read::entities::{TextCircle, curve};
 use crate::read::texts::{Match, Texts};
 use crate::text::{LetterValue, ParameterText, ParameterTexts};
 
@@ -186,8 +186,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
     let with_text = texts.matched().into_iter().filter_map(|found| {
         let (id, _) = found.owners.first()?;
         let (origin, curve) = curves.remove(id)?;
-        let at = drawing.origins.get(id.0 as usize)?;
-        let position = Position { line: at.line, handle: at.handle };
+        let position = *drawing.origins.get(id.0 as usize)?;
         Some(ProxyLine { origin, position, curve, text: (&*found.string).into() })
     });
     let mut lines: Vec<ProxyLine> = with_text.collect();
@@ -203,9 +202,5 @@ fn dash_dotted(entity: &Entity, language: &Language) -> Option<Curve> {
     if LineType::of(&entity.line_type, &language.line_types) != Some(LineType::Dashdot) {
         return None;
     }
-    match &entity.geometry {
-        Geometry::Line(line) => Some(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
-        Geometry::Arc(arc) => Some(Curve::Arc(plane_arc(arc))),
-        _ => None,
-    }
+    curve(&entity.geometry)
 }

@@ -10,13 +10,13 @@ use rstar::{AABB, RTree};
 use smol_str::SmolStr;
 
 use crate::element::shown;
-use crate::geometry::{Arc, Curve, Line, Xy};
+use crate::geometry::{Arc, Curve, Xy};
 use crate::keep_out::Outline;
 use crate::language::Language;
 use crate::line_type::{LineType, LineTypes};
 use crate::names::LayerPattern;
 use crate::part::{DrawnParts, Part, PartRing};
-use crate::read::entities::{AnyText, at_entity, plane_arc, xy};
+use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
 use crate::read::stray::may_be_stray_text;
 
 /// Largest distance in mm of ends that join.
@@ -86,14 +86,12 @@ impl<'d> OutlineLayers<'d> {
                 continue;
             }
             let curve = match &entity.geometry {
-                Geometry::Line(line) => Curve::Line(Line { start: xy(line.start), end: xy(line.end) }),
-                Geometry::Arc(arc) => Curve::Arc(plane_arc(arc)),
                 Geometry::Circle(circle) => {
-                    Curve::Arc(Arc::from_angles(xy(circle.centre), circle.radius, 0.0, 360.0, false))
+                    Some(Curve::Arc(Arc::from_angles(xy(circle.centre), circle.radius, 0.0, 360.0, false)))
                 }
-                Geometry::Text(_) | Geometry::MText(_) => continue,
+                geometry => curve(geometry),
             };
-            if curve.length() > JOINED {
+            if let Some(curve) = curve.filter(|curve| curve.length() > JOINED) {
                 curves.entry(paths[layer].clone()).or_default().push(OutlineCurve { curve, entity: number });
             }
         }
@@ -124,18 +122,9 @@ impl<'d> OutlineLayers<'d> {
             let first =
                 entities.find(|(_, entity)| entity.layer as usize == number && is_curve(&entity.geometry))?.0;
             let problem = Diagnostic::new(&messages::NO_CLOSED_OUTLINE).quoting("layer", &*layer.name);
-            Some(at_entity(self.drawing, first, self.point(first), problem))
+            Some(at_entity(self.drawing, first, begin(&self.drawing.entities[first].geometry), problem))
         };
         without.filter_map(problem).collect()
-    }
-
-    fn point(&self, entity: usize) -> Xy {
-        match &self.drawing.entities[entity].geometry {
-            Geometry::Line(line) => xy(line.start),
-            Geometry::Arc(arc) => plane_arc(arc).start,
-            Geometry::Circle(circle) => xy(circle.centre),
-            Geometry::Text(_) | Geometry::MText(_) => Xy::origin(),
-        }
     }
 
     /// Adds the parts that rings form: each ring in no other one, with all rings inside it.

@@ -5,16 +5,15 @@ use std::collections::{BTreeMap, HashMap};
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_dxf::{Drawing, Entity, Geometry};
+use pathbuild_dxf::Drawing;
 
 use crate::element::shown;
-use crate::geometry::Xy;
 use crate::language::Language;
 use crate::letter::{Letter, Letters};
 use crate::names::PathName;
 use crate::read::candidates::{Candidate, Owner, SearchBudget};
 use crate::read::collect::{self, PathCollector, PathLayers};
-use crate::read::entities::{AnyText, at_entity, plane_arc, xy};
+use crate::read::entities::{AnyText, at_entity, begin};
 use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
 /// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
@@ -181,16 +180,5 @@ fn near_layer(drawing: &Drawing, path: &PathName, layer: u32, entities: &[usize]
         .quoting("path", path.as_str())
         .with("elements", elements)
         .in_path(path.as_str());
-    Some(at_entity(drawing, first, begin(&drawing.entities[first]), problem))
-}
-
-/// The start, centre or anchor of an entity.
-fn begin(entity: &Entity) -> Xy {
-    match &entity.geometry {
-        Geometry::Line(line) => xy(line.start),
-        Geometry::Arc(arc) => plane_arc(arc).start,
-        Geometry::Circle(circle) => xy(circle.centre),
-        Geometry::Text(text) => xy(text.anchor),
-        Geometry::MText(text) => xy(text.anchor),
-    }
+    Some(at_entity(drawing, first, begin(&drawing.entities[first].geometry), problem))
 }
