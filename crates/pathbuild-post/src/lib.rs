@@ -3,14 +3,20 @@
 //! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`Post`] is a definition in one of two
 //! languages, that of CamBam or that of CAD6; [`Post::write`] produces the text. This crate does no IO.
 
-/// Describes the variants of an enum for the book, in both languages.
+/// Declares an enum, and describes its variants for the book, in both languages.
 macro_rules! words {
-    ($type:ident: $($variant:ident $(($any:tt))? $en:literal, $de:literal;)*) => {
+    ($(#[$doc:meta])* $type:ident: $($variant:ident $(($value:ty))? $en:literal, $de:literal;)*) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum $type {
+            $(#[doc = $en] $variant $(($value))?,)*
+        }
+
         impl $type {
             /// Description for the book.
             pub(super) fn word(self) -> pathbuild_diagnostic::Text {
                 match self {
-                    $(Self::$variant $(($any))? => pathbuild_diagnostic::Text { en: $en, de: $de },)*
+                    $(Self::$variant { .. } => pathbuild_diagnostic::Text { en: $en, de: $de },)*
                 }
             }
         }

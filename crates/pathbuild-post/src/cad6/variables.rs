@@ -20,25 +20,8 @@ pub(super) struct Variable {
     pub(super) about: Text,
 }
 
-/// Where a variable is available. (book: reference/post-definitions)
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Presence {
-    Always,
-    FirstMove,
-    Feed,
-    ToolNumber,
-    Speed,
-    Contours,
-    Elements,
-    Arcs,
-    Holes,
-    Waits,
-    Comments,
-    Dated,
-    Never,
-}
-
 words! {
+    /// Where a variable is available. (book: reference/post-definitions)
     Presence:
     Always "everywhere", "überall";
     FirstMove "from the first move on", "ab der ersten Bewegung";

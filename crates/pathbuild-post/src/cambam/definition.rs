@@ -7,7 +7,7 @@ use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, nearest};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use super::machine::{Code, Form, Register};
+use super::machine::{CODES, Form, Register};
 use super::macros::{Macro, MacroArguments, State, Value};
 use super::options::{Options, Refusal};
 use super::section::Section;
@@ -165,10 +165,9 @@ impl Definition {
 
     /// The definition's own words for motions, which are not G words, each with the number of the G word that it stands for.
     pub(super) fn own_motions(&self) -> Vec<(u32, String)> {
-        let text = |code: Code| self.section(code.section()).literal().trim().to_owned();
         let is_own = |word: &str| !word.is_empty() && words(word, &CommentMarks::default()).words.is_empty();
-        let all = Code::ALL.into_iter().map(|code| (code.number(), text(code)));
-        all.filter(|(_, word)| is_own(word)).collect()
+        let all = CODES.map(|(number, section)| (number, self.section(section).literal().trim().to_owned()));
+        all.into_iter().filter(|(_, word)| is_own(word)).collect()
     }
 
     /// All templates of the file, and the defaults of absent elements.

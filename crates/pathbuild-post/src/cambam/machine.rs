@@ -51,8 +51,8 @@ impl Machine {
     }
 
     /// Whether a motion is active.
-    pub(super) fn is_in(&self, code: Code) -> bool {
-        self.motion == Some(code.number() * 10)
+    pub(super) fn is_in(&self, (number, _): Code) -> bool {
+        self.motion == Some(number * 10)
     }
 
     /// Records a tool change. Afterwards some controls have stopped the spindle and others have not.
@@ -63,8 +63,8 @@ impl Machine {
 
     /// Updates the state by a line. `code` is the motion of a macro in that line, whatever text its section has.
     pub(super) fn read(&mut self, line: &Words, code: Option<Code>, format: NumberFormat) {
-        if let Some(code) = code {
-            self.motion = Some(code.number() * 10);
+        if let Some((number, _)) = code {
+            self.motion = Some(number * 10);
         }
         let mut moves = Moves::default();
         let tenths =
@@ -220,49 +220,19 @@ pub(super) enum Form {
     Positive,
 }
 
-/// Motions and cycles that have their own sections.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code {
-    G0,
-    G1,
-    G2,
-    G3,
-    G81,
-    G82,
-    G83,
-}
+/// A motion or cycle that has its own section: the number after G, and the section.
+pub(super) type Code = (u32, Section);
 
-impl Code {
-    /// All codes.
-    pub(super) const ALL: [Self; 7] =
-        [Self::G0, Self::G1, Self::G2, Self::G3, Self::G81, Self::G82, Self::G83];
-
-    /// The section that contains the word of the code.
-    pub(super) fn section(self) -> Section {
-        match self {
-            Self::G0 => Section::G0,
-            Self::G1 => Section::G1,
-            Self::G2 => Section::G2,
-            Self::G3 => Section::G3,
-            Self::G81 => Section::G81,
-            Self::G82 => Section::G82,
-            Self::G83 => Section::G83,
-        }
-    }
-
-    /// The number after G.
-    pub(super) fn number(self) -> u32 {
-        match self {
-            Self::G0 => 0,
-            Self::G1 => 1,
-            Self::G2 => 2,
-            Self::G3 => 3,
-            Self::G81 => 81,
-            Self::G82 => 82,
-            Self::G83 => 83,
-        }
-    }
-}
+/// All codes.
+pub(super) const CODES: [Code; 7] = [
+    (0, Section::G0),
+    (1, Section::G1),
+    (2, Section::G2),
+    (3, Section::G3),
+    (81, Section::G81),
+    (82, Section::G82),
+    (83, Section::G83),
+];
 
 // The values of the registers in a move.
 

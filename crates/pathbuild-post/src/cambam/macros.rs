@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Text, nearest};
 
-use super::machine::{Code, Form, Register};
+use super::machine::{CODES, Code, Form, Register};
 use super::section::Section;
 
 /// What a macro expands to.
@@ -51,48 +51,6 @@ pub(super) enum Argument {
     Number(f64),
 }
 
-/// What selects one of two sections.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Choice {
-    Units,
-    ArcCentre,
-    LatheX,
-}
-
-/// States of the machine that are written only when they change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
-    Velocity,
-    WorkPlane,
-    Spindle,
-    Coolant,
-}
-
-/// Macros that expand to lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Block {
-    /// All operations, each through the MOP section.
-    Mops,
-    /// The moves of the current operation.
-    Blocks,
-    /// One line per tool.
-    ToolTable,
-    /// Changes to the tool of the operation, unless it is in the spindle.
-    ToolChange,
-    /// Changes to the tool of the first operation, unless it is in the spindle.
-    FirstToolChange,
-    /// Moves up to the clearance plane, unless the tool is there.
-    Clearance,
-    /// Custom text before the program.
-    FileHeader,
-    /// Custom text after the program.
-    FileFooter,
-    /// Custom text before the operation.
-    MopHeader,
-    /// Custom text after the operation.
-    MopFooter,
-}
-
 impl Value {
     /// Whether the value is a text from the drawing, the configuration or the command line, not a number.
     pub(super) fn is_text(self) -> bool {
@@ -126,6 +84,7 @@ impl Value {
 }
 
 words! {
+    /// Values written without a letter.
     Value:
     FileName "the program's name", "der Name des Programms";
     ProgramNumber "`program-number`, else the first number in the name",
@@ -148,7 +107,7 @@ words! {
         "Tiefe je Stufe der ersten Bohrung in Stufen, sonst 0";
     MopStockSurface "T", "T";
     MopTargetDepth "the lowest Z that is cut, else T", "das tiefste gefräste Z, sonst T";
-    MopFirst(_) "where the operation begins, if that is known",
+    MopFirst(Register) "where the operation begins, if that is known",
         "wo die Operation beginnt, wenn das bekannt ist";
     ToolIndex "the tool's number", "die Nummer des Werkzeugs";
     ToolDiameter "O", "O";
@@ -158,21 +117,22 @@ words! {
     ToolProfile "profile in the tool table", "Form in der Werkzeugtabelle";
     ToolComment "comment in the tool table", "Kommentar in der Werkzeugtabelle";
     ToolVeeAngle "angle in the tool table", "Winkel in der Werkzeugtabelle";
-    MoveAxis(_) "the number of the present move", "die Zahl der laufenden Bewegung";
-    ArcOffset(_) "from the start of the present arc to its centre",
+    MoveAxis(Register) "the number of the present move", "die Zahl der laufenden Bewegung";
+    ArcOffset(Register) "from the start of the present arc to its centre",
         "vom Anfang des laufenden Bogens zum Mittelpunkt";
     ArcRadius "radius of the present arc", "Radius des laufenden Bogens";
     ArcStart "where the present arc starts, degrees", "Anfang des laufenden Bogens in Grad";
     ArcEnd "where the present arc ends, degrees", "Ende des laufenden Bogens in Grad";
     ArcSweep "degrees, clockwise positive, of the present arc",
         "Grad, im Uhrzeigersinn positiv, des laufenden Bogens";
-    StockSize(_) "size of the stock, if the program says it", "Maß des Rohteils, wenn das Programm es nennt";
-    StockCorner(_) "corner of the stock, if the program says it",
+    StockSize(usize) "size of the stock, if the program says it", "Maß des Rohteils, wenn das Programm es nennt";
+    StockCorner(usize) "corner of the stock, if the program says it",
         "Ecke des Rohteils, wenn das Programm sie nennt";
-    StockCornerReversed(_) "the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen";
+    StockCornerReversed(usize) "the same with the other sign", "dasselbe mit umgekehrtem Vorzeichen";
 }
 
 words! {
+    /// Macros that expand to lines.
     Block:
     Mops "each operation through the section `MOP`", "jede Operation durch den Abschnitt `MOP`";
     Blocks "the moves of the operation", "die Bewegungen der Operation";
@@ -194,6 +154,7 @@ words! {
 }
 
 words! {
+    /// States of the machine that are written only when they change.
     State:
     Velocity "the `VelocityMode...` that the operation needs, if it changes",
         "das `VelocityMode...`, das die Operation braucht, wenn es wechselt";
@@ -205,51 +166,12 @@ words! {
 }
 
 words! {
+    /// What selects one of two sections.
     Choice:
     Units "`UnitsMM` or `UnitsInches`, by the program", "`UnitsMM` oder `UnitsInches`, nach dem Programm";
     ArcCentre "`ArcCenterAbsolute` or `ArcCenterIncremental`, by the element `ArcCenterMode`",
         "`ArcCenterAbsolute` oder `ArcCenterIncremental`, nach dem Element `ArcCenterMode`";
     LatheX "`XModeRadius`", "`XModeRadius`";
-}
-
-/// Values written without a letter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Value {
-    FileName,
-    ProgramNumber,
-    Date,
-    OutFile,
-    PartName,
-    MopName,
-    MopTag,
-    MopClearancePlane,
-    MopRetractHeight,
-    MopPlungeFeedrate,
-    MopCutFeedrate,
-    MopDepthIncrement,
-    MopDwell,
-    MopHoleDiameter,
-    MopPeckDistance,
-    MopStockSurface,
-    MopTargetDepth,
-    MopFirst(Register),
-    ToolIndex,
-    ToolDiameter,
-    ToolName,
-    ToolRadius,
-    ToolLength,
-    ToolProfile,
-    ToolComment,
-    ToolVeeAngle,
-    MoveAxis(Register),
-    ArcOffset(Register),
-    ArcRadius,
-    ArcStart,
-    ArcEnd,
-    ArcSweep,
-    StockSize(usize),
-    StockCorner(usize),
-    StockCornerReversed(usize),
 }
 
 // The names of macros and their arguments.
@@ -308,7 +230,7 @@ fn without_arguments(name: &str) -> Option<Macro> {
 fn code(name: &str) -> Option<Macro> {
     let bare = name.strip_prefix('_').unwrap_or(name);
     let number = bare.strip_prefix('g')?;
-    let code = Code::ALL.into_iter().find(|code| code.number().to_string() == number)?;
+    let code = CODES.into_iter().find(|(code, _)| code.to_string() == number)?;
     Some(Macro::Code { code, modal: bare.len() < name.len() })
 }
 

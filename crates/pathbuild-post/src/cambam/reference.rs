@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Lang, Text};
 use super::macros::{FIXED, Macro, WITH};
 use super::options::OPTIONS;
 use super::section::Section;
-use crate::reference::Row;
+use crate::reference::{Row, code};
 
 /// Elements that contain a template: name, whether it is an extension of pathbuild, default.
 pub(crate) fn sections(lang: Lang) -> Vec<Row> {
@@ -63,8 +63,4 @@ fn meaning(what: &Macro, lang: Lang) -> String {
         // The others have no fixed name: they take arguments, or are registers and codes.
         _ => String::new(),
     }
-}
-
-fn code(text: &str) -> String {
-    crate::reference::code(text)
 }

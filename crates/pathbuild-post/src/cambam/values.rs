@@ -167,15 +167,16 @@ impl Writer<'_> {
     }
 
     pub(super) fn code(&mut self, code: Code, modal: bool) -> WriteResult {
+        let (_, section) = code;
         self.line.code = Some(code);
-        if self.plan.definition.section(code.section()).is_blank() {
-            self.empty_code = Some(code.section());
+        if self.plan.definition.section(section).is_blank() {
+            self.empty_code = Some(section);
         }
         if modal && self.machine.is_in(code) {
             return Ok(());
         }
         self.line.is_in_code = true;
-        self.section(code.section())?;
+        self.section(section)?;
         self.line.is_in_code = false;
         Ok(())
     }

@@ -353,10 +353,10 @@ impl<'a> Writer<'a> {
             words: found.words.iter().map(|word| self.meant(*word, &line)).collect(),
             has_more: false,
         };
-        let has_word = |code: &Code| !self.plan.definition.section(code.section()).is_blank();
+        let has_word = |(_, section): &Code| !self.plan.definition.section(*section).is_blank();
         self.shadow.line(
             &meant,
-            line.code.filter(has_word).map(Code::number),
+            line.code.filter(has_word).map(|(number, _)| number),
             self.turned[0] != self.turned[1],
         );
         let (section, line) = line.origin.unwrap_or(self.place);
