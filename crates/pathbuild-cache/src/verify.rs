@@ -10,7 +10,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::{fs, io};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_files::Stamp;
+use pathbuild_files::{Stamp, is_drawing, readable};
 use rayon::prelude::*;
 
 use crate::catalogue::{Catalogue, DirectoryFact, FileFact};
@@ -295,7 +295,7 @@ pub type Listings = HashMap<Utf8PathBuf, Listing>;
 impl Listing {
     /// Adds a directory entry that is not itself a directory, if it is a drawing.
     pub fn add(&mut self, name: &str, is_link: bool) {
-        if Utf8Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")) {
+        if is_drawing(Utf8Path::new(name)) {
             self.names.push(name.into());
             if is_link {
                 self.links.push(name.into());
@@ -336,7 +336,7 @@ impl DirectoryFact {
 
     /// Like [`now`](Self::now), but reuses an earlier listing if there is one.
     pub(crate) fn from_listing(path: &Utf8Path, base: &Utf8Path, listed: Option<Listing>) -> Self {
-        let place = if path.as_str().is_empty() { Utf8Path::new(".") } else { path };
+        let place = readable(path);
         let Listing { names, mut links, is_doubtful } = listed.unwrap_or_else(|| Listing::of(place));
         let mut canonical = canonical(place, base);
         links.sort_unstable();

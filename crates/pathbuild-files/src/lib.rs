@@ -17,7 +17,7 @@ pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
 pub use replace::is_temporary;
-pub use spelling::{clean, join, spelt};
+pub use spelling::{clean, is_drawing, join, readable, spelt};
 pub use stamp::{CLOCK, Clock, Stamp};
 
 use std::fmt::{self, Debug};

@@ -12,6 +12,7 @@ use pathbuild_diagnostic::Value;
 use pathbuild_diagnostic::reasons::{DIRECTORY_OF_THAT_NAME, NOT_REGULAR, reason};
 
 use crate::replace::{self, is_temporary};
+use crate::spelling::readable;
 use crate::stamp::Stamp;
 use crate::{Entry, EntryKind, FileKind, FileLink, Listing, ReadError, System, WriteOutcome};
 
@@ -134,11 +135,6 @@ fn hard_link(data: &fs::Metadata) -> Option<FileLink> {
 #[cfg(not(unix))]
 fn hard_link(_: &fs::Metadata) -> Option<FileLink> {
     None
-}
-
-/// The path as passed to system calls, which do not accept an empty one.
-fn readable(path: &Utf8Path) -> &Utf8Path {
-    if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
 }
 
 impl From<io::Error> for ReadError {

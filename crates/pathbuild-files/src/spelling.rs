@@ -8,6 +8,16 @@ pub fn spelt(path: Utf8PathBuf) -> Utf8PathBuf {
     if cfg!(windows) { with_slashes(path) } else { path }
 }
 
+/// The path as passed to system calls, which do not accept an empty one.
+pub fn readable(path: &Utf8Path) -> &Utf8Path {
+    if path.as_str().is_empty() { Utf8Path::new(".") } else { path }
+}
+
+/// Whether the file is a drawing; the case of `.dxf` does not matter.
+pub fn is_drawing(path: &Utf8Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
+}
+
 /// The path of a file in a directory, spelt as by [`spelt`], in a single allocation of the right size.
 pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     let name = name.as_ref();

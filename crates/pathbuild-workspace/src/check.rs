@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, join};
+use pathbuild_db::system::{FileKind, is_drawing, join};
 use pathbuild_db::{
     Database, Db, Role, SourceFile, Target, Trace, check_file, combinations, locate, path_names,
 };
@@ -559,7 +559,7 @@ fn drawings(session: &Session<'_>, directory: &Utf8Path) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     // Errors are ignored here: the lookups in this directory report them.
     _ = session.db().system().each_entry(directory, &mut |entry| {
-        if entry.is_exact && Session::is_drawing(Utf8Path::new(entry.name)) {
+        if entry.is_exact && is_drawing(Utf8Path::new(entry.name)) {
             names.insert(entry.name.to_owned());
         }
         ControlFlow::Continue(())

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::join;
+use pathbuild_db::system::{join, readable};
 use pathbuild_diagnostic::messages::{posts, posts as messages};
 use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -391,8 +391,7 @@ const LARGEST: u64 = 1 << 24;
 impl PostFiles for DirectoryFiles<'_> {
     fn read(&self, path: &Utf8Path) -> Result<Vec<u8>, Value> {
         let Self { directory, system } = self;
-        let base =
-            system.canonical(if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory });
+        let base = system.canonical(readable(directory));
         let file = system.canonical(&directory.join(path));
         if !file.starts_with(&base) && file.is_absolute() {
             return Err(Value::Prose(&LEADS_OUT_OF_POST));

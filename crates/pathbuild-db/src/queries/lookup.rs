@@ -11,7 +11,7 @@ use crate::bugs::catch_bugs;
 use crate::database::Db;
 use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
-use crate::system::{FileKind, Names, ReadError, join};
+use crate::system::{FileKind, Names, ReadError, is_drawing, join, readable};
 
 /// The drawings of a directory, by the path names that they may contain according to their file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl NameTable {
     /// Selects the drawings among file names.
     fn new(files: &Names, pattern: &FilePattern) -> Self {
         let (mut names, mut ranges) = (Names::default(), Vec::new());
-        for name in files.iter().filter(|name| is_drawing(name)) {
+        for name in files.iter().filter(|name| is_drawing(Utf8Path::new(name))) {
             let number = u32::try_from(names.len()).expect("a directory has fewer than 2^32 names");
             let stem = &name[..name.len() - EXTENSION.len()];
             pattern.each_range(stem, |range| ranges.push((range, number)));
@@ -72,7 +72,7 @@ pub fn unlistable(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
             Value::Prose(&NO_DIRECTORY)
         }
     };
-    let directory = if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory };
+    let directory = readable(directory);
     Diagnostic::new(&messages::UNLISTABLE).with("reason", reason).in_file(directory)
 }
 
@@ -84,13 +84,6 @@ pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
 
 /// File name extension of drawings.
 const EXTENSION: &str = ".dxf";
-
-/// Whether a file name has the extension, in any case.
-fn is_drawing(name: &str) -> bool {
-    let bytes = name.as_bytes();
-    bytes.len() > EXTENSION.len()
-        && bytes[bytes.len() - EXTENSION.len()..].eq_ignore_ascii_case(EXTENSION.as_bytes())
-}
 
 /// The result of looking for a path.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use std::thread::Builder;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
-use pathbuild_db::system::{FileKind, join};
+use pathbuild_db::system::{FileKind, is_drawing, join};
 use pathbuild_db::{
     Db as _, Directory, PendingListing, SourceFile, check_file, drawing_names, likely_file, may_hold,
     prefetch, search_path,
@@ -134,7 +134,7 @@ impl Session<'_> {
         for input in inputs.iter() {
             match input {
                 Input::Place(place) => {
-                    let expand_pattern = self.expand_pattern(place, library::is_drawing);
+                    let expand_pattern = self.expand_pattern(place, is_drawing);
                     let places =
                         if expand_pattern.is_empty() { vec![place.to_owned()] } else { expand_pattern };
                     let argument = |place: &Utf8PathBuf| self.match_place(place, &mut found.listings);
@@ -198,7 +198,7 @@ impl Session<'_> {
     }
 
     fn match_place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {
-        if self.is_directory(place) && !library::is_drawing(place) {
+        if self.is_directory(place) && !is_drawing(place) {
             return Argument::Directory(self.search_directory(self.normal(place), listings));
         }
         Argument::Drawing(self.file(place))
@@ -232,7 +232,7 @@ impl Session<'_> {
 
     fn search_directory(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
         self.start_workers();
-        let walked = self.walk(library::is_drawing).through(&directory);
+        let walked = self.walk(is_drawing).through(&directory);
         self.found_directory(directory, walked, listings)
     }
 
@@ -253,7 +253,7 @@ impl Session<'_> {
     fn library_walked(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
-        let walk = self.walk(library::is_drawing);
+        let walk = self.walk(is_drawing);
         let walked: Vec<library::WalkResult> = if walk.is_parallel && library.len() > 1 {
             library.par_iter().map(|directory| walk.through(directory)).collect()
         } else {
@@ -300,7 +300,7 @@ impl Session<'_> {
         let (drawings, problems) = if self.has_library() {
             self.library()
         } else {
-            let walked = self.walk(library::is_drawing).through(Utf8Path::new(""));
+            let walked = self.walk(is_drawing).through(Utf8Path::new(""));
             (walked.drawings, walked.problems)
         };
         (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
@@ -308,7 +308,7 @@ impl Session<'_> {
 
     /// The drawings in and below a directory.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
-        self.walk(library::is_drawing).through(directory).drawings.into_iter()
+        self.walk(is_drawing).through(directory).drawings.into_iter()
     }
 
     /// Passes the names of freshly listed directories to the database, to save listing them again, unless they are doubtful.
@@ -318,11 +318,6 @@ impl Session<'_> {
         {
             self.db.provide_names(directory, listing.names.iter().map(|name| &**name).collect());
         }
-    }
-
-    /// Whether a file name has the extension of a drawing.
-    pub fn is_drawing(path: &Utf8Path) -> bool {
-        library::is_drawing(path)
     }
 
     /// Whether the configuration names a library, so that commands work without arguments.
@@ -395,7 +390,7 @@ impl Session<'_> {
         is_known: &dyn Fn(SourceFile) -> bool,
     ) -> Option<(Option<SourceFile>, Directory)> {
         match input {
-            Input::Place(place) if Self::is_drawing(place) => {
+            Input::Place(place) if is_drawing(place) => {
                 let file = Some(self.file(place)).filter(|file| !is_known(*file))?;
                 let directory = self.db.directory(file.path(&self.db).parent().unwrap_or(Utf8Path::new("")));
                 pathbuild_db::embeds_others(&self.db, file).then_some((Some(file), directory))

@@ -13,7 +13,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_cache::{Listing, Listings};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join, readable};
 use pathbuild_db::{Db, System, catch_bugs, unlistable, unlisted};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::limits::line_too_long;
@@ -130,16 +130,6 @@ impl Walk<'_> {
         }
         Ok((walked, count))
     }
-}
-
-/// The directory as system calls expect it.
-pub(super) fn readable(directory: &Utf8Path) -> &Utf8Path {
-    if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
-}
-
-/// Whether the file is a drawing; the case of `.dxf` does not matter.
-pub(super) fn is_drawing(path: &Utf8Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
 /// Whether the file is a G-code program, by its extension.

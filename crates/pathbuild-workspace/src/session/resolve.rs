@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, join};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, is_drawing, join};
 use pathbuild_db::{Db, Role, SourceFile, Target, catch_bugs, check_file, holders, path_names};
 use pathbuild_diagnostic::messages::{configuration, files, outputs, outputs as messages, paths};
 use pathbuild_diagnostic::{Diagnostic, Message, Value, nearest};
@@ -15,7 +15,7 @@ use pathbuild_path::{PathName, with_near_names};
 use rustc_hash::FxHashSet;
 
 use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
-use super::{Session, by_place, library};
+use super::{Session, by_place};
 use crate::config::{Origin, SourcedValue};
 use crate::inputs::Inputs;
 use crate::workspace::relative;
@@ -374,7 +374,7 @@ impl Session<'_> {
     fn known(&self) -> KnownNames {
         KnownNames {
             paths: self.paths_of_library(MOST_UNKNOWN),
-            entries: self.entries(Utf8Path::new(""), library::is_drawing),
+            entries: self.entries(Utf8Path::new(""), is_drawing),
         }
     }
 
@@ -386,7 +386,7 @@ impl Session<'_> {
         let directory = file.ancestors().skip(1).find(is_there)?;
         let mut missing = file.strip_prefix(directory).ok()?.components();
         let name = missing.next()?;
-        let entries = self.entries(directory, library::is_drawing);
+        let entries = self.entries(directory, is_drawing);
         let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = join(&near, missing.as_path());
         // The components after the misspelled one may exist.

@@ -9,6 +9,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Config, Event, PollWatcher, RecommendedWatcher, Watcher as _};
 use pathbuild_db::System;
+use pathbuild_db::system::is_drawing;
 
 use super::directories::{EventPath, WatchedDirectories, event_path};
 use super::events::{Bell, Changes, Request, Restart, Signal};
@@ -174,7 +175,7 @@ impl Watcher {
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         let pending = &self.pending;
-        let has_drawings = pending.paths.iter().any(|path| Session::is_drawing(path));
+        let has_drawings = pending.paths.iter().any(|path| is_drawing(path));
         self.is_over || pending.is_incomplete || pending.restart.is_some() || has_drawings
     }
 
@@ -296,8 +297,7 @@ fn current_directory(system: &dyn System) -> Utf8PathBuf {
 fn may_affect_results(path: &Utf8Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("dxf") => true,
-        _ if name == "pathbuild.toml" || is_ignore_file(name) => true,
+        _ if is_drawing(path) || name == "pathbuild.toml" || is_ignore_file(name) => true,
         Some("gcode" | "tmp" | "txt" | "results") => false,
         _ => !name.starts_with('.') && !path.components().any(|part| part.as_str() == ".pathbuild"),
     }
@@ -308,6 +308,5 @@ const TAIL: usize = 256;
 
 /// Whether a drawing exists but lacks the end marker.
 fn is_unfinished(system: &dyn System, path: &Utf8Path) -> bool {
-    let is_drawing = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
-    is_drawing && system.tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
+    is_drawing(path) && system.tail(path, TAIL).is_ok_and(|tail| !tail.windows(3).any(|word| word == b"EOF"))
 }

@@ -8,7 +8,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{EventKind, ModifyKind};
 use notify::{ErrorKind, RecursiveMode, Watcher};
 use pathbuild_db::System;
-use pathbuild_db::system::{FileKind, FileLink, join};
+use pathbuild_db::system::{FileKind, FileLink, is_drawing, join, readable};
 
 use super::events::Request;
 use crate::Input;
@@ -83,7 +83,7 @@ impl WatchedDirectories {
     pub(super) fn watch(&mut self, source: &mut dyn Watcher, system: &dyn System) -> notify::Result<()> {
         // Watch the parents first, so that no new directory is missed. Some of them may not be listable.
         for way in self.names.iter().filter_map(|name| name.parent()).filter(|way| !is_root(way)) {
-            _ = source.watch(spelt(way).as_std_path(), RecursiveMode::NonRecursive);
+            _ = source.watch(readable(way).as_std_path(), RecursiveMode::NonRecursive);
         }
         for (directory, mode) in self.watched.clone() {
             let is_there = directory.as_str().is_empty() || system.kind(&directory) == FileKind::Directory;
@@ -134,7 +134,7 @@ impl WatchedDirectories {
 
     fn watch_linked(&mut self, source: &mut dyn Watcher, path: &Utf8Path) -> notify::Result<()> {
         if !self.linked.contains(path) {
-            source.watch(spelt(path).as_std_path(), RecursiveMode::NonRecursive)?;
+            source.watch(readable(path).as_std_path(), RecursiveMode::NonRecursive)?;
             self.linked.insert(path.to_owned());
         }
         Ok(())
@@ -224,7 +224,7 @@ impl WatchedDirectories {
         mode: RecursiveMode,
         seen: &mut BTreeSet<Utf8PathBuf>,
     ) -> notify::Result<()> {
-        match source.watch(spelt(directory).as_std_path(), mode) {
+        match source.watch(readable(directory).as_std_path(), mode) {
             Err(error) if is_refusal(&error) => {}
             done => return done,
         }
@@ -244,11 +244,6 @@ impl WatchedDirectories {
     }
 }
 
-/// Spelling for system calls: the working directory is `.`.
-fn spelt(directory: &Utf8Path) -> &Utf8Path {
-    if directory.as_str().is_empty() { Utf8Path::new(".") } else { directory }
-}
-
 /// A directory and those on the way to it, except the root and the working directory.
 fn directory_and_parents(directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> {
     directory.ancestors().filter(|name| name.parent().is_some()).map(Utf8Path::to_owned)
@@ -256,7 +251,7 @@ fn directory_and_parents(directory: &Utf8Path) -> impl Iterator<Item = Utf8PathB
 
 /// Canonical path of a directory, as named in events.
 fn real_directory(session: &Session<'_>, directory: &Utf8Path) -> Utf8PathBuf {
-    event_path(session, &session.workspace().system.canonical(spelt(directory)))
+    event_path(session, &session.workspace().system.canonical(readable(directory)))
 }
 
 fn is_root(directory: &Utf8Path) -> bool {
@@ -295,7 +290,7 @@ fn directories(
             Input::Place(place) => place,
             Input::Name(name) => Utf8Path::new(name),
         };
-        if session.is_directory(place) || !Session::is_drawing(place) {
+        if session.is_directory(place) || !is_drawing(place) {
             whole.push(place);
         } else {
             alone.extend(place.parent());

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, join};
+use pathbuild_db::system::{FileKind, is_drawing, join};
 use pathbuild_db::{Db, SourceFile, Trace, drawing_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -217,7 +217,7 @@ impl<'a> Library<'a> {
             files.extend(self.reverse.files().map(|file| file.path(db).clone()));
         }
         for path in &changes.paths {
-            if Session::is_drawing(path) {
+            if is_drawing(path) {
                 files.insert(path.clone());
             } else {
                 let below = self.reverse.files().filter(|file| file.path(db).starts_with(path));

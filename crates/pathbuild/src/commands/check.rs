@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, join, spelt};
+use pathbuild_db::system::{FileKind, is_drawing, join, spelt};
 use pathbuild_workspace::check::{EarlierFiles, Request};
 use pathbuild_workspace::config::{FILE_NAME, clean};
-use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Input, Inputs, files};
 
 use super::git::{self, EntryKind, Repository};
@@ -86,7 +85,7 @@ impl<'a> RevisionFiles<'a> {
 
     fn add(&mut self, kind: EntryKind, file: Utf8PathBuf, id: String) {
         if let (Some(directory), Some(name)) = (file.parent(), file.file_name())
-            && Session::is_drawing(&file)
+            && is_drawing(&file)
         {
             self.drawings.entry(directory.to_owned()).or_default().push(name.to_owned());
         }

@@ -16,6 +16,7 @@
 use std::ffi::OsString;
 
 use camino::Utf8Path;
+use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::Lang;
 
 use super::adjust;
@@ -270,8 +271,7 @@ fn value(letter: char, glued: &str) -> &str {
 
 /// The letter of an option with the attached text. A drawing whose name begins with `/` or a hyphen is not an option.
 fn option(argument: &str) -> Option<(char, &str)> {
-    let is_drawing =
-        Utf8Path::new(argument).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+    let is_drawing = is_drawing(Utf8Path::new(argument));
     let option = match argument.strip_prefix('-') {
         Some(option) if is_drawing || option.starts_with('-') => return None,
         Some(option) => option,

@@ -1,6 +1,7 @@
 //! `pathbuild view`: shows a path, a drawing or a program. (book: program/pictures)
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_gcode::verify::{Stock, StockSpan};
 use pathbuild_view::{Scene, ToolSpan, VisibleParts, has_stock};
@@ -60,8 +61,7 @@ struct TargetScene {
 /// The scene of the argument. A file that is not a drawing is read as a program.
 fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
-    let is_drawing = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
-    if !is_drawing && is_there(file) {
+    if !is_drawing(file) && is_there(file) {
         return program(context, file, args);
     }
     Session::new(context).with_stable_files(|session| drawing(session, &args.what))

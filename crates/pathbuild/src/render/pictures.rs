@@ -1,6 +1,7 @@
 //! Pictures of findings: details of their drawings. (book: reference/output)
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_view::{Scene, Spot, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
@@ -69,7 +70,7 @@ fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
 fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     diagnostic.place.point?;
     let file = diagnostic.file.as_deref()?;
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")).then_some(file)
+    is_drawing(file).then_some(file)
 }
 
 /// The place of a finding, with further places named in its message and notes.

@@ -4,7 +4,7 @@ mod output;
 mod revision;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::FileKind;
+use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -157,7 +157,7 @@ pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Fai
 
 fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
     let place = Utf8Path::new(argument);
-    let is_drawing = Session::is_drawing(place);
+    let is_drawing = is_drawing(place);
     match context.system.kind(place) {
         FileKind::Directory => ArgumentKind::Drawings,
         FileKind::File if is_drawing => ArgumentKind::Drawings,
@@ -168,7 +168,7 @@ fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
 }
 
 fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -> Result<Side, Failure> {
-    let is_drawing = Session::is_drawing(&place);
+    let is_drawing = is_drawing(&place);
     let named = Inputs::places([&place]);
     let (workspace, faults) = context.elsewhere(&named);
     if !faults.is_empty() {

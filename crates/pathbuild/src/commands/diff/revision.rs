@@ -6,8 +6,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::is_drawing;
 use pathbuild_workspace::config::FILE_NAME;
-use pathbuild_workspace::session::Session;
 use tempfile::TempDir;
 
 use crate::commands::git::{self, Entry, EntryKind, Repository};
@@ -105,7 +105,7 @@ impl Checkout<'_> {
         let links: Vec<(&Entry, Option<String>)> = links.into_iter().zip(targets).collect();
         // If a drawing is a link to another kind of file, its target is needed as well.
         let leads_elsewhere = |(entry, target): &(&Entry, Option<String>)| {
-            Session::is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
+            is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
         };
         let is_all_needed = links.iter().any(leads_elsewhere);
         let files: Vec<&Entry> =
@@ -156,7 +156,7 @@ impl Checkout<'_> {
     }
 
     fn leave_out(&mut self, entry: &Entry) {
-        if Session::is_drawing(Utf8Path::new(&entry.name)) {
+        if is_drawing(Utf8Path::new(&entry.name)) {
             self.left_out.push(entry.name.clone());
         }
     }
@@ -181,7 +181,7 @@ fn is_needed(name: &str) -> bool {
     let name = Utf8Path::new(name);
     let is_text =
         |extension: &str| ["cbpp", "toml"].iter().any(|known| extension.eq_ignore_ascii_case(known));
-    Session::is_drawing(name)
+    is_drawing(name)
         || name.extension().is_some_and(is_text)
         || matches!(name.file_name(), Some(".gitignore" | ".ignore"))
 }
