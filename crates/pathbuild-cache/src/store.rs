@@ -129,9 +129,13 @@ fn is_own_tag(tag: &[u8]) -> bool {
 
 /// Whether the directory's tree file was written by pathbuild: the directory is named after that tree.
 fn is_own_tree(directory: &Utf8Path) -> bool {
-    let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
-    let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
-    tree.is_some_and(|tree| directory.file_name() == Some(name_of(Utf8Path::new(&tree)).as_str()))
+    recorded_tree(directory).is_some_and(|tree| directory.file_name() == Some(&name_of(&tree)))
+}
+
+/// The tree that a directory's tree file names.
+fn recorded_tree(directory: &Utf8Path) -> Option<Utf8PathBuf> {
+    let tree = private::read(&directory.join(TREE), SMALL).ok().flatten()?;
+    String::from_utf8(tree).ok().map(Utf8PathBuf::from)
 }
 
 /// Name of a tree's subdirectory in the user's cache directory.
@@ -226,9 +230,7 @@ impl Home {
         let Self::User(caches) = self else { return Ok(0) };
         let (mut removed, mut not_removed) = (0, None);
         for directory in entry_names(caches).map(|name| caches.join(name)) {
-            let tree = private::read(&directory.join(TREE), SMALL).ok().flatten();
-            let tree = tree.and_then(|tree| String::from_utf8(tree).ok());
-            if tree.is_some_and(|tree| !Utf8Path::new(&tree).as_std_path().exists()) {
+            if recorded_tree(&directory).is_some_and(|tree| !tree.exists()) {
                 match clean(&directory) {
                     Ok(()) => removed += 1,
                     // Continue with the other trees.
