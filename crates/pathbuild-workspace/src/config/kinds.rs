@@ -18,9 +18,8 @@ use crate::config::types::{Choice, Directories, Extent, Pattern, Restriction};
 
 /// An optional number greater than 0.
 pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
-    read: |value, reader| match number(value).filter(|number| *number > 0.0) {
-        Some(number) => Some(Some(number)),
-        None => reader.expected(Value::Prose(&messages::POSITIVE), value),
+    read: |value, reader| {
+        reader.require(number(value).filter(|number| *number > 0.0), &messages::POSITIVE, value).map(Some)
     },
     show: |number| number.map(|number| number.to_string()),
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
@@ -30,7 +29,7 @@ pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
 pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
     read: |value, reader| match number(value).and_then(|number| Duration::try_from_secs_f64(number).ok()) {
         Some(time) if !time.is_zero() => Some(time),
-        _ => reader.expected(Value::Prose(&messages::POSITIVE), value),
+        _ => reader.expected(&messages::POSITIVE, value),
     },
     show: |time| Some(time.as_secs_f64().to_string()),
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
@@ -38,9 +37,8 @@ pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
 
 /// A number of at least 0.
 pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
-    read: |value, reader| match number(value).filter(|number| *number >= 0.0) {
-        Some(number) => Some(number),
-        None => reader.expected(Value::Prose(&messages::NOT_NEGATIVE), value),
+    read: |value, reader| {
+        reader.require(number(value).filter(|number| *number >= 0.0), &messages::NOT_NEGATIVE, value)
     },
     show: |number| Some(number.to_string()),
     schema: || json!({ "type": "number", "minimum": 0 }),
@@ -49,9 +47,9 @@ pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
 /// Optional upper bound on the length of pieces of moves in mm; 0 means any length. Pieces that a machine cannot distinguish would only
 /// fill the disk.
 pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {
-    read: |value, reader| match number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE) {
-        Some(number) => Some(Some(number)),
-        None => reader.expected(Value::Prose(&messages::PIECE), value),
+    read: |value, reader| {
+        let length = number(value).filter(|number| *number == 0.0 || *number >= SHORTEST_PIECE);
+        reader.require(length, &messages::PIECE, value).map(Some)
     },
     show: |number| number.map(|number| number.to_string()),
     schema: || json!({ "oneOf": [{ "const": 0 }, { "type": "number", "minimum": SHORTEST_PIECE }] }),
@@ -62,9 +60,9 @@ const SHORTEST_PIECE: f64 = 0.1;
 
 /// Tolerance of the part check in mm. Below its bound the rounding of coordinates would be reported.
 pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
-    read: |value, reader| match number(value).filter(|number| *number >= FINEST_TOLERANCE) {
-        Some(number) => Some(number),
-        None => reader.expected(Value::Prose(&messages::PART_TOLERANCE), value),
+    read: |value, reader| {
+        let tolerance = number(value).filter(|number| *number >= FINEST_TOLERANCE);
+        reader.require(tolerance, &messages::PART_TOLERANCE, value)
     },
     show: |number| Some(number.to_string()),
     schema: || json!({ "type": "number", "minimum": FINEST_TOLERANCE }),
@@ -75,9 +73,8 @@ const FINEST_TOLERANCE: f64 = 0.005;
 
 /// A positive whole number.
 pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
-    read: |value, reader| match whole_number(value).filter(|count| *count > 0) {
-        Some(count) => Some(count),
-        None => reader.expected(Value::Prose(&messages::COUNT), value),
+    read: |value, reader| {
+        reader.require(whole_number(value).filter(|count| *count > 0), &messages::COUNT, value)
     },
     show: |count| Some(count.to_string()),
     schema: || json!({ "type": "integer", "minimum": 1 }),
@@ -85,19 +82,15 @@ pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
 
 /// A size in bytes: a whole number, or a text such as "256 MiB".
 pub(in crate::config) const SIZE: ValueType<u64> = ValueType {
-    read: |value, reader| match size(value).filter(|size| *size > 0) {
-        Some(size) => Some(size),
-        None => reader.expected(Value::Prose(&messages::SIZE), value),
-    },
+    read: |value, reader| reader.require(size(value).filter(|size| *size > 0), &messages::SIZE, value),
     show: |size| Some(shown_size(*size)),
     schema: || json!({ "oneOf": [{ "type": "integer", "minimum": 1 }, { "type": "string", "pattern": SIZE_PATTERN }] }),
 };
 
 /// A duration, written as a text such as "50 ms".
 pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
-    read: |value, reader| match value.get_ref().as_str().and_then(duration) {
-        Some(duration) => Some(duration),
-        None => reader.expected(Value::Prose(&messages::DURATION), value),
+    read: |value, reader| {
+        reader.require(value.get_ref().as_str().and_then(duration), &messages::DURATION, value)
     },
     show: |duration| Some(format!("\"{} ms\"", duration.as_millis())),
     schema: || json!({ "type": "string", "pattern": "^[0-9]+ ?(ms|s|min)$" }),
@@ -105,20 +98,14 @@ pub(in crate::config) const DURATION: ValueType<Duration> = ValueType {
 
 /// Two numbers, the smaller one first.
 pub(in crate::config) const EXTENT: ValueType<Option<Extent>> = ValueType {
-    read: |value, reader| match extent(value) {
-        Some(extent) => Some(Some(extent)),
-        None => reader.expected(Value::Prose(&messages::EXTENT), value),
-    },
+    read: |value, reader| reader.require(extent(value), &messages::EXTENT, value).map(Some),
     show: |extent| extent.map(|extent| format!("[{}, {}]", extent.from, extent.to)),
     schema: || json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }),
 };
 
 /// A positive number for each of X, Y and Z.
 pub(in crate::config) const AXES: ValueType<Option<[f64; 3]>> = ValueType {
-    read: |value, reader| match axes(value) {
-        Some(axes) => Some(Some(axes)),
-        None => reader.expected(Value::Prose(&messages::AXES), value),
-    },
+    read: |value, reader| reader.require(axes(value), &messages::AXES, value).map(Some),
     show: |axes| axes.map(|[x, y, z]| format!("[{x}, {y}, {z}]")),
     schema: || json!({ "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 3, "maxItems": 3 }),
 };
@@ -128,7 +115,7 @@ pub(in crate::config) const SWITCH: ValueType<bool> =
     ValueType { read: switch, show: |on| Some(on.to_string()), schema: || json!({ "type": "boolean" }) };
 
 fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<bool> {
-    value.get_ref().as_bool().or_else(|| reader.expected(Value::Prose(&messages::SWITCH), value))
+    reader.require(value.get_ref().as_bool(), &messages::SWITCH, value)
 }
 
 /// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
@@ -214,7 +201,7 @@ fn digits_and_unit(text: &str) -> Option<(u64, &str)> {
 /// A non-empty string.
 pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
     read: |value, reader| match reader.text(value)? {
-        "" => reader.expected(Value::Prose(&messages::NOT_EMPTY), value),
+        "" => reader.expected(&messages::NOT_EMPTY, value),
         text => Some(text.into()),
     },
     show: |text| Some(quoted(text)),
@@ -245,7 +232,7 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
 pub(in crate::config) const ABSOLUTE: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
         path if path.is_absolute() => Some(path),
-        _ => reader.expected(Value::Prose(&messages::ABSOLUTE), value),
+        _ => reader.expected(&messages::ABSOLUTE, value),
     },
     show: |path| Some(quoted(path.as_str())),
     schema: || json!({ "type": "string" }),
@@ -258,7 +245,7 @@ pub(in crate::config) const ABSOLUTES: ValueType<Directories> = ValueType {
         if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
             Some(names.into_iter().map(|(name, _)| name.into()).collect())
         } else {
-            reader.expected(Value::Prose(&messages::ABSOLUTES), value)
+            reader.expected(&messages::ABSOLUTES, value)
         }
     },
     ..DIRECTORIES
@@ -274,7 +261,7 @@ pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
     ValueType {
         read: |value, reader| {
             let Some(items) = value.get_ref().as_array() else {
-                return reader.expected(Value::Prose(&messages::LIST_OF_TEXTS), value);
+                return reader.expected(&messages::LIST_OF_TEXTS, value);
             };
             all(items.iter().map(|item| read_choice(item, reader)))
         },
@@ -320,10 +307,7 @@ pub(in crate::config) fn texts<'v, 't>(
         .get_ref()
         .as_array()
         .map(|array| array.iter().map(|item| item.get_ref().as_str().map(|text| (text, item))));
-    match items.and_then(Iterator::collect::<Option<Vec<_>>>) {
-        Some(texts) => Some(texts),
-        None => reader.expected(Value::Prose(&messages::LIST_OF_TEXTS), value),
-    }
+    reader.require(items.and_then(Iterator::collect::<Option<Vec<_>>>), &messages::LIST_OF_TEXTS, value)
 }
 
 /// Whether a string can be written in single quotes, where nothing is escaped.

@@ -157,8 +157,18 @@ impl<'a> TomlReader<'a> {
         self.diagnostics.push(diagnostic);
     }
 
+    /// What was found in a value; reports `None` as not what is expected.
+    pub(super) fn require<T>(
+        &mut self,
+        found: Option<T>,
+        expected: &'static Text,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<T> {
+        found.or_else(|| self.expected(expected, value))
+    }
+
     /// Reports that a value is not what is expected, and returns `None`.
-    pub(super) fn expected<T>(&mut self, expected: Value, value: &Spanned<DeValue<'_>>) -> Option<T> {
+    pub(super) fn expected<T>(&mut self, expected: &'static Text, value: &Spanned<DeValue<'_>>) -> Option<T> {
         let found = self.source.slice(value.span()).lines().next().unwrap_or_default();
         let fault = self
             .fault(&messages::INVALID_VALUE, value.span())
@@ -170,10 +180,7 @@ impl<'a> TomlReader<'a> {
 
     /// The value as a string; reports a value of another type.
     pub(super) fn text<'v>(&mut self, value: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
-        match value.get_ref().as_str() {
-            Some(text) => Some(text),
-            None => self.expected(Value::Prose(&messages::TEXT), value),
-        }
+        self.require(value.get_ref().as_str(), &messages::TEXT, value)
     }
 
     /// Returns all diagnostics.
@@ -229,21 +236,24 @@ impl<'a> Table<'_, '_, 'a> {
     pub(super) fn unsuited(&mut self, name: &'static str, expected: &'static Text) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
-        _ = self.reader.expected::<()>(Value::Prose(expected), value);
+        _ = self.reader.expected::<()>(expected, value);
     }
 
-    /// Reads a nested table; a missing one counts as empty.
+    /// Reads a nested table; a missing one counts as empty. Without a name, the keys are in this table itself.
     pub(super) fn section<T: Default>(
         &mut self,
         name: &'static str,
         read: impl FnOnce(&mut Table<'_, '_, 'a>) -> T,
     ) -> T {
+        if name.is_empty() {
+            return read(self);
+        }
         self.known.push(name);
         let Some(value) = self.content.get(name) else { return T::default() };
         self.reader.key = format!("{}{name}", self.prefix);
         match value.get_ref().as_table() {
             Some(table) => self.reader.table(table, &format!("{}{name}.", self.prefix), read),
-            None => self.reader.expected(Value::Prose(&messages::TABLE), value).unwrap_or_default(),
+            None => self.reader.expected(&messages::TABLE, value).unwrap_or_default(),
         }
     }
 

@@ -4,7 +4,7 @@ use camino::Utf8Path;
 use std::sync::LazyLock;
 
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Code, Severity, Value, nearest};
+use pathbuild_diagnostic::{Code, Severity, nearest};
 use pathbuild_path::LineType;
 use serde_json::{Value as Json, json};
 use toml::Spanned;
@@ -45,7 +45,7 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueT
             value.get_ref().as_array().map(|array| array.iter().map(|item| item.get_ref().as_table()));
         match tables.and_then(Iterator::collect::<Option<Vec<_>>>) {
             Some(tables) => Some(tables.into_iter().map(|table| severities_in(table, reader)).collect()),
-            None => reader.expected(Value::Prose(&messages::LIST_OF_TABLES), value),
+            None => reader.expected(&messages::LIST_OF_TABLES, value),
         }
     },
     show: |parts| {
@@ -198,7 +198,7 @@ fn entries<'v, 't>(
 ) -> Option<Vec<Entry<'v, 't>>> {
     match value.get_ref().as_table() {
         Some(table) => Some(table.iter().collect()),
-        None => reader.expected(Value::Prose(&messages::TABLE), value),
+        None => reader.expected(&messages::TABLE, value),
     }
 }
 
@@ -266,14 +266,14 @@ fn date(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<Dat
     };
     let date = text.and_then(|text| text.parse().ok());
     if date.is_none() {
-        return reader.within("until", |reader| reader.expected(Value::Prose(&messages::DATE), value));
+        return reader.within("until", |reader| reader.expected(&messages::DATE, value));
     }
     date
 }
 
 fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Tool> {
     let Some(table) = value.get_ref().as_table() else {
-        return reader.expected(Value::Prose(&messages::TABLE), value);
+        return reader.expected(&messages::TABLE, value);
     };
     if !table.contains_key("diameter") {
         reader.missing("diameter", name.span());
