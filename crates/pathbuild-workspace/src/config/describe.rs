@@ -6,8 +6,8 @@ use pathbuild_diagnostic::shown;
 use serde_json::{Map, Value as Json, json};
 
 use super::origin::{Key, ShownSetting};
-use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
-use super::settings::Settings;
+use super::sections::{general, tables};
+use super::settings::{Settings, TABLES, TableEntry};
 
 /// Formats the settings as TOML, on request with their sources as comments.
 pub fn show(settings: &Settings, with_origin: bool) -> String {
@@ -15,26 +15,23 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
         Some(file) => format!("# {}\n", shown::line(file.as_str())),
         None => "# no pathbuild.toml\n".to_owned(),
     };
-    // The general keys include inline tables, so they must precede the first table header.
-    write(&mut text, settings.general.shown(), with_origin);
-    write(&mut text, settings.tables.shown(), with_origin);
-    for (name, entries) in sections(settings) {
-        _ = write!(text, "\n[{name}]\n");
-        write(&mut text, entries, with_origin);
+    for (_, _, shown) in without_header() {
+        write(&mut text, shown(settings), with_origin);
+    }
+    for (header, _, shown) in with_header() {
+        _ = write!(text, "\n[{header}]\n");
+        write(&mut text, shown(settings), with_origin);
     }
     text
 }
 
-/// The tables with fixed keys.
-fn sections(settings: &Settings) -> [(&'static str, Vec<ShownSetting>); 6] {
-    [
-        ("emit", settings.emit.shown()),
-        ("limits", settings.limits.shown()),
-        ("machine", settings.machine.shown()),
-        ("verify", settings.verify.shown()),
-        ("warnings", settings.warnings.shown()),
-        ("watch", settings.watch.shown()),
-    ]
+/// The tables whose keys come before all headers.
+fn without_header() -> impl Iterator<Item = &'static TableEntry> {
+    TABLES.iter().filter(|(header, ..)| header.is_empty())
+}
+
+fn with_header() -> impl Iterator<Item = &'static TableEntry> {
+    TABLES.iter().filter(|(header, ..)| !header.is_empty())
 }
 
 /// A key with its value.
@@ -52,15 +49,14 @@ pub struct Setting {
 
 /// Lists all settings.
 pub fn settings(settings: &Settings) -> Vec<Setting> {
-    let general = [("", settings.general.shown()), ("", settings.tables.shown())];
-    let all = general.into_iter().chain(sections(settings));
     let setting = |section| {
         move |ShownSetting { name, value, origin }: ShownSetting| {
             let origin = value.as_ref().map(|_| origin.to_string()).unwrap_or_default();
             Setting { section, name, value, origin }
         }
     };
-    all.flat_map(|(section, entries)| entries.into_iter().map(setting(section))).collect()
+    let all = without_header().chain(with_header());
+    all.flat_map(|(header, _, shown)| shown(settings).into_iter().map(setting(*header))).collect()
 }
 
 fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
@@ -74,17 +70,8 @@ fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
 
 /// The JSON schema (draft 2020-12) of `pathbuild.toml`.
 pub fn schema() -> Json {
-    let mut root = properties(general::KEYS);
-    root.extend(properties(tables::KEYS));
-    let sections = [
-        ("emit", emit::KEYS),
-        ("limits", limits::KEYS),
-        ("machine", machine::KEYS),
-        ("verify", verify::KEYS),
-        ("warnings", warnings::KEYS),
-        ("watch", watch::KEYS),
-    ];
-    root.extend(sections.map(|(name, keys)| (name.to_owned(), object(&properties(keys)))));
+    let mut root: Map<String, Json> = without_header().flat_map(|(_, keys, _)| properties(keys)).collect();
+    root.extend(with_header().map(|(header, keys, _)| ((*header).to_owned(), object(&properties(keys)))));
     let mut schema = object(&root);
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!("pathbuild.toml");
@@ -115,17 +102,9 @@ pub fn template() -> String {
     for key in tables::KEYS {
         table(&mut text, key);
     }
-    let sections = [
-        ("emit", emit::KEYS),
-        ("limits", limits::KEYS),
-        ("machine", machine::KEYS),
-        ("verify", verify::KEYS),
-        ("warnings", warnings::KEYS),
-        ("watch", watch::KEYS),
-    ];
-    for (name, keys) in sections {
-        _ = write!(text, "\n[{name}]\n");
-        for key in keys {
+    for (header, keys, _) in with_header() {
+        _ = write!(text, "\n[{header}]\n");
+        for key in *keys {
             entry(&mut text, key, "#");
         }
     }

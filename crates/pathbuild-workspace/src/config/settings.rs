@@ -8,36 +8,95 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_toolpath::ZModel;
 use toml::de::DeTable;
 
-use super::origin::{Origin, ResultKind};
+use super::origin::{Key, Origin, ResultKind, ShownSetting};
 use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
 use super::types::Severities;
 use crate::waivers::RunDate;
 
-/// The settings of a run, each with its source.
-#[derive(Clone, Debug)]
-#[expect(missing_docs, reason = "the tables of the configuration, by name")]
-pub struct Settings {
-    /// The configuration that was read. If `None`, only options and defaults apply, and nothing is cached.
-    pub file: Option<Utf8PathBuf>,
-    /// The working directory's configuration if it does not apply, because the arguments lie outside its tree and below no other
-    /// configuration.
-    pub not_used: Option<Utf8PathBuf>,
-    /// Whether `file` applies to a program although the working directory has another configuration, or the program lies outside its tree.
-    pub is_unexpected: bool,
-    /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
-    pub confined: Option<ConfinedSystem>,
-    /// The date that waivers are compared with; without one, waivers with a date do not hold. No cached result depends on it.
-    pub date: Option<RunDate>,
-    pub general: general::Settings,
-    pub emit: emit::Settings,
-    pub limits: limits::Settings,
-    pub machine: machine::Settings,
-    /// `[verify]`
-    pub verify: verify::Settings,
-    pub warnings: warnings::Settings,
-    pub watch: watch::Settings,
-    pub tables: tables::Settings,
+/// A table: its header, its keys, and the function that returns their values.
+pub(super) type TableEntry = (&'static str, &'static [Key], fn(&Settings) -> Vec<ShownSetting>);
+
+/// Declares the tables of the configuration, each with its header and the function that reads it. Keys of a table without a header come
+/// before all headers.
+macro_rules! tables {
+    ($($table:ident $header:literal $read:ident;)*) => {
+        /// The settings of a run, each with its source.
+        #[derive(Clone, Debug)]
+        #[expect(missing_docs, reason = "the tables of the configuration, by name")]
+        pub struct Settings {
+            /// The configuration that was read. If `None`, only options and defaults apply, and nothing is cached.
+            pub file: Option<Utf8PathBuf>,
+            /// The working directory's configuration if it does not apply, because the arguments lie outside its tree and below no other
+            /// configuration.
+            pub not_used: Option<Utf8PathBuf>,
+            /// Whether `file` applies to a program although the working directory has another configuration, or the program lies outside its tree.
+            pub is_unexpected: bool,
+            /// The repositories that an untrusted run must not leave; `None` if the run is trusted.
+            pub confined: Option<ConfinedSystem>,
+            /// The date that waivers are compared with; without one, waivers with a date do not hold. No cached result depends on it.
+            pub date: Option<RunDate>,
+            $(pub $table: $table::Settings,)*
+        }
+
+        /// Settings from one source: the configuration or the command line. Keys that the source does not set are `None`.
+        #[derive(Clone, Debug, Default)]
+        #[expect(missing_docs, reason = "the tables of the configuration, by name")]
+        pub struct Options {
+            $(pub $table: $table::Options,)*
+        }
+
+        impl Options {
+            /// Reads a parsed configuration. Diagnostics stay in the reader.
+            pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
+                reader.table(root, "", |table| {
+                    let options = Self { $($table: table.section($header, $table::Options::$read),)* };
+                    table.refuse("remote");
+                    options
+                })
+            }
+
+            /// Merges two sources; these settings take precedence over `below`.
+            pub fn over(self, below: Self) -> Self {
+                Self { $($table: self.$table.over(below.$table),)* }
+            }
+
+            /// Fills in the defaults.
+            pub fn resolve(self) -> Settings {
+                Settings {
+                    file: None,
+                    not_used: None,
+                    date: None,
+                    is_unexpected: false,
+                    confined: None,
+                    $($table: self.$table.resolve(),)*
+                }
+            }
+        }
+
+        impl Settings {
+            /// Passes each setting that a command's cached results depend on to `add`, with its name. `result_kind` is
+            /// [`ResultKind::Check`] or [`ResultKind::Emit`].
+            pub fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
+                $(self.$table.visit_inputs(result_kind, add);)*
+            }
+        }
+
+        /// The tables, each with its header, its keys, and their values.
+        pub(super) const TABLES: &[TableEntry] =
+            &[$(($header, $table::KEYS, |settings| settings.$table.shown()),)*];
+    };
+}
+
+tables! {
+    general "" read;
+    emit "emit" read;
+    limits "limits" read_lowered;
+    machine "machine" read;
+    verify "verify" read;
+    warnings "warnings" read;
+    watch "watch" read;
+    tables "" read;
 }
 
 impl Settings {
@@ -82,88 +141,5 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Options::default().resolve()
-    }
-}
-
-/// Settings from one source: the configuration or the command line. Keys that the source does not set are `None`.
-#[derive(Clone, Debug, Default)]
-#[expect(missing_docs, reason = "the tables of the configuration, by name")]
-pub struct Options {
-    pub general: general::Options,
-    pub emit: emit::Options,
-    pub limits: limits::Options,
-    pub machine: machine::Options,
-    /// `[verify]`
-    pub verify: verify::Options,
-    pub warnings: warnings::Options,
-    pub watch: watch::Options,
-    pub tables: tables::Options,
-}
-
-impl Options {
-    /// Reads a parsed configuration. Diagnostics stay in the reader.
-    pub(super) fn read(root: &DeTable<'_>, reader: &mut TomlReader<'_>) -> Self {
-        reader.table(root, "", |table| {
-            let options = Self {
-                general: general::Options::read(table),
-                emit: table.section("emit", emit::Options::read),
-                limits: table.section("limits", limits::Options::read_lowered),
-                machine: table.section("machine", machine::Options::read),
-                verify: table.section("verify", verify::Options::read),
-                warnings: table.section("warnings", warnings::Options::read),
-                watch: table.section("watch", watch::Options::read),
-                tables: tables::Options::read(table),
-            };
-            table.refuse("remote");
-            options
-        })
-    }
-
-    /// Merges two sources; these settings take precedence over `below`.
-    pub fn over(self, below: Self) -> Self {
-        Self {
-            general: self.general.over(below.general),
-            emit: self.emit.over(below.emit),
-            limits: self.limits.over(below.limits),
-            machine: self.machine.over(below.machine),
-            verify: self.verify.over(below.verify),
-            warnings: self.warnings.over(below.warnings),
-            watch: self.watch.over(below.watch),
-            tables: self.tables.over(below.tables),
-        }
-    }
-
-    /// Fills in the defaults.
-    pub fn resolve(self) -> Settings {
-        Settings {
-            file: None,
-            not_used: None,
-            date: None,
-            is_unexpected: false,
-            confined: None,
-            general: self.general.resolve(),
-            emit: self.emit.resolve(),
-            limits: self.limits.resolve(),
-            machine: self.machine.resolve(),
-            verify: self.verify.resolve(),
-            warnings: self.warnings.resolve(),
-            watch: self.watch.resolve(),
-            tables: self.tables.resolve(),
-        }
-    }
-}
-
-impl Settings {
-    /// Passes each setting that a command's cached results depend on to `add`, with its name. `result_kind` is [`ResultKind::Check`] or
-    /// [`ResultKind::Emit`].
-    pub fn visit_inputs(&self, result_kind: ResultKind, add: &mut dyn FnMut(&'static str, &dyn Debug)) {
-        self.general.visit_inputs(result_kind, add);
-        self.emit.visit_inputs(result_kind, add);
-        self.limits.visit_inputs(result_kind, add);
-        self.machine.visit_inputs(result_kind, add);
-        self.verify.visit_inputs(result_kind, add);
-        self.warnings.visit_inputs(result_kind, add);
-        self.watch.visit_inputs(result_kind, add);
-        self.tables.visit_inputs(result_kind, add);
     }
 }
