@@ -25,10 +25,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
 }
 
 fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
-    let command = match diagnostic.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
+    let command = diagnostic.severity.name();
     let mut properties = Vec::new();
     if let Some(file) = view.file(diagnostic) {
         properties.push(format!("file={}", property(&file)));

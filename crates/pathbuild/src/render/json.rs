@@ -3,7 +3,7 @@
 //! `span` is the faulty part of `text`: the first character and the one after the last, counted in characters from 0. `x` and `y` are
 //! millimetres in the drawing. `trace` lists the embeddings that led to the path, outermost first.
 
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Severity, TextFault, TraceStep, shown};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, TextFault, TraceStep, shown};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -101,7 +101,7 @@ fn object<'a>(diagnostic: &'a Diagnostic, view: &View) -> Object<'a> {
         r#type: "finding",
         code: diagnostic.code().to_string(),
         name: diagnostic.code().name(),
-        severity: severity(diagnostic.severity),
+        severity: diagnostic.severity.name(),
         message: diagnostic.text(view.lang),
         help: diagnostic.help(view.lang),
         notes: diagnostic.notes.iter().map(|note| note.text(view.lang)).collect(),
@@ -132,11 +132,4 @@ fn trace<'a>(diagnostic: &'a Diagnostic, view: &View) -> Vec<Step<'a>> {
 fn span(fault: &TextFault) -> [usize; 2] {
     let characters_before = |byte: usize| fault.text[..byte].chars().count();
     [characters_before(fault.span().start), characters_before(fault.span().end)]
-}
-
-fn severity(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    }
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::{Code, Diagnostic, Severity};
+use pathbuild_diagnostic::{Code, Diagnostic};
 use serde_json::{Value as Json, json};
 
 use super::{View, view};
@@ -71,7 +71,7 @@ fn rule(code: Code, view: &View) -> Json {
         "id": code.to_string(),
         "name": code.name(),
         "shortDescription": { "text": code.name().replace('-', " ") },
-        "defaultConfiguration": { "level": level(code.severity()) },
+        "defaultConfiguration": { "level": code.severity().name() },
     });
     let page = code.page(view.lang);
     rule["fullDescription"] = json!({ "text": description(page) });
@@ -103,7 +103,7 @@ fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
     let mut result = json!({
         "ruleId": diagnostic.code().to_string(),
         "ruleIndex": rules.binary_search(&diagnostic.code()).unwrap_or_default(),
-        "level": level(diagnostic.severity),
+        "level": diagnostic.severity.name(),
         "message": { "text": message(diagnostic, view) },
         "locations": location(diagnostic, view).map_or_else(Vec::new, |location| vec![location]),
         "relatedLocations": diagnostic.trace.iter().map(|step| json!({
@@ -168,11 +168,4 @@ fn encoded(name: &str) -> String {
         _ => format!("%{byte:02X}"),
     };
     name.bytes().map(encode).collect()
-}
-
-fn level(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    }
 }
