@@ -116,6 +116,13 @@ impl Context {
         }
     }
 
+    /// Shows findings and returns the exit status that they mean.
+    pub(crate) fn conclude(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
+        let findings = self.findings(diagnostics);
+        self.show(&findings);
+        if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    }
+
     /// Shows only some of the findings to users; reports contain all of them.
     pub(crate) fn show_some(&self, findings: &Findings, some: &Findings) {
         _ = self.output.take(findings, |stream| self.view(stream));

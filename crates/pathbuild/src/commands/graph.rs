@@ -59,9 +59,7 @@ fn finish(context: &Context, GraphOutcome { diagnostics, incomplete, .. }: Graph
             context.choose("pathbuild check shows them", "pathbuild check zeigt sie")
         ));
     }
-    let findings = context.findings(diagnostics);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(diagnostics)
 }
 
 fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &Words) -> String) {

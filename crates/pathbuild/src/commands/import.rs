@@ -30,9 +30,7 @@ pub fn run(context: &Context, args: &ImportArgs) -> ExitStatus {
             Err(problem) => diagnostics.push(*problem),
         }
     }
-    let findings = context.findings(diagnostics);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(diagnostics)
 }
 
 /// A program's summary, completed by the configuration.

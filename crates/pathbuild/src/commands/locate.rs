@@ -35,9 +35,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
             _ => context.printer.result_line(line(context, file.as_str(), &place)),
         }
     }
-    let findings = context.findings(problems);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(problems)
 }
 
 /// The definitions of each path. A path that is defined twice, which is an error, is listed at both places.

@@ -44,9 +44,7 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     {
         diagnostics.extend(problems);
     }
-    let findings = context.findings(diagnostics);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(diagnostics)
 }
 
 fn text(context: &Context, file: &Utf8Path) -> Result<String, Value> {

@@ -46,6 +46,15 @@ fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'s
     ("output", json!({ "file": context.file(file), "state": state }))
 }
 
+/// Adds a file that was written to the document. Returns its state for users.
+fn output_state(context: &Context, file: &Utf8Path, written: WriteOutcome) -> &'static str {
+    context.json_row(|| output_row(context, file, written));
+    match written {
+        WriteOutcome::Changed => context.choose("written", "geschrieben"),
+        WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
+    }
+}
+
 /// Runs a command.
 pub fn run(context: &Context, command: &Command) -> ExitStatus {
     if let Some(refusal) = format_refusal(context, command) {

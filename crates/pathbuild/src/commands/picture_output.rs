@@ -1,13 +1,12 @@
 //! Writes pictures and pages to a file, or shows them in the browser.
 
 use camino::Utf8Path;
-use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::{Diagnostic, Text, Value, shown};
 #[cfg(feature = "pictures")]
 use pathbuild_diagnostic::{Sentence, reasons::reason};
 use pathbuild_workspace::files::cannot_write;
 
-use super::output_row;
+use super::output_state;
 use crate::context::Context;
 
 /// Writes a file and reports it.
@@ -21,11 +20,7 @@ pub(super) fn deliver(
 ) -> Result<(), Box<Diagnostic>> {
     let written = bytes.and_then(|bytes| context.system.write(file, &bytes));
     let written = written.map_err(|reason| Box::new(cannot_write(file, reason)))?;
-    context.json_row(|| output_row(context, file, written));
-    let state = match written {
-        WriteOutcome::Changed => context.choose("written", "geschrieben"),
-        WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
-    };
+    let state = output_state(context, file, written);
     context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! `pathbuild post`: rewrites a program for another machine, and shows the built-in posts. (book: program/posts)
 
 use camino::Utf8Path;
-use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::adjust::first_open_formula;
@@ -20,7 +19,7 @@ use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::posting::{PostArguments, PostProcessor, complete_tools, run_post_build};
 use pathbuild_workspace::program::Program;
 
-use super::output_row;
+use super::output_state;
 
 /// Runs the command.
 pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
@@ -81,9 +80,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         context.show(&context.findings(diagnostics));
         return ExitStatus::Errors;
     }
-    let findings = context.findings(diagnostics);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(diagnostics)
 }
 
 /// Reads the program, writes it and reports that. Adds warnings to `diagnostics`; nothing is written if there are errors.
@@ -118,11 +115,7 @@ fn written(
         return Ok(());
     };
     let written = context.system.write(to, &output.text).map_err(|reason| vec![cannot_write(to, reason)])?;
-    let state = match written {
-        WriteOutcome::Changed => context.choose("written", "geschrieben"),
-        WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
-    };
-    context.json_row(|| output_row(context, to, written));
+    let state = output_state(context, to, written);
     context.printer.status(format_args!("{to}: {state}"));
     match &output.post_build {
         Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),

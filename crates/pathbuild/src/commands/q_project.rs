@@ -1,17 +1,18 @@
 //! `pathbuild q-project`: writes a drawing that embeds all paths of another drawing. (book: language/q-projects)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{WriteOutcome, spelt};
+use pathbuild_db::system::spelt;
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value};
 use pathbuild_draw::EmbeddingPath;
 use pathbuild_path::{PathName, QProject, q_project_name};
 
-use super::output_row;
+use super::output_state;
 use crate::args::QProjectArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::session::Session;
 
 /// Runs the command. Nothing is written if the drawing has errors, or if the resulting drawing would have any.
@@ -170,19 +171,8 @@ fn write(
     count: usize,
 ) -> ExitStatus {
     let state = match session.db().system().write(output, bytes) {
-        Ok(written) => {
-            context.json_row(|| output_row(context, output, written));
-            match written {
-                WriteOutcome::Changed => context.choose("written", "geschrieben"),
-                WriteOutcome::Unchanged => context.choose("unchanged", "unverändert"),
-            }
-        }
-        Err(reason) => {
-            let problem = Diagnostic::new(&files::CANNOT_WRITE)
-                .quoting("name", output.file_name().unwrap_or_default())
-                .with("reason", reason);
-            return context.fail(vec![problem.in_file(output)]);
-        }
+        Ok(written) => output_state(context, output, written),
+        Err(reason) => return context.fail(vec![cannot_write(output, reason)]),
     };
     let paths = match count {
         1 => context.choose("path", "Pfad"),

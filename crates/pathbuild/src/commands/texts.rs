@@ -40,9 +40,7 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
             OutputItem::Lines(lines) => context.printer.result(lines),
         }
     }
-    let findings = context.findings(problems);
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(problems)
 }
 
 /// A text, or the parameters of an element, ready to be printed.

@@ -39,9 +39,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
             _ => context.printer.result(answer.text(context)),
         }
     }
-    let findings = context.findings(session.with_hints(selection.problems));
-    context.show(&findings);
-    if findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+    context.conclude(session.with_hints(selection.problems))
 }
 
 /// State of a drawing's cached result.
