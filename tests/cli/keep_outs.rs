@@ -2,17 +2,13 @@
 
 use std::fs;
 
-use crate::support::{Place, Run};
+use crate::support::{Place, Run, dxf};
 
 const OPTIONS: &str =
     "feed = 150\nrapid = 1000\nsweep-height = 20\nkeep-out = 'clamps?'\nspindle = \"manual\"\n";
 
 /// A clamp of 20 mm from (20, 10) to (30, 20).
 const CLAMP: &str = "layer clamps\npolyline 20,10 30,10 30,20 20,20 closed\ntext 21,14 \"Z20\"\n";
-
-fn dxf(drawing: &str) -> Vec<u8> {
-    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
-}
 
 /// A path with these statements, starting at (0, 0) with O2 and S `sweep`, and a clamp.
 fn path(sweep: &str, statements: &str) -> String {

@@ -6,11 +6,7 @@ use std::fs;
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::support::{self, Place};
-
-fn dxf(drawing: &str) -> Vec<u8> {
-    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
-}
+use crate::support::{self, Place, dxf};
 
 /// A gap of 1 mm.
 const GAP: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 F150\"\nmill 0,0 20,0\nmill 21,0 40,0\nend 40,0\n";

@@ -5,17 +5,13 @@ use std::fs;
 use insta::assert_snapshot;
 use serde_json::Value;
 
-use crate::support::{self, Place};
+use crate::support::{self, Place, dxf};
 
 const OPTIONS: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
 /// Four lines around a rectangle of 40 by 20, and a hole.
 const DRAWING: &str = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B-0.2 MAl<3>&\"\nmill 0,0 40,0\nmill 40,0 40,20\n\
     mill 40,20 0,20\nmill 0,20 0,0\nend 0,0\n";
-
-fn dxf(drawing: &str) -> Vec<u8> {
-    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
-}
 
 fn place(options: &str) -> Place {
     Place::new().file("pathbuild.toml", format!("{OPTIONS}{options}")).file("1234.1P.dxf", dxf(DRAWING))

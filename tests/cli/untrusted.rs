@@ -10,9 +10,9 @@ use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;
 use tempfile::TempDir;
 
-const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
+pub(crate) const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
 
-fn dxf(name: &str) -> Vec<u8> {
+pub(crate) fn dxf(name: &str) -> Vec<u8> {
     let drawn = format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
     sheet(&drawn).unwrap().to_dxf()
 }

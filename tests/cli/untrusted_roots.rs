@@ -6,14 +6,7 @@ use std::os::unix::fs::symlink;
 use std::time::Duration;
 
 use crate::support::{Place, Run};
-use pathbuild_testkit::sheet;
-
-const CONFIGURATION: &str = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
-
-fn dxf(name: &str) -> Vec<u8> {
-    let drawn = format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0");
-    sheet(&drawn).unwrap().to_dxf()
-}
+use crate::untrusted::{CONFIGURATION, dxf};
 
 /// Two repositories, `one` and `two`, and a drawing outside of both, to which a link in `two` leads.
 fn trees() -> Place {

@@ -18,6 +18,11 @@ pub use said::Said;
 use tempfile::TempDir;
 use wait4::Wait4 as _;
 
+/// The DXF of a drawing in the text form of the test kit.
+pub fn dxf(drawing: &str) -> Vec<u8> {
+    pathbuild_testkit::sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}")).to_dxf()
+}
+
 /// A directory with files, in which the program runs.
 pub struct Place {
     directory: TempDir,
