@@ -195,7 +195,7 @@ impl<'s> PartCheck<'s> {
         let paths = self.cuts.paths.iter().zip(&self.contours).filter(|(_, is_contour)| **is_contour);
         let bars = paths.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)));
         let near_bars = bars.filter(|(bar, radius)| near(&bar.foot, *radius));
-        if !is_cut_out(self.part, &sweeps, near_bars) {
+        if !is_cut_out(self.part, &sweeps, &near_bars) {
             return None;
         }
         let outer = &self.part.part.rings[0].curves;

@@ -25,7 +25,7 @@ struct Sweep {
 pub(super) fn is_cut_out<'b>(
     part: &PreparedPart<'_>,
     cuts: &[(Curve, f64)],
-    bars: impl Iterator<Item = (&'b StandingBar, f64)> + Clone,
+    bars: &(impl Iterator<Item = (&'b StandingBar, f64)> + Clone),
 ) -> bool {
     let beside = || {
         let beside = bars.clone().flat_map(|(bar, radius)| beside_bar(bar, radius));

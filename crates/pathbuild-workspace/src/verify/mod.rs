@@ -18,8 +18,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, ChipLoadRules, DepthRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics, Stock,
-    WordRules, coarse_arcs, verify,
+    Against, ChipLoadRules, DepthRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics,
+    Stock, WordRules, coarse_arcs, verify,
 };
 use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
