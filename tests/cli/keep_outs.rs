@@ -95,6 +95,37 @@ fn holes_and_helical_circles_count() {
     assert_hits(&circle("17.01", "6"), "cut");
 }
 
+/// The probing program is checked like the milling program.
+#[test]
+fn probes_and_the_ways_between_them_count() {
+    let probes =
+        |sweep: &str, probes: &str| path(sweep, &format!("mill 0,0 0,2\nmill 0,2 50,2\n{probes}\nend 50,2"));
+    let assert_probing = |probes: &str, what: &[&str]| {
+        let place = place(probes);
+        assert_found(&place, &vec!["407"; what.len()]);
+        let run = place.run("check . --format concise");
+        for what in what {
+            assert!(run.stderr.contains("in the probing program") && run.stderr.contains(what), "{run}");
+        }
+    };
+    // (0, 0) to the probe is a rapid at S, which is above the clamp.
+    for beside in ["probe 19,15", "probe 25,9"] {
+        let place = place(&probes("21", beside));
+        assert_eq!(codes(&place.run("check . --format concise")), Vec::<String>::new(), "{beside}");
+    }
+    for inside in ["probe 19.01,15", "probe 25,9.01"] {
+        assert_probing(
+            &probes("21", inside),
+            &["probing move, lowest Z 0, moves: 1", "rapid move, lowest Z 7, moves: 2"],
+        );
+    }
+    // From probe to probe, and back.
+    let across = "probe 0,15\nprobe 40,15";
+    let place = place(&probes("20", across));
+    assert_eq!(codes(&place.run("check . --format concise")), Vec::<String>::new());
+    assert_probing(&probes("19.99", across), &["rapid move, lowest Z 19.99, moves: 1"; 2]);
+}
+
 /// One finding for each element, regardless of the number of passes.
 #[test]
 fn passes_are_counted() {

@@ -12,7 +12,7 @@ use rstar::primitives::GeomWithData;
 
 use crate::program::{
     Class, Comment, Count, ElementKind, FIRST_FEED, Height, LeftOut, Names, Occurrence, PlannedMove,
-    ProbePoint, Program, ProgramStep, StepOrigin, Trace,
+    ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace,
 };
 
 /// Provides the paths to be joined: the emitted path and all paths it embeds.
@@ -90,8 +90,12 @@ fn folded<P: Parts>(
     program.steps = fold.steps;
     program.names = fold.names;
     program.left_out = fold.left_out.into_values().collect();
-    program.probes = in_order(&fold.probes);
-    (program, fold.trace)
+    let order = in_order(&fold.probes);
+    program.probes = order.iter().map(|number| fold.probes[*number].clone()).collect();
+    let trace = fold
+        .trace
+        .map(|trace| Trace { probes: order.iter().map(|number| trace.probes[*number]).collect(), ..trace });
+    (program, trace)
 }
 
 /// Maximum number of steps for which memory is reserved in advance. Beyond that, growing is cheap compared with computing the steps.
@@ -167,6 +171,10 @@ impl<'a, P: Parts> Fold<'a, P> {
             feed: probe.feed.unwrap_or(probe_feed),
             label: probe.label.clone(),
         }));
+        if let Some(trace) = &mut self.trace {
+            let occurrence = self.here.occurrence;
+            trace.probes.extend((0..path.probes.len()).map(|probe| ProbeOrigin { occurrence, probe }));
+        }
         let origin = |segment: usize| path.origin(&path.segments[segment]);
         let walked = self.parts.walked(id);
         for item in &walked.items {
@@ -383,14 +391,15 @@ pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
 /// Distances in the tree with a smaller relative difference are considered equal and compared exactly.
 const ROUNDING: f64 = 1e-12;
 
-/// Starts at (0, 0) and repeatedly goes to the nearest probe not yet visited; the first of these if there are several.
-fn in_order(found: &[ProbePoint]) -> Vec<ProbePoint> {
+/// Starts at (0, 0) and repeatedly goes to the nearest probe not yet visited; the first of these if there are several. Returns the indices
+/// of the probes.
+fn in_order(found: &[ProbePoint]) -> Vec<usize> {
     let mut waiting = Waiting::new(found);
     let mut at = Xy::origin();
     let next = || {
-        let probe = &found[waiting.take_nearest(at)?];
-        at = probe.at;
-        Some(probe.clone())
+        let number = waiting.take_nearest(at)?;
+        at = found[number].at;
+        Some(number)
     };
     std::iter::from_fn(next).collect()
 }
@@ -458,7 +467,9 @@ mod tests {
         for points in [grid.collect::<Vec<_>>(), anywhere.collect(), one_place.collect(), Vec::new()] {
             let probes: Vec<ProbePoint> =
                 points.into_iter().enumerate().map(|(number, at)| probe(at, number)).collect();
-            assert_eq!(in_order(&probes), one_by_one(probes.clone()));
+            let ordered: Vec<ProbePoint> =
+                in_order(&probes).into_iter().map(|number| probes[number].clone()).collect();
+            assert_eq!(ordered, one_by_one(probes));
         }
     }
 }

@@ -22,6 +22,23 @@ impl Program {
             None => Some((number, tool.lift(height))),
         })
     }
+
+    /// The moves of the probing program, each with the index of the probe that it goes to or comes from. Empty without probes.
+    pub fn probing_moves(&self) -> impl Iterator<Item = (usize, Move)> {
+        let clearance = self.sweep_height;
+        let mut tool = ToolTip::new(clearance);
+        let last = self.probes.len().checked_sub(1);
+        let mut moves = Vec::with_capacity(4 * self.probes.len() + 1);
+        for (number, probe) in self.probes.iter().enumerate() {
+            moves.push((number, tool.straight(place(probe.at, clearance), Pace::Rapid)));
+            moves.push((number, tool.lift(probe.height + self.tool)));
+            let pace = Pace::Probe { feed: probe.feed, toward: true, must_answer: !self.compatible };
+            moves.push((number, tool.straight(tool.at_height(0.0), pace)));
+            moves.push((number, tool.lift(clearance)));
+        }
+        moves.extend(last.map(|number| (number, tool.straight(place(Xy::origin(), clearance), Pace::Rapid))));
+        moves.into_iter()
+    }
 }
 
 /// The tool tip on its way along the steps of a program.

@@ -234,6 +234,8 @@ pub struct Trace<Id> {
     pub occurrences: Vec<Occurrence<Id>>,
     /// The element of each step of the program.
     pub steps: Vec<StepOrigin>,
+    /// The origin of each of [`Program::probes`].
+    pub probes: Vec<ProbeOrigin>,
 }
 
 /// A path at its place in a program.
@@ -260,9 +262,18 @@ pub struct StepOrigin {
     pub element: Option<u32>,
 }
 
+/// A Z-probe in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ProbeOrigin {
+    /// Index into [`Trace::occurrences`].
+    pub occurrence: u32,
+    /// Index into [`Path::probes`] of its path.
+    pub probe: usize,
+}
+
 impl<Id> Default for Trace<Id> {
     fn default() -> Self {
-        Self { occurrences: Vec::new(), steps: Vec::new() }
+        Self { occurrences: Vec::new(), steps: Vec::new(), probes: Vec::new() }
     }
 }
 

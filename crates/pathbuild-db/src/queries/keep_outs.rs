@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Number, Point, Text};
 use pathbuild_path::{Curve, KeepOut, KeepOutMap};
-use pathbuild_toolpath::{kind_of_move, way};
+use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, way};
 use rustc_hash::FxHashSet;
 
 use super::programs::Occurrences;
@@ -84,6 +84,8 @@ struct Entry {
     occurrence: u32,
     /// The element in that path.
     element: Option<u32>,
+    /// The probe, if the probing program makes the moves.
+    probe: Option<ProbeOrigin>,
     what: &'static str,
 }
 
@@ -105,13 +107,20 @@ impl<'t> Search<'t> {
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
         let mut entries: BTreeMap<Entry, Extent> = BTreeMap::new();
-        for (number, it) in program.moves() {
-            // The last lift belongs to no step.
-            let (Some(step), Some(way)) = (trace.steps.get(number as usize - 1), way(&it)) else { continue };
+        // The last lift belongs to no step.
+        let milling = program
+            .moves()
+            .filter_map(|(number, it)| Some((*trace.steps.get(number as usize - 1)?, None, it)));
+        let probing = program.probing_moves().map(|(number, it)| {
+            let probe = trace.probes[number];
+            (StepOrigin { occurrence: probe.occurrence, element: None }, Some(probe), it)
+        });
+        for (step, probe, it) in milling.chain(probing) {
+            let Some(way) = way(&it) else { continue };
             let what = kind_of_move(&it);
             for clamp in map.entered(&way, radius, 0.0) {
-                let (occurrence, element) = self.occurrences().common(*step, self.clamps[clamp].occurrence);
-                let entry = Entry { clamp, occurrence, element, what: what.en };
+                let (occurrence, element) = self.occurrences().common(step, self.clamps[clamp].occurrence);
+                let entry = Entry { clamp, occurrence, element, probe, what: what.en };
                 let extent = entries.entry(entry).or_insert(Extent { what, moves: 0, lowest: f64::INFINITY });
                 extent.moves += 1;
                 extent.lowest = extent.lowest.min(way.lowest());
@@ -124,7 +133,11 @@ impl<'t> Search<'t> {
         let TracedProgram { program, trace, .. } = self.traced;
         let around = &trace.occurrences[entry.occurrence as usize];
         let clamp = &self.clamps[entry.clamp];
-        let found = Diagnostic::new(&messages::MOVES_INTO_CLAMP)
+        let message = match entry.probe {
+            Some(_) => &messages::PROBING_INTO_CLAMP,
+            None => &messages::MOVES_INTO_CLAMP,
+        };
+        let found = Diagnostic::new(message)
             .with("tool", program.largest_cutter())
             .quoting("layer", clamp.drawn.layer.as_str())
             .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
@@ -132,7 +145,13 @@ impl<'t> Search<'t> {
             .with("what", extent.what)
             .with("z", extent.lowest - around.raised)
             .with("count", extent.moves);
-        self.occurrences().at_element(entry.occurrence, entry.element, found)
+        let all = self.occurrences();
+        match entry.probe.filter(|probe| probe.occurrence == entry.occurrence) {
+            Some(ProbeOrigin { occurrence, probe }) => {
+                all.at_origin(occurrence, &all.part(occurrence).path.probes[probe].origin, found)
+            }
+            None => all.at_element(entry.occurrence, entry.element, found),
+        }
     }
 
     fn occurrences(&self) -> Occurrences<'t> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pathbuild_diagnostic::{Diagnostic, TraceStep};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
-    Bindings, ElementParameters, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath,
+    Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath,
     parameters_in_force,
 };
 use pathbuild_toolpath::{Occurrence, Parts, Program, StepOrigin, Trace, fold_traced};
@@ -78,7 +78,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
         let Occurrence { parent, placement, raised, sweep_height, .. } = occurrence;
         Occurrence { id, parent, placement, raised, sweep_height }
     });
-    let trace = Trace { occurrences: occurrences.collect(), steps: trace.steps };
+    let trace = Trace { occurrences: occurrences.collect(), steps: trace.steps, probes: trace.probes };
     let part = |instance: Instance<'_>| {
         let path = path(db, instance).path.clone()?;
         Some(Part { file: instance.file(db), path, bindings: instance.bindings(db).clone() })
@@ -178,12 +178,22 @@ impl<'t> Occurrences<'t> {
 
     /// Places a finding at an element of a path, or at the path's start.
     pub(super) fn at_element(self, occurrence: u32, element: Option<u32>, found: Diagnostic) -> Diagnostic {
-        let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
+        let path = &self.part(occurrence).path;
+        let element = element.and_then(|element| path.drawn.elements.get(element as usize));
+        let origin = element.map_or(path.start_origin.clone(), |element| path.drawn.origin(element));
+        self.at_origin(occurrence, &origin, found)
+    }
+
+    /// Places a finding at something drawn in a path.
+    pub(super) fn at_origin(self, occurrence: u32, origin: &Origin, found: Diagnostic) -> Diagnostic {
+        let part = self.part(occurrence);
         let found = found.in_file(part.file.path(self.db)).in_path(part.path.name.as_str());
-        let element = element.and_then(|element| part.path.drawn.elements.get(element as usize));
-        let origin =
-            element.map_or(part.path.start_origin.clone(), |element| part.path.drawn.origin(element));
         Diagnostic { trace: self.embeddings_leading_to(occurrence), ..origin.at(found) }
+    }
+
+    /// The path of an occurrence.
+    pub(super) fn part(self, occurrence: u32) -> &'t Part {
+        &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id]
     }
 
     /// The embeddings that lead to a path, outermost first.

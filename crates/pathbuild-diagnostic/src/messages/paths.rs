@@ -126,6 +126,13 @@ messages! {
         help_en: "raise S to {height} or more (rapids at S are straight), keep cuts at least half of O away from the outline, or move the clamp",
         help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade), Schnitte mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen",
     }
+    /// A probing program that moves into a clamp, reported at the probe.
+    PROBING_INTO_CLAMP: InsideKeepOut {
+        en: "in the probing program the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "im Antastprogramm trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        help_en: "draw the probe at least half of O away from the outline, or move the clamp; for the straight rapids at S from probe to probe, raise S to {height} or more",
+        help_de: "die Probe mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen; für die geraden Eilgänge auf S von Probe zu Probe S auf {height} oder mehr erhöhen",
+    }
     /// A G-code program that moves into a clamp, reported at its line.
     LINE_INTO_CLAMP: InsideKeepOut {
         en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
