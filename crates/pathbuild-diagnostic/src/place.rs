@@ -91,6 +91,7 @@ entities! {
     Spline "SPLINE",
     Insert "INSERT",
     ;
+    AttDef "ATTDEF",
     Attrib "ATTRIB",
     Body "BODY",
     Face "3DFACE",

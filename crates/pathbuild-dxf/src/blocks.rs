@@ -41,7 +41,12 @@ struct Block<'a> {
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
     layers: LayersOf,
+    /// Whether it stands for the content of another file.
+    is_reference: bool,
 }
+
+/// The flags of a block that stands for another file: an external reference, attached or overlaid.
+const REFERENCE: i64 = 4 | 8;
 
 /// The layers used by the contents of a block.
 #[derive(Clone, Default)]
@@ -56,6 +61,10 @@ enum LayersOf {
 }
 
 impl<'a> Block<'a> {
+    fn is_missing_reference(&self) -> bool {
+        self.is_reference && self.head.is("ENDBLK")
+    }
+
     fn records(&self) -> Records<'a> {
         Records { groups: Groups::new(self.pairs), head: self.head }
     }
@@ -84,9 +93,9 @@ impl<'a> Blocks<'a> {
         Ok(blocks)
     }
 
-    /// Finds a block by name, ignoring case.
+    /// Finds a block by name, ignoring case. An external reference that the file does not contain is no block.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
-        self.by_name.get(&folded(name)).copied()
+        self.by_name.get(&folded(name)).copied().filter(|block| !self.all[block.0].is_missing_reference())
     }
 
     /// The base point of a block.
@@ -213,6 +222,7 @@ impl<'a> Blocks<'a> {
             head,
             items: None,
             layers: LayersOf::Unknown,
+            is_reference: fields.whole(70).is_ok_and(|flags| flags.is_some_and(|bits| bits & REFERENCE != 0)),
         });
     }
 }

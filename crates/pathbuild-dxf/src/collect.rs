@@ -8,7 +8,9 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
-use pathbuild_diagnostic::messages::drawing::{BLOCK_NESTED, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE};
+use pathbuild_diagnostic::messages::drawing::{
+    BLOCK_NESTED, INSERTED_FROZEN, INVISIBLE, NOT_COMPATIBLE, TILTED, TOO_LARGE,
+};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Point, Value};
 use smol_str::SmolStr;
 
@@ -26,6 +28,8 @@ pub(crate) struct Collector<'d> {
     layers: BTreeMap<SmolStr, u32>,
     /// Layers with at least one invisible entity.
     with_invisible: BTreeSet<u32>,
+    /// Layers with at least one entity in a block that is inserted on a frozen layer.
+    with_frozen: BTreeSet<u32>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
     /// Lines of broken entities with the layers on which they were reported.
@@ -67,6 +71,8 @@ pub(crate) struct Placed<'p> {
     /// The place of the outermost insertion that brings it, or its own.
     pub(crate) origin: Origin,
     pub(crate) is_invisible: bool,
+    /// The frozen layer that the block with it is inserted on.
+    pub(crate) frozen: Option<&'p SmolStr>,
     pub(crate) placement: Option<&'p Placement>,
 }
 
@@ -88,6 +94,7 @@ impl<'d> Collector<'d> {
             drawing,
             layers: BTreeMap::new(),
             with_invisible: BTreeSet::new(),
+            with_frozen: BTreeSet::new(),
             last: None,
             faulty: HashSet::new(),
             groups: 0,
@@ -106,6 +113,9 @@ impl<'d> Collector<'d> {
         let layer = self.layer(placed);
         if placed.is_invisible {
             self.note_invisible(placed, layer);
+        }
+        if let Some(frozen) = placed.frozen.filter(|_| !placed.layer.hidden) {
+            self.note_frozen(placed, layer, frozen);
         }
         match shape {
             Ok(Shape::Plain(mut geometry)) => {
@@ -220,6 +230,14 @@ impl<'d> Collector<'d> {
         if self.with_invisible.insert(layer) {
             let diagnostic = Diagnostic::new(&INVISIBLE).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
+            self.drawing.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn note_frozen(&mut self, placed: &Placed<'_>, layer: u32, frozen: &str) {
+        if self.with_frozen.insert(layer) {
+            let diagnostic = Diagnostic::new(&INSERTED_FROZEN).quoting("entity", placed.kind.name());
+            let diagnostic = self.located(diagnostic.quoting("layer", frozen), placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
     }

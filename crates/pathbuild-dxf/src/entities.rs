@@ -84,7 +84,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                Some(kind) if !kind.is_part() => {
+                Some(kind) if !kind.is_part() && !(space == Space::Block && kind.is_template()) => {
                     if let Some(item) = self.item(records, kind, space)? {
                         return Ok(Some(item));
                     }
@@ -106,7 +106,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(Some(layers)),
                 None => records.skip()?,
-                Some(kind) if kind.is_part() => records.skip()?,
+                Some(kind) if kind.is_part() || kind.is_template() => records.skip()?,
                 Some(RecordKind::Insert | RecordKind::Text | RecordKind::MText) => return Ok(None),
                 Some(kind) => {
                     let layer = self.traits(records, kind, Space::Block)?.map(|traits| traits.layer);
@@ -318,10 +318,9 @@ pub(crate) enum RecordKind {
 }
 
 /// Records that only annotate a drawing. They may lie on the layer of a path, since they are clearly not to be milled.
-const ANNOTATIONS: [&str; 20] = [
+const ANNOTATIONS: [&str; 19] = [
     "ACAD_TABLE",
     "ARC_DIMENSION",
-    "ATTDEF",
     "DGNUNDERLAY",
     "DIMENSION",
     "DWFUNDERLAY",
@@ -376,6 +375,11 @@ impl RecordKind {
     /// Whether it belongs to a POLYLINE.
     fn is_part(self) -> bool {
         matches!(self, Self::Vertex | Self::SequenceEnd)
+    }
+
+    /// Whether it draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
+    fn is_template(self) -> bool {
+        self == Self::Foreign(EntityKind::AttDef)
     }
 
     /// Bit mask of the codes below 80 that this kind repeats.

@@ -51,6 +51,8 @@ pub(crate) struct UsedLayer {
     pub(crate) line_type: SmolStr,
     /// Whether the layer is frozen or off.
     pub(crate) hidden: bool,
+    /// Whether it is frozen: then blocks inserted on it are invisible as a whole.
+    pub(crate) is_frozen: bool,
 }
 
 /// Number of layers to reserve room for.
@@ -149,6 +151,7 @@ impl UsedLayer {
             folded: folded(name),
             line_type: line_type.unwrap_or(CONTINUOUS),
             hidden: record.as_ref().is_some_and(LayerRecord::is_hidden),
+            is_frozen: record.as_ref().is_some_and(LayerRecord::is_frozen),
         })
     }
 }
@@ -258,7 +261,11 @@ impl LayerRecord<'_> {
     /// Whether the layer is frozen or off.
     fn is_hidden(&self) -> bool {
         let is_off = self.colour.is_some_and(|colour| real(colour).is_ok_and(|number| number < 0.0));
-        is_off || self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0))
+        is_off || self.is_frozen()
+    }
+
+    fn is_frozen(&self) -> bool {
+        self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0))
     }
 }
 

@@ -36,6 +36,8 @@ struct EntityContext {
     placement: Option<Placement>,
     insertion: Option<Insertion>,
     is_invisible: bool,
+    /// The frozen layer of an insertion.
+    frozen: Option<SmolStr>,
 }
 
 /// What the contents of a block inherit from their insertion.
@@ -66,7 +68,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         records: &mut Records<'a>,
         placement: Option<Placement>,
     ) -> Result<(), Fatal> {
-        let around = EntityContext { placement, insertion: None, is_invisible: false };
+        let around = EntityContext { placement, insertion: None, is_invisible: false, frozen: None };
         while let Some(item) =
             self.reader.next_item(records, Space::Model).map_err(|stop| stopped(stop, "ENTITIES"))?
         {
@@ -141,8 +143,9 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     ) -> Result<(), Fatal> {
         let placed = placed(self.reader, traits, layer, around)?;
         let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
-        let mut inside =
-            EntityContext { placement: None, insertion: Some(insertion), is_invisible: placed.is_invisible };
+        let frozen = placed.frozen.or(placed.layer.is_frozen.then_some(&placed.layer.name)).cloned();
+        let is_invisible = placed.is_invisible;
+        let mut inside = EntityContext { placement: None, insertion: Some(insertion), is_invisible, frozen };
         let items = self.blocks.items(block, self.reader)?;
         self.open.push(block);
         for copy in copies {
@@ -198,6 +201,7 @@ fn placed<'p>(
         own: traits.origin,
         origin: insertion.map_or(traits.origin, |insertion| insertion.origin),
         is_invisible: traits.is_invisible || around.is_invisible,
+        frozen: around.frozen.as_ref(),
         placement: around.placement.as_ref(),
     })
 }

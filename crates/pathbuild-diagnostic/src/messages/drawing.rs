@@ -196,6 +196,20 @@ messages! {
         help_en: "delete one of the two",
         help_de: "einen der beiden löschen",
     }
+    /// A milled line or arc on another one.
+    CURVE_TWICE: LeftoverElement {
+        en: "{element} at {point} is drawn twice: it is milled twice, and a text belongs to one of the two only",
+        de: "{element} bei {point} ist doppelt gezeichnet: es wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
+        help_en: "delete one of the two; if the tool is to come back along it, draw a turn marker at its end (a PHANTOM circle of 1.5 mm)",
+        help_de: "eines der beiden löschen; soll der Fräser darauf zurückkommen, am Ende eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
+    }
+    /// A milled line or arc that is far shorter than the cutter is wide.
+    CUT_HARDLY_LONG: LeftoverElement {
+        en: "{element} here is only {length} mm long: the cutter plunges here, and mills hardly anything",
+        de: "hier ist {element} nur {length} mm lang: der Fräser taucht hier ein und fräst fast nichts",
+        help_en: "delete it, and join its neighbours; otherwise the depth of its own text or of the path applies here",
+        help_de: "löschen und die Nachbarn verbinden; sonst gilt hier die Tiefe des eigenen Textes oder des Pfads",
+    }
     /// An element outside of the XY plane.
     OFF_PLANE: OffPlane {
         en: "the element is not in the plane: Z is {z} mm; elements outside of the plane: {count}",
@@ -461,5 +475,12 @@ messages! {
         de: "{entity} ist als unsichtbar markiert, gilt aber trotzdem",
         help_en: "show all hidden objects in the CAD and delete what is not meant to be milled",
         help_de: "im CAD alle verborgenen Objekte anzeigen und löschen, was nicht gefräst werden soll",
+    }
+    /// An entity in a block that is inserted on a frozen layer.
+    INSERTED_FROZEN: LayerNotVisible {
+        en: "{entity} is in a block that is inserted on layer {layer}, which is frozen, but is used nevertheless",
+        de: "{entity} gehört zu einem Block, der auf dem gefrorenen Layer {layer} eingefügt ist, gilt aber trotzdem",
+        help_en: "thaw the layer, or delete the insertion if it is not meant to be milled",
+        help_de: "den Layer auftauen oder die Einfügung löschen, wenn sie nicht gefräst werden soll",
     }
 }

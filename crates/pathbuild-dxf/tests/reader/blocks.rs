@@ -367,3 +367,38 @@ fn a_section_of_blocks_may_begin_with_a_layer() {
     let drawing = read(text.concat().as_bytes(), &Options { keep_layer: &|layer| layer == "A", ..options() });
     assert!(drawing.entities.is_empty() && drawing.diagnostics.is_empty(), "{drawing:?}");
 }
+
+/// A CAD program writes an external reference as an empty block with a flag.
+#[test]
+fn an_empty_external_reference_is_missing() {
+    let left_out = |flags: &str, content: &str| {
+        let block = block("X", "", content).replace("70 0", flags);
+        let drawing = drawing(&block, "0 INSERT\n8 P\n2 X\n10 0\n20 0");
+        drawing.left_out.iter().map(|it| it.diagnostic.text(Lang::En)).collect::<Vec<_>>()
+    };
+    for flags in ["70 4", "70 12", "70 36", "70 8"] {
+        assert_eq!(left_out(flags, ""), ["block X is left out: the file does not contain it"], "{flags}");
+        assert_eq!(left_out(flags, LINE), [""; 0], "{flags}");
+    }
+    assert_eq!(left_out("70 0", ""), [""; 0], "an empty block");
+    assert_eq!(left_out("70 2", ""), [""; 0]);
+}
+
+/// A block draws nothing in the CAD where the layer of its insertion is frozen.
+#[test]
+fn a_block_inserted_on_a_frozen_layer_is_told() {
+    let layers =
+        |flags: &str| format!("0 TABLE\n2 LAYER\n0 LAYER\n2 P\n6 DASHED\n0 LAYER\n2 X\n{flags}\n0 ENDTAB");
+    let found = |flags: &str| {
+        let drawing =
+            read_all(file("", &layers(flags), &block("B", "", LINE), "0 INSERT\n8 X\n2 B\n10 0\n20 0"));
+        assert_eq!(drawing.entities.len(), 1);
+        drawing.diagnostics.iter().map(|it| it.text(Lang::En)).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        found("70 1"),
+        ["LINE is in a block that is inserted on layer X, which is frozen, but is used nevertheless"]
+    );
+    assert_eq!(found("70 0"), [""; 0]);
+    assert_eq!(found("70 0\n62 -7"), [""; 0], "off: what lies on other layers stays visible");
+}

@@ -156,11 +156,21 @@ fn what_no_path_consists_of_is_left_out_with_its_name() {
     }
 }
 
+/// In a block it is only a template: each insertion has an ATTRIB instead.
+#[test]
+fn an_attribute_definition_is_left_out_where_it_is_visible() {
+    let record = "0 ATTDEF\n8 P\n10 7\n20 8\n1 B2\n2 DEPTH\n";
+    let drawing = read_all(entities(record));
+    let [left_out] = &drawing.left_out[..] else { panic!("{drawing:?}") };
+    assert_eq!(left_out.kind, EntityKind::AttDef);
+    let in_block = format!("0 BLOCK\n2 B\n10 1\n20 0\n{record}0 ENDBLK");
+    let drawing = read_all(file("", "", &in_block, "0 INSERT\n8 P\n2 B\n10 0\n20 0"));
+    assert_eq!(drawing.left_out, []);
+}
+
 #[test]
 fn annotations_are_passed_over() {
-    for name in
-        ["HATCH", "DIMENSION", "ARC_DIMENSION", "LEADER", "MULTILEADER", "point", "ATTDEF", "VIEWPORT"]
-    {
+    for name in ["HATCH", "DIMENSION", "ARC_DIMENSION", "LEADER", "MULTILEADER", "point", "VIEWPORT"] {
         let drawing = read_all(entities(&format!("0 {name}\n8 P\n10 x\n1 y")));
         assert_eq!(drawing, pathbuild_dxf::Drawing::default(), "{name}");
     }
