@@ -115,7 +115,7 @@ codes! {
     118 NearlyDrilled "nearly-drilled" Warning "a circle only slightly larger than the cutter";
     119 TextOnOtherLayer "text-on-other-layer" Warning "a parameter text on a layer that is not a path layer";
     120 NearlyPathLayer "nearly-path-layer" Warning "a layer whose name resembles that of a path layer";
-    121 LeftoverElement "leftover-element" Warning "a line without length, or a circle on another one";
+    121 LeftoverElement "leftover-element" Warning "a line or arc of almost no length, or an element on another one";
     201 MissingParameter "missing-parameter" Error "a required parameter that is neither specified nor inherited";
     202 UnknownParameter "unknown-parameter" Error "a letter that has no meaning for this element";
     203 ParameterOutOfRange "parameter-out-of-range" Error "a value outside its limits";

@@ -90,6 +90,20 @@ impl Curve {
         }
     }
 
+    /// The area in mm² between a point and the curve, positive if the curve runs counterclockwise around the point. The sum over a closed
+    /// sequence of curves is its area.
+    pub(crate) fn area_from(&self, point: Xy) -> f64 {
+        let triangle = (self.start() - point).perp(&(self.end() - point)) / 2.0;
+        match self {
+            Self::Line(_) => triangle,
+            Self::Arc(arc) => {
+                let angle = arc.degrees.to_radians();
+                let segment = arc.radius * arc.radius * (angle - libm::sin(angle)) / 2.0;
+                triangle + if arc.clockwise { -segment } else { segment }
+            }
+        }
+    }
+
     /// The section between two distances from the start, in mm along the curve.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {

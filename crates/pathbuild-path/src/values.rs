@@ -334,6 +334,21 @@ pub(crate) fn check_mark(
 /// A usual depth of a mark in mm, for help.
 const SHALLOW: f64 = 0.2;
 
+/// Thickness in mm below which a support bar holds nothing, in material of twice that thickness or more.
+const THINNEST_BAR: f64 = 0.1;
+
+/// The finding about support bars with this upper edge in mm. `is_path`: whether that is the path's D rather than their own.
+pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option<(Diagnostic, bool)> {
+    let thickness = path.number(Letter::T).number()?;
+    if !above(THINNEST_BAR.min(thickness / 2.0), top) {
+        return None;
+    }
+    let problem = Diagnostic::new(&messages::THIN_BARS).with("value", top);
+    let is_own = own.has(Letter::D);
+    let says = if is_own { own } else { path };
+    Some((says.underline(Letter::D, problem), !is_own))
+}
+
 /// Findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
 pub(crate) fn check_doubts(
     own: &Values<'_>,

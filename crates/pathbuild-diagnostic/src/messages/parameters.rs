@@ -141,6 +141,13 @@ messages! {
         help_en: "W is the height of the first pass above the plate: write W{example} for a first pass of one infeed",
         help_de: "W ist die Höhe des ersten Durchgangs über der Platte: W{example} schreiben, wenn er eine Zustellung tief sein soll",
     }
+    /// Support bars that end at the plate or below.
+    THIN_BARS: DoubtfulValue {
+        en: "D is {value}: the support bars end at that height above the plate, and hold nothing",
+        de: "D ist {value}: die Stützstege enden in dieser Höhe über der Platte und halten nichts",
+        help_en: "D is the upper edge of the bars, measured from the plate upwards: write their thickness, for example D1",
+        help_de: "D ist die Oberkante der Stege, von der Platte nach oben gemessen: ihre Dicke schreiben, zum Beispiel D1",
+    }
     /// Parameters of support bars without any support segment.
     LOST_BARS: LostBars {
         en: "nothing holds the part inside this outline: the path has {letters} for support bars, but no line with line type BORDER or CENTER",

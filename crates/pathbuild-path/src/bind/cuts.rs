@@ -10,6 +10,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, Helix, Hole, SegmentKind};
 use crate::text::TextId;
+use crate::values::check_bar;
 
 impl Binder<'_> {
     /// Adds the cut of a segment in a milling chain. Returns its order at a star, and its index among the path's cuts.
@@ -60,6 +61,7 @@ impl Binder<'_> {
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
+        self.note_thin_bars(scope, bars.top);
         let (tool, count) = (tool?, bars.count(length));
         let gap = length / count - bars.length;
         if count > 0.0 && !at_least(gap, tool) {
@@ -70,6 +72,17 @@ impl Binder<'_> {
             self.report(scope.at, problem);
         }
         Some(bars)
+    }
+
+    /// PB211 for bars that are next to nothing above the plate; of those with the path's D only the first.
+    fn note_thin_bars(&mut self, scope: &Scope<'_>, top: f64) {
+        let Some((problem, is_path)) = check_bar(top, scope.values, &self.values) else { return };
+        if !is_path {
+            self.report(scope.at, problem);
+        } else if !self.has_thin_bars {
+            self.has_thin_bars = true;
+            self.report_at_start(problem);
+        }
     }
 
     fn note_gap(&mut self, scope: &Scope<'_>, bars: &Bars, length: f64) {

@@ -15,7 +15,7 @@ use smol_str::SmolStr;
 use crate::approx::above;
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape};
-use crate::geometry::Curve;
+use crate::geometry::{Curve, Line};
 use crate::language::Language;
 use crate::letter::{ElementClass, Letter, Letters, Use};
 use crate::path::{
@@ -70,6 +70,7 @@ struct Binder<'a> {
     by_text: HashMap<TextId, Vec<usize>>,
     /// Whether the path's D was reported as doubtful for marks.
     has_doubtful_marks: bool,
+    has_thin_bars: bool,
     /// Whether any segment with support bars has a gap between them.
     has_gap: bool,
     /// The finding about the first segment without a gap.
@@ -130,6 +131,7 @@ impl<'a> Binder<'a> {
             problems: Vec::new(),
             by_text: HashMap::new(),
             has_doubtful_marks: false,
+            has_thin_bars: false,
             has_gap: false,
             gapless: None,
             unknown: UnknownValues::default(),
@@ -146,7 +148,7 @@ impl<'a> Binder<'a> {
         // Short edges of rounded corners stand between longer sides with gaps. U is doubtful only if no segment has a gap.
         let gapless = self.gapless.take().filter(|_| !self.has_gap);
         self.problems.extend(gapless);
-        self.check_habits();
+        self.check_habits(tool);
         let turns = self.raw.turns.iter();
         let start = self.marker(self.raw.start.as_ref())?;
         let end = self.marker(self.raw.end.as_ref())?;
@@ -517,12 +519,27 @@ fn pushed<T>(list: &mut Vec<T>, thing: T) -> u32 {
     u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
 }
 
+/// Whether a cutter of this diameter closes the gap between the ends of an outline, and leaves something standing inside: its area is
+/// larger than what the cutter mills of it.
+fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
+    let ([first, ..], [.., last]) = (outline, outline) else { return false };
+    let gap = Curve::Line(Line { start: last.end(), end: first.start() });
+    let ring = || outline.iter().chain([&gap]);
+    let perimeter: f64 = ring().map(Curve::length).sum();
+    let area: f64 = ring().map(|curve| curve.area_from(first.start())).sum();
+    above(tool, gap.length()) && above(area.abs(), perimeter * tool / 2.0)
+}
+
+/// Diameter, in diameters of the cutter, above which a circle is taken for the rim of a part: the core that is left in it is wider than the
+/// cutter.
+const RIM: f64 = 3.0;
+
 /// The letters that only apply to support bars.
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
 impl Binder<'_> {
     /// Reports W of a path without a chain, and missing support bars of an outline.
-    fn check_habits(&mut self) {
+    fn check_habits(&mut self, tool: Option<f64>) {
         let is_chain =
             |element: &Element| matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)));
         if self.values.has(Letter::W) && !self.raw.drawn.elements.iter().any(is_chain) {
@@ -531,12 +548,12 @@ impl Binder<'_> {
             self.report_at_start(self.values.underline(Letter::W, problem));
         }
         if BAR_LETTERS.into_iter().any(|letter| self.values.has(letter)) {
-            self.check_bars();
+            self.check_bars(tool);
         }
     }
 
     /// PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose.
-    fn check_bars(&mut self) {
+    fn check_bars(&mut self, tool: Option<f64>) {
         let elements = &self.raw.drawn.elements;
         if elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {
             return;
@@ -551,9 +568,18 @@ impl Binder<'_> {
         let parts: Vec<Part> = outline.map(part).collect();
         let closed = rings(&parts).into_iter().find_map(|ring| match ring {
             Ring::Closed(parts) => parts.iter().map(|part| part.entity).min(),
+            Ring::Open { part, curves } if tool.is_some_and(|tool| is_closed_by(tool, &curves)) => {
+                Some(part.entity)
+            }
             Ring::Open { .. } | Ring::Branch { .. } => None,
         });
-        let Some(first) = closed else { return };
+        let rims = self.segments.iter().filter_map(|segment| {
+            let SegmentKind::Helix(helix) = segment.kind else { return None };
+            let helix = &self.helices[helix as usize];
+            let is_rim = tool.is_some_and(|tool| above(helix.radius, RIM * tool / 2.0));
+            (is_rim && !above(helix.bottom, 0.0)).then_some(segment.element as usize)
+        });
+        let Some(first) = closed.or_else(|| rims.min()) else { return };
         let letters = BAR_LETTERS.into_iter().filter(|letter| self.values.has(*letter));
         let letters: Value = letters.map(|letter| letter.as_char().to_string()).collect();
         let problem = Diagnostic::new(&messages::LOST_BARS).with("letters", letters);

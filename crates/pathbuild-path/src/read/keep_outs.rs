@@ -157,7 +157,11 @@ impl Reading<'_> {
                     entity: ring[0].entity,
                     outline: ring.iter().map(|part| part.curve).collect(),
                 }),
-                Ring::Open { part, end, other } => self.report_open(&part, end, other),
+                Ring::Open { part, curves } => {
+                    if let ([first, ..], [.., last]) = (&curves[..], &curves[..]) {
+                        self.report_open(&part, last.end(), first.start());
+                    }
+                }
                 Ring::Branch { part, at } if branches.insert(shown(at)) => {
                     let problem = Diagnostic::new(&messages::OUTLINE_BRANCHES).with("point", shown(at));
                     let problem = self.at(part.entity, at, problem);
@@ -283,8 +287,8 @@ pub(crate) struct Part {
 pub(crate) enum Ring {
     /// A closed sequence of curves.
     Closed(Vec<Part>),
-    /// An open sequence of curves, with both ends.
-    Open { part: Part, end: Xy, other: Xy },
+    /// An open sequence of curves, from one end to the other, and the curve at its last end.
+    Open { part: Part, curves: Vec<Curve> },
     /// A point where more than two curves end.
     Branch { part: Part, at: Xy },
 }
@@ -368,12 +372,16 @@ impl<'p> RingBuilder<'p> {
             _ => {}
         }
         // Follow the curves in the other direction as well, so that the whole open sequence is reported once.
-        let (_, other) = self.follow(start);
+        let (back, other) = self.follow(start);
         let several = [last, other].into_iter().find(|end| self.meets[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
         match several {
             Some(_) => Ring::Branch { part, at: at(self.parts, end) },
-            None => Ring::Open { part, end: at(self.parts, end), other: at(self.parts, other) },
+            None => {
+                // Both begin with the first curve.
+                let back = back.iter().skip(1).rev().map(|part| part.curve.reversed());
+                Ring::Open { part, curves: back.chain(ring.iter().map(|part| part.curve)).collect() }
+            }
         }
     }
 

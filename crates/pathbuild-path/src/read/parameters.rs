@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
 use pathbuild_diagnostic::messages::{drawing, parameters};
-use pathbuild_diagnostic::{Diagnostic, Number, Value};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Number, Value};
 
 use crate::approx::coincide;
 use crate::element::{Cut, Element, Origin, Role, Shape};
@@ -139,6 +139,10 @@ fn referenced<'s>(
 /// Length in mm below which a line is not a move, and distance below which circles coincide: programs have three decimals.
 const SHORTEST: f64 = 0.0005;
 
+/// Length in mm below which a milled line or arc is taken for a remnant of trimming. Cutters are 0.1 mm wide or more, and machines place
+/// them no more accurately than this.
+const SHORTEST_CUT: f64 = 0.01;
+
 /// A raw path being checked.
 pub(super) struct PathCheck<'r> {
     pub(super) raw: &'r mut RawPath,
@@ -151,23 +155,30 @@ impl PathCheck<'_> {
         self.raw.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
     }
 
-    /// PB121: lines without length, and circles that lie on others of their kind.
+    /// PB121: lines without length, milled lines and arcs of almost none, and circles that lie on others of their kind.
     pub(super) fn check_leftovers(&mut self) {
         let drawn = &self.raw.drawn;
         let at = |element: &Element, problem: Diagnostic| drawn.origin(element).at(problem);
         let mut found = Vec::new();
         for element in &drawn.elements {
-            let Shape::Curve(Curve::Line(line)) = element.shape else { continue };
-            let is_short = (line.end - line.start).norm() < SHORTEST;
-            let message = match element.role {
-                Role::Cut(_) if is_short => &drawing::CUT_WITHOUT_LENGTH,
+            let Shape::Curve(curve) = element.shape else { continue };
+            let (length, is_line) = (curve.length(), matches!(curve, Curve::Line(_)));
+            // The parts of a polyline have the same text and depth.
+            let is_single = matches!(element.source.entity, EntityKind::Line | EntityKind::Arc);
+            let problem = match element.role {
+                Role::Cut(_) if is_line && length < SHORTEST => Diagnostic::new(&drawing::CUT_WITHOUT_LENGTH),
+                Role::Cut(_) if length < SHORTEST_CUT && is_single => {
+                    Diagnostic::new(&drawing::CUT_HARDLY_LONG)
+                        .with("element", element.shape.word())
+                        .with("length", length)
+                }
                 // A sweep that is merely short still connects two ends.
-                Role::Sweep | Role::SilentSweep if coincide(line.start, line.end) => {
-                    &drawing::SWEEP_WITHOUT_LENGTH
+                Role::Sweep | Role::SilentSweep if is_line && coincide(curve.start(), curve.end()) => {
+                    Diagnostic::new(&drawing::SWEEP_WITHOUT_LENGTH)
                 }
                 _ => continue,
             };
-            found.push(at(element, Diagnostic::new(message)));
+            found.push(at(element, problem));
         }
         let circles = drawn.elements.iter().enumerate();
         let mut circles: Vec<(usize, Xy, f64)> = circles

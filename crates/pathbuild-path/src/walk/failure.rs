@@ -1,17 +1,15 @@
 //! Explains why a walk cannot continue, with hints for finding the cause.
 
-use std::collections::BTreeMap;
-
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 
-use crate::approx::{coincide, near};
+use crate::approx::coincide;
 use crate::element::shown;
 use crate::geometry::{Curve, Xy};
-use crate::path::{Path, SegmentKind};
+use crate::path::SegmentKind;
 use crate::read::TextCircle;
 use crate::walk::Walker;
-use crate::walk::order::{Ends, Square, Squares, square};
+use crate::walk::twice::Curves;
 
 /// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
 const ON_CURVE: f64 = 0.001;
@@ -64,7 +62,7 @@ impl Walker<'_> {
     }
 
     pub(super) fn unreached(&self) -> Diagnostic {
-        let all = Curves::new(self.path, &self.ends, 0..self.path.segments.len());
+        let all = Curves::new(self.path, 0..self.path.segments.len());
         let twice = self.open().find(|segment| all.have_another(*segment));
         let one = twice.or_else(|| self.open().next()).map(|segment| (segment, self.ends.of(segment)[0]));
         let mut problem = Diagnostic::new(&messages::UNREACHED);
@@ -119,7 +117,7 @@ impl Walker<'_> {
     }
 
     /// The nearest end of a remaining segment, with its distance.
-    fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
+    pub(super) fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
         let ends = self.open().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
         let distances = ends.map(|(segment, end)| (segment, end, (end - point).norm()));
         distances.reduce(|best, other| if other.2 < best.2 { other } else { best })
@@ -140,13 +138,13 @@ impl Walker<'_> {
     /// Whether a segment coincides with a traversed one.
     fn is_drawn_twice(&self, segment: usize) -> bool {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        Curves::new(self.path, &self.ends, traversed).have_another(segment)
+        Curves::new(self.path, traversed).have_another(segment)
     }
 
     /// A segment that is drawn twice, where one of the two was traversed: either the other is left over, or the walk went along both.
     fn duplicate(&self) -> Option<usize> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        let curves = Curves::new(self.path, &self.ends, traversed.clone());
+        let curves = Curves::new(self.path, traversed.clone());
         self.open().chain(traversed).find(|segment| curves.have_another(*segment))
     }
 
@@ -182,67 +180,5 @@ impl Walker<'_> {
             SegmentKind::Sweep { .. } => &words::SWEEP,
             SegmentKind::Subpath(_) => &words::SUBPATH,
         }
-    }
-}
-
-/// Milled curves and sweeps, indexed by their ends.
-pub(super) struct Curves<'a> {
-    path: &'a Path,
-    ends: &'a Ends,
-    known: BTreeMap<[Square; 2], Vec<(f64, usize)>>,
-}
-
-impl<'a> Curves<'a> {
-    /// Collects the milled curves and sweeps among these segments.
-    pub(super) fn new(path: &'a Path, ends: &'a Ends, segments: impl Iterator<Item = usize>) -> Self {
-        let mut known: BTreeMap<_, Vec<(f64, usize)>> = BTreeMap::new();
-        for segment in segments {
-            if let Some(length) = length(path, segment) {
-                known.entry(ends.of(segment).map(square)).or_default().push((length, segment));
-            }
-        }
-        for curves in known.values_mut() {
-            curves.sort_unstable_by(|(a, _), (b, _)| a.total_cmp(b));
-        }
-        Self { path, ends, known }
-    }
-
-    /// Whether another one of the curves coincides with a segment, in either direction.
-    fn have_another(&self, segment: usize) -> bool {
-        let [start, end] = self.ends.of(segment);
-        length(self.path, segment).is_some_and(|length| {
-            [[start, end], [end, start]].iter().any(|ends| {
-                let others = Squares::around(ends[0]).each().flat_map(|first| {
-                    Squares::around(ends[1]).each().filter_map(move |second| self.known.get(&[first, second]))
-                });
-                others.flat_map(|curves| near_in(curves, length)).any(|other| {
-                    let drawn = self.ends.of(other);
-                    other != segment
-                        && self.is_sweep(other) == self.is_sweep(segment)
-                        && coincide(drawn[0], ends[0])
-                        && coincide(drawn[1], ends[1])
-                })
-            })
-        })
-    }
-}
-
-impl Curves<'_> {
-    fn is_sweep(&self, segment: usize) -> bool {
-        matches!(self.path.segments[segment].kind, SegmentKind::Sweep { .. })
-    }
-}
-
-/// The curves of a given length in a list sorted by length.
-fn near_in(curves: &[(f64, usize)], length: f64) -> impl Iterator<Item = usize> {
-    let first = curves.partition_point(|(other, _)| *other < length && !near(*other, length));
-    curves[first..].iter().take_while(move |(other, _)| near(*other, length)).map(|(_, segment)| *segment)
-}
-
-fn length(path: &Path, segment: usize) -> Option<f64> {
-    let segment = &path.segments[segment];
-    match segment.kind {
-        SegmentKind::Cut(_) | SegmentKind::Sweep { .. } => path.curve(segment).map(|curve| curve.length()),
-        _ => None,
     }
 }

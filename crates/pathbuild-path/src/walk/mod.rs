@@ -2,11 +2,12 @@
 
 mod failure;
 mod order;
+mod twice;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::{drawing as messages, parameters};
+use pathbuild_diagnostic::messages::{drawing as messages, parameters, paths};
 use rstar::RTree;
 
 use crate::approx::{above, at_least, coincide};
@@ -15,6 +16,7 @@ use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::walk::order::{Ends, Stars, Turns, comes_before};
+use crate::walk::twice::Curves;
 
 /// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
@@ -65,7 +67,15 @@ struct Walker<'a> {
     joined: Vec<Diagnostic>,
     /// See [`WalkedPath::open_end`].
     open_end: Option<Xy>,
+    /// PB401 for each small gap that was skipped to find more.
+    gaps: Vec<Diagnostic>,
 }
+
+/// Length in mm of a gap that is skipped after it was reported: it is clear where the path continues.
+const SMALL_GAP: f64 = 1.0;
+
+/// Number of gaps that are skipped.
+const MOST_GAPS: usize = 10;
 
 impl<'a> Walker<'a> {
     fn new(path: &'a Path, join_tolerance: f64, checkpoint: &'a dyn Fn()) -> Self {
@@ -76,6 +86,7 @@ impl<'a> Walker<'a> {
             checkpoint,
             joined: Vec::new(),
             open_end: None,
+            gaps: Vec::new(),
             ends: Ends::new(path),
             stars: Stars::default(),
             open_ends: None,
@@ -93,15 +104,17 @@ impl<'a> Walker<'a> {
     /// The result of the walk.
     fn finish(self, result: Result<(), Failure>) -> WalkedPath {
         let idle = self.idle_markers();
-        let Self { path, chains, mut joined, open_end, .. } = self;
+        let Self { path, chains, mut joined, open_end, gaps, .. } = self;
         let mut walked = chains.finish();
         walked.open_end = open_end;
         let is_complete = result.is_ok();
-        if let Err(problem) = result {
+        let is_complete = is_complete && gaps.is_empty();
+        if !is_complete {
+            let problem = gaps.into_iter().chain(result.err().flatten().map(|problem| *problem));
             let missing =
                 walked.diagnostics.into_iter().filter(|found| found.is_error() && !path.gives_infeed());
-            let problems = problem.map(|problem| *problem).into_iter().chain(missing);
-            walked = WalkedPath { diagnostics: problems.collect(), ..WalkedPath::default() };
+            let diagnostics = problem.chain(missing).collect();
+            walked = WalkedPath { diagnostics, ..WalkedPath::default() };
         }
         if path.faults.as_ref().is_some_and(|faults| faults.is_infeed_unknown) {
             walked.diagnostics.retain(|found| found.message != &parameters::MISSING);
@@ -109,6 +122,7 @@ impl<'a> Walker<'a> {
         walked.diagnostics.append(&mut joined);
         if is_complete && !walked.items.is_empty() {
             walked.diagnostics.extend(idle);
+            walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).milled_twice());
         }
         walked
     }
@@ -131,7 +145,14 @@ impl<'a> Walker<'a> {
             } else if self.is_at_end() {
                 return Err(self.unless_unclear(Self::unreached).filter(|_| !self.has_several_ends()));
             } else {
-                return Err(self.unless_unclear(Self::nothing_continues));
+                let problem = self.unless_unclear(Self::nothing_continues);
+                match self.beyond_gap(problem.as_deref()) {
+                    Some(end) => {
+                        self.gaps.extend(problem.map(|problem| *problem));
+                        self.at = end;
+                    }
+                    None => return Err(problem),
+                }
             }
         }
         if self.is_at_end() || self.joins_end() {
@@ -147,6 +168,14 @@ impl<'a> Walker<'a> {
             return Err(problem.filter(|_| !self.has_several_ends()));
         }
         Ok(())
+    }
+
+    /// The end at which the walk continues after a small gap, to find independent problems.
+    fn beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
+        let is_gap = problem.is_some_and(|problem| problem.message == &paths::NOTHING_CONTINUES);
+        let (_, end, distance) =
+            self.nearest_end(self.at).filter(|_| is_gap && self.gaps.len() < MOST_GAPS)?;
+        (distance <= SMALL_GAP).then_some(end)
     }
 
     /// A failure, unless there is a circle without a meaning here, where the walk may turn or end.

@@ -46,12 +46,9 @@ const MISTAKES: [Mistake; 14] = [
 ];
 
 /// Pairs of mistakes where one hides the other, or that form another mistake together.
-const TOGETHER: [([&str; 2], &[&str]); 9] = [
+const TOGETHER: [([&str; 2], &[&str]); 7] = [
     // Without O, it is unknown which circle is too small.
     (["O missing", "hole too small"], &["PB201 O"]),
-    // Beyond a gap, the end and the remaining segments are unknown.
-    (["gap", "end elsewhere"], &["PB401"]),
-    (["gap", "left over"], &["PB401"]),
     // Only one end is left, which is not where the path ends, or none.
     (["no end", "second end"], &["PB403"]),
     (["no end", "end elsewhere"], &["PB102"]),

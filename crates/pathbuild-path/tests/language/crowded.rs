@@ -1,5 +1,6 @@
 //! Crowded points, compared with a walk that examines all segments in each step. (book: language/chains-and-passes)
 
+use pathbuild_diagnostic::Code;
 use pathbuild_path::{Curve, Item, Xy};
 use proptest::prelude::*;
 
@@ -78,7 +79,8 @@ fn check(lines: &[Drawn], expected: &[Xy]) {
     let end = expected.last().copied().unwrap_or(Xy::origin());
     let drawn = lines.iter().map(line).collect::<String>() + &format!("end {:?},{:?}", end.x, end.y);
     let compiled = compile(&path("T5 O3 I1 B0", &drawn));
-    assert!(compiled.found.is_empty(), "{:?}", compiled.found);
+    // Some lines lie on each other.
+    assert!(compiled.found.iter().all(|found| found.code() == Code::LeftoverElement), "{:?}", compiled.found);
     let (path, walked) = (compiled.path.expect("it is sound"), compiled.walked);
     let Some(Item::Chain(chain)) = walked.items.first() else { panic!() };
     let ends: Vec<Xy> = walked.members(chain).iter().map(|member| Curve::end(&member.curve(&path))).collect();

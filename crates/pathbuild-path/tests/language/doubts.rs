@@ -219,11 +219,45 @@ fn an_outline_that_has_lost_its_bars_is_doubtful() {
         (BARS, ("mill 0,0 40,0", "mill 0,0 40,0 \"B0.5\"")),
         (BARS, ("mill 0,0 40,0", "mark 0,0 40,0 \"D4.8\"")),
         (BARS, ("mill 0,0 40,0", "sweep 0,0 40,0")),
-        (BARS, ("mill 0,30 0,0\nend 0,0", "mill 0,30 0,0.1\nend 0,0.1")),
+        (BARS, ("mill 0,30 0,0\nend 0,0", "mill 0,30 0,2.1\nend 0,2.1")),
     ] {
         let found = ring(start, change);
         assert!(!found.contains(&"PB212 ".to_owned()), "{start} {change:?}: {found:?}");
     }
+}
+
+/// A disc that is cut out along a circle, and an outline whose gap the cutter closes.
+#[test]
+fn rims_that_have_lost_their_bars_are_doubtful() {
+    let found = |start: &str, drawn: &str| said(&path(start, drawn), MACHINE);
+    const BARS: &str = "T5 O2 I1 B-0.3 D2 P3 U15 A50";
+    let circle = |start: &str, diameter: &str| found(start, &format!("circle 0,0 d {diameter}\nend 0,0"));
+    assert_eq!(circle(BARS, "6"), [""; 0]);
+    assert_eq!(circle(BARS, "6.01"), ["PB212 "]);
+    assert_eq!(circle("T5 O2 I1 B0.1 D2 P3 U15 A50", "40"), [""; 0]);
+    assert_eq!(circle("T5 O2 I1 B-0.3 D2 A50", "40"), [""; 0]);
+    let arcs = "mill arc 0,0 to 40,0 centre 20,0\nmill arc 40,0 to 0,0 centre 20,0\nend 0,0";
+    assert_eq!(found(BARS, arcs), ["PB212 "]);
+    let open = |gap: f64| found(BARS, &format!("mill 0,0 40,0 40,30 0,30 0,{gap}\nend 0,{gap}"));
+    assert_eq!(open(1.99), ["PB212 "]);
+    assert_eq!(open(2.0), [""; 0]);
+    // There and back beside it, nothing is left in between.
+    assert_eq!(found(BARS, "mill 0,0 40,0 40,1.9 0,1.9\nend 0,1.9"), [""; 0]);
+    assert_eq!(found(BARS, "mill 0,0 1.5,0\nend 1.5,0"), [""; 0]);
+}
+
+#[test]
+fn bars_are_thicker_than_nothing() {
+    let bars = |start: &str, text: &str| {
+        said(&path(start, &format!("bars 0,0 40,0{text}\nbars 40,0 40,30\nend 40,30")), MACHINE)
+    };
+    for (top, is_doubtful) in [("-0.2", true), ("0", true), ("0.09", true), ("0.1", false), ("1", false)] {
+        let found = bars(&format!("T5 O2 I1 B-0.3 D{top} P3 U9"), "");
+        assert_eq!(found.len(), usize::from(is_doubtful), "{top}: {found:?}");
+        assert!(found.iter().all(|found| found.starts_with("PB211")), "{top}: {found:?}");
+    }
+    assert_eq!(bars("T5 O2 I1 B-0.3 D1 P3 U9", " \"D0.05\"").len(), 1);
+    assert_eq!(bars("T0.1 O2 I0.05 B-0.3 D0.05 P3 U9", ""), [""; 0], "half of a foil");
 }
 
 #[test]

@@ -187,7 +187,73 @@ fn a_line_without_length_is_left_over() {
     }
     // A program has three decimals.
     assert_eq!(codes_of("mill 0,0 20,0 20.0004,0\nend 20.0004,0"), ["PB121"]);
-    assert_eq!(codes_of("mill 0,0 20,0 20.0006,0\nend 20.0006,0"), [""; 0]);
+    assert_eq!(codes_of("sweep 0,0 20,0 20.0006,0\nmill 20.0006,0 40,0\nend 40,0"), [""; 0]);
+}
+
+#[test]
+fn a_cut_of_almost_no_length_is_left_over() {
+    let found = |length: f64| {
+        said(
+            &compile(&path(P, &format!("mill 0,0 20,0\nmill 20,0 {x},0\nend {x},0", x = 20.0 + length)))
+                .found,
+        )
+    };
+    for length in [0.001, 0.002, 0.009] {
+        let begin = format!("PB121 a line here is only {length} mm long");
+        assert_one(&found(length), &begin, "of its own text or of the path applies here");
+    }
+    assert_eq!(found(0.0101), [""; 0]);
+    assert_eq!(codes_of("polyline CONTINUOUS 0,0 20,0 20.002,0\nend 20.002,0"), [""; 0], "one depth");
+    let arc = |radius: f64| {
+        codes_of(&format!("mill 0,0 20,0\nmill arc centre 20,0 r {radius} from 0 to 180\nend 0,0"))
+    };
+    assert!(arc(0.003).contains(&"PB121".to_owned()) && !arc(0.0033).contains(&"PB121".to_owned()));
+}
+
+/// A groove that leads to a dead end is drawn twice, so that the walk comes back along the copy, which has no text.
+#[test]
+fn a_line_drawn_twice_is_milled_at_two_depths() {
+    let groove =
+        |copies: &str| codes_of(&format!("mill 0,0 40,0\n{copies}\nmill 40,0 60,0 \"N9999\"\nend 60,0"));
+    let twice = |found: &[String]| found.iter().filter(|code| *code == "PB121").count();
+    assert_eq!(twice(&groove("mill 40,0 40,20 \"B2\"\nmill 40,0 40,20")), 1);
+    assert_eq!(twice(&groove("mill 40,0 40,20 \"B2\"\nmill 40,20 40,0")), 1);
+    assert_eq!(
+        twice(&groove("mill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10 cw")),
+        1
+    );
+    // Two depths on purpose, two half circles, and a sweep back.
+    assert_eq!(twice(&groove("mill 40,0 40,20 \"B2 N1\"\nmill 40,0 40,20 \"B1 N2\"")), 0);
+    assert_eq!(groove("mill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10"), [""; 0]);
+    assert_eq!(groove("mill 40,0 40,20 \"B2\"\nsweep 40,20 40,0"), [""; 0]);
+    // Three copies, and one more groove to come back.
+    assert_eq!(twice(&codes_of(&format!("{}\nend 20,0", "mill 0,0 20,0\n".repeat(3)))), 2);
+}
+
+#[test]
+fn the_halves_of_a_ring_are_not_one_arc() {
+    let ring =
+        "mill 0,0 20,0\nmill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10\nend 20,0";
+    let found = said(&compile(&path(P, ring)).found);
+    assert_one(&found, "PB402 the path ends here, but not all", "move them to another layer");
+    let twice = ring.replace("40,20 to 40,0 centre 40,10", "40,20 to 40,0 centre 40,10 cw");
+    assert_one(
+        &said(&compile(&path(P, &twice)).found),
+        "PB402 a milling segment at (40, 0) is drawn twice",
+        "delete one of the two",
+    );
+}
+
+#[test]
+fn a_subpath_drawn_twice_is_named() {
+    let found = compile(&path(
+        P,
+        "mill 0,0 20,0\nsubpath 20,0 40,0 \">1234.1P\"\nsubpath 20,0 40,0 \">1234.1P\"\nend 40,0",
+    ))
+    .found;
+    let found = said(&found);
+    let begin = "PB403 the path stops at (20, 0), but its end marker is at (40, 0): a subpath at (20, 0) is drawn twice";
+    assert!(found.iter().any(|found| found.starts_with(begin)), "{found:?}");
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn ends_that_nearly_meet_do_wherever_they_are() {
 #[test]
 fn nothing_continues_names_the_nearest_open_end() {
     let (codes, notes) = found("mill 0,0 20,0\nmill 20.5,0 40,0\nmill 60,0 50,0\nend 40,0");
-    assert_eq!(codes, ["PB401"]);
+    assert_eq!(codes, ["PB401", "PB402"]);
     assert_eq!(notes, ["the nearest open end is at (20.5, 0), 0.5 mm away (a milling segment)"]);
 }
 
@@ -103,7 +103,7 @@ fn the_end_must_be_reached() {
 fn the_walk_passes_the_end_as_long_as_something_continues() {
     let lines = "mill 0,0 20,0\nmill 20,0 20,20\nmill 20,20 0,0\nmill 0,0 20,20 \"N9999\"\nend 20,20";
     // Two of the lines coincide.
-    assert_eq!(codes_of(lines), ["PB116"]);
+    assert_eq!(codes_of(lines), ["PB116", "PB121"]);
     assert_eq!(items(&path(P, "mill 0,0 20,0\nmill 20,0 40,0\nmill 40,0 20,0.0\nend 20,0")).len(), 1);
 }
 
@@ -131,8 +131,8 @@ fn ends_within_the_tolerance_are_joined() {
         );
         codes(&compiled.found)
     };
-    assert_eq!(found(0.0), ["PB401"]);
-    assert_eq!(found(0.009), ["PB401"]);
+    assert_eq!(found(0.0), ["PB401", "PB403"]);
+    assert_eq!(found(0.009), ["PB401", "PB403"]);
     assert_eq!(found(0.011), ["PB115", "PB115"]);
 }
 
@@ -185,4 +185,21 @@ fn a_curve_that_was_left_out_is_pointed_at() {
 fn a_path_is_walked_where_its_values_are_wrong() {
     assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 90,0")), ["PB201 B", "PB403"]);
     assert_eq!(wrong(&path("T5 O3 I1", "mill 0,0 20,0\nend 20,0")), ["PB201 B"]);
+}
+
+/// After a small gap it is clear where the path continues.
+#[test]
+fn a_gap_does_not_hide_another_mistake() {
+    let two = |gap: f64| {
+        found(&format!("mill 0,0 20,0\nmill {x},0 40,0\nmill 41,0 60,0\nend 60,0", x = 20.0 + gap)).0
+    };
+    assert_eq!(two(0.5), ["PB401", "PB401"]);
+    assert_eq!(two(1.0), ["PB401", "PB401"]);
+    assert_eq!(two(1.01), ["PB401"]);
+    assert_eq!(found("mill 0,0 20,0\nmill 20.5,0 40,0\ncircle 30,50 d 3\nend 40,0").0, ["PB401", "PB402"]);
+    assert_eq!(found("mill 0,0 20,0\nmill 20.5,0 40,0\nend 60,0").0, ["PB401", "PB403"]);
+    assert_eq!(found("mill 0,0 20,0\nmill 20.5,0 40,0\nend 40,0").0, ["PB401"]);
+    // A line in hundreds of pieces is one mistake.
+    let pieces: String = (0..200).map(|at| format!("mill {at},0 {at}.5,0\n")).collect();
+    assert_eq!(found(&format!("{pieces}end 199.5,0")).0.len(), 11);
 }
