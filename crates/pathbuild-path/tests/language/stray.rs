@@ -40,9 +40,10 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
     for string in ["B2", "F120 B-0.3", "B2,5", "I0.5", "W4", "N1 B2", "B=D", " B2 ", "B2 Qgroove"] {
         assert_eq!(strays(&text("Notes", string, "20,0")), ["PB119"], "{string}");
     }
-    for string in
-        ["R5", "M6", "Maßstab", "B", "Bohrung", "b2", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "B 2", "T5", "Qgroove", "S20"]
-    {
+    for string in [
+        "R5", "M6", "Maßstab", "B", "Bohrung", "b2", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "B 2", "T5",
+        "Qgroove", "S20",
+    ] {
         assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
     }
 }
