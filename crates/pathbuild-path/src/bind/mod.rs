@@ -530,10 +530,6 @@ fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
     above(tool, gap.length()) && above(area.abs(), perimeter * tool / 2.0)
 }
 
-/// Diameter, in diameters of the cutter, above which a circle is taken for the rim of a part: the core that is left in it is wider than the
-/// cutter.
-const RIM: f64 = 3.0;
-
 /// The letters that only apply to support bars.
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
@@ -573,13 +569,7 @@ impl Binder<'_> {
             }
             Ring::Open { .. } | Ring::Branch { .. } => None,
         });
-        let rims = self.segments.iter().filter_map(|segment| {
-            let SegmentKind::Helix(helix) = segment.kind else { return None };
-            let helix = &self.helices[helix as usize];
-            let is_rim = tool.is_some_and(|tool| above(helix.radius, RIM * tool / 2.0));
-            (is_rim && !above(helix.bottom, 0.0)).then_some(segment.element as usize)
-        });
-        let Some(first) = closed.or_else(|| rims.min()) else { return };
+        let Some(first) = closed else { return };
         let letters = BAR_LETTERS.into_iter().filter(|letter| self.values.has(*letter));
         let letters: Value = letters.map(|letter| letter.as_char().to_string()).collect();
         let problem = Diagnostic::new(&messages::LOST_BARS).with("letters", letters);
