@@ -270,6 +270,10 @@ fn a_program_without_spindle_words_is_not_asked_for_them() {
 #[test]
 fn tools_are_changed_above_the_material() {
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nT2 M6\nG0 Z5"), ["4 tool-change-at-depth"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nT2\nM0\nG0 Z5"), ["5 tool-change-at-depth"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nM0\nT2\nG0 Z5"), ["5 tool-change-at-depth"]);
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nT2\nG0 Z5\nM0"), FINE, "raised before the stop");
+    assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nM0\nG0 Z5"), FINE, "no tool is named");
     assert_eq!(on_stock("G0 X0 Y0 Z5\nG1 Z4.99\nG0 Z5\nT2 M6"), FINE);
     assert_eq!(on_stock("T2 M6\nG0 X0 Y0 Z5"), FINE);
 }

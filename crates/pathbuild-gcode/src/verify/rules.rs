@@ -41,6 +41,8 @@ pub struct Rules<'c> {
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
     directions: ArcDirections,
+    /// Whether a tool was selected, and whether the program stopped, since the last move.
+    by_hand: ChangeByHand,
     /// Line and code of the active G52 or G92, and whether it came after the first cut.
     shifted: Option<(u32, u16, bool)>,
 }
@@ -68,6 +70,7 @@ impl<'c> Rules<'c> {
             has_cut: false,
             position_said: false,
             directions: ArcDirections::default(),
+            by_hand: ChangeByHand::default(),
             shifted: None,
         }
     }
@@ -83,6 +86,14 @@ impl<'c> Rules<'c> {
             }
             Action::End => self.spindle.turning = Turning::Unstated,
             Action::ChangeTool(_) => self.tool_change(line),
+            Action::SelectTool(_) => {
+                self.by_hand.is_selected = true;
+                self.change_by_hand(line);
+            }
+            Action::Stop { optional: false } => {
+                self.by_hand.is_stopped = true;
+                self.change_by_hand(line);
+            }
             _ => {}
         }
     }
@@ -95,6 +106,7 @@ impl<'c> Rules<'c> {
 
     fn moves(&mut self, line: u32, movement: &Move) {
         self.line = line;
+        self.by_hand = ChangeByHand::default();
         self.first_move(line, movement);
         self.diagonal(line, movement);
         self.home(line, movement);
@@ -221,6 +233,14 @@ impl<'c> Rules<'c> {
         self.has_probed = matches!(movement.pace, Pace::Probe { toward: true, .. }) && stays_in_plane;
     }
 
+    /// Checks the change of a tool by T and a stop, in any order, without a move between them.
+    fn change_by_hand(&mut self, line: u32) {
+        if self.by_hand.is_selected && self.by_hand.is_stopped {
+            self.by_hand = ChangeByHand::default();
+            self.tool_change(line);
+        }
+    }
+
     fn tool_change(&mut self, line: u32) {
         let z = self.at.z();
         if !self.at.known.has(Axes::Z) {
@@ -253,6 +273,13 @@ impl<'c> Rules<'c> {
                 .add_at_line(&say::END_NOT_RAISED, self.line, |d| d.with("z", z).with("surface", surface));
         }
     }
+}
+
+/// The words by which the operator of a machine without M6 is told to change the tool.
+#[derive(Clone, Copy, Debug, Default)]
+struct ChangeByHand {
+    is_selected: bool,
+    is_stopped: bool,
 }
 
 /// Finds arcs between straight cuts that turn back at both ends. The arc the other way round would continue both cuts, so G2 and G3 are
