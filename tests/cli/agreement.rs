@@ -89,7 +89,10 @@ fn states(seed: u64) -> Vec<Vec<Finding>> {
 
 #[track_caller]
 fn same(model: &[Finding], program: &[Finding], what: &str) {
-    let differences = differences(model, program);
+    // The model has no probing program; tests/cli/keep_outs.rs is about clamps in its way.
+    let of_probing = |found: &&Finding| found.words.iter().any(|it| it.starts_with("in the probing program"));
+    let program: Vec<Finding> = program.iter().filter(|found| !of_probing(found)).cloned().collect();
+    let differences = differences(model, &program);
     assert!(differences.is_empty(), "{what}:\n{}", differences.join("\n"));
 }
 
