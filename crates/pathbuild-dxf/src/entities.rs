@@ -84,7 +84,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                Some(kind) if !kind.is_part() && !(space == Space::Block && kind.is_template()) => {
+                Some(kind) if !(kind.is_part() || space == Space::Block && kind.is_template()) => {
                     if let Some(item) = self.item(records, kind, space)? {
                         return Ok(Some(item));
                     }

@@ -375,14 +375,12 @@ impl<'p> RingBuilder<'p> {
         let (back, other) = self.follow(start);
         let several = [last, other].into_iter().find(|end| self.meets[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
-        match several {
-            Some(_) => Ring::Branch { part, at: at(self.parts, end) },
-            None => {
-                // Both begin with the first curve.
-                let back = back.iter().skip(1).rev().map(|part| part.curve.reversed());
-                Ring::Open { part, curves: back.chain(ring.iter().map(|part| part.curve)).collect() }
-            }
+        if several.is_some() {
+            return Ring::Branch { part, at: at(self.parts, end) };
         }
+        // Both begin with the first curve.
+        let back = back.iter().skip(1).rev().map(|part| part.curve.reversed());
+        Ring::Open { part, curves: back.chain(ring.iter().map(|part| part.curve)).collect() }
     }
 
     /// The curves that continue from an end, in that direction, and the final end.

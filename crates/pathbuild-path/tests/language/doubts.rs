@@ -229,8 +229,8 @@ fn an_outline_that_has_lost_its_bars_is_doubtful() {
 /// A disc that is cut out along arcs, and an outline whose gap the cutter closes.
 #[test]
 fn rims_that_have_lost_their_bars_are_doubtful() {
-    let found = |start: &str, drawn: &str| said(&path(start, drawn), MACHINE);
     const BARS: &str = "T5 O2 I1 B-0.3 D2 P3 U15 A50";
+    let found = |start: &str, drawn: &str| said(&path(start, drawn), MACHINE);
     let arcs = "mill arc 0,0 to 40,0 centre 20,0\nmill arc 40,0 to 0,0 centre 20,0\nend 0,0";
     assert_eq!(found(BARS, arcs), ["PB212 "]);
     let open = |gap: f64| found(BARS, &format!("mill 0,0 40,0 40,30 0,30 0,{gap}\nend 0,{gap}"));
