@@ -27,5 +27,7 @@ pub use load::{FILE_NAME, User, faults, load, repository};
 pub use origin::{Origin, ResultKind, SourcedValue};
 pub use pathbuild_db::system::clean;
 pub use settings::{Options, Settings};
+pub(crate) use table_kinds::is_file_name;
+#[cfg(not(target_family = "wasm"))]
+pub(crate) use table_kinds::is_too_round;
 pub use table_kinds::nearest_code;
-pub(crate) use table_kinds::{is_file_name, is_too_round};
