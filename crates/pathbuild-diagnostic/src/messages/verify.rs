@@ -150,7 +150,7 @@ messages! {
     }
     /// A spindle that is switched on by a program without S. Many controls then take the speed of the program before.
     SPINDLE_WITHOUT_SPEED: SpindleOff {
-        en: "this is a cutting move at an unknown spindle speed: the program says no S before it, so the control takes the last one, or 0",
+        en: "this is a cutting move at an unknown spindle speed: the program has no S before it, so the control takes the last one, or 0",
         de: "das ist eine Fräsbewegung mit unbekannter Drehzahl: das Programm nennt vorher kein S, die Steuerung nimmt daher das letzte oder 0",
         help_en: "write the speed with S: `M3 S12000`; if it is set at the machine, accept this warning with `--accept`",
         help_de: "die Drehzahl mit S angeben: `M3 S12000`; wird sie an der Maschine eingestellt, die Warnung mit `--accept` hinnehmen",
