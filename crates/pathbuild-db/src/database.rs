@@ -47,13 +47,13 @@ pub trait Db: salsa::Database {
 #[salsa::db]
 #[derive(Clone)]
 pub struct Database {
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
     /// Declared last, because it must be dropped after everything that its threads may still use.
     storage: salsa::Storage<Self>,
 }
 
 /// State shared by all clones besides query results.
-struct Shared {
+struct SharedState {
     system: Arc<dyn System>,
     inputs: Mutex<Inputs>,
     listings: Listings,
@@ -89,7 +89,7 @@ impl Database {
     }
 
     fn over(system: Arc<dyn System>, storage: salsa::Storage<Self>) -> Self {
-        let shared = Shared {
+        let shared = SharedState {
             system,
             inputs: Mutex::default(),
             listings: Listings::default(),

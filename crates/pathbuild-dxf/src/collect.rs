@@ -60,7 +60,7 @@ pub(crate) struct Limits {
 
 /// An entity and its place in the drawing.
 #[derive(Clone, Copy)]
-pub(crate) struct Placed<'p> {
+pub(crate) struct PlacedEntity<'p> {
     pub(crate) kind: EntityKind,
     pub(crate) layer_id: LayerId,
     pub(crate) layer: &'p UsedLayer,
@@ -76,7 +76,7 @@ pub(crate) struct Placed<'p> {
     pub(crate) placement: Option<&'p Placement>,
 }
 
-impl Placed<'_> {
+impl PlacedEntity<'_> {
     /// Transforms a point of the entity's space to the drawing's.
     fn point(&self, point: Point) -> Point {
         let Some(placement) = self.placement else { return point };
@@ -107,7 +107,7 @@ impl<'d> Collector<'d> {
     #[inline(always)]
     pub(crate) fn add(
         &mut self,
-        placed: &Placed<'_>,
+        placed: &PlacedEntity<'_>,
         shape: Result<Shape<'_>, EntityError<'_>>,
     ) -> Result<(), Fatal> {
         let layer = self.layer(placed);
@@ -132,7 +132,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    fn add_parts(&mut self, placed: &Placed<'_>, layer: u32, shape: Shape<'_>) -> Result<(), Fatal> {
+    fn add_parts(&mut self, placed: &PlacedEntity<'_>, layer: u32, shape: Shape<'_>) -> Result<(), Fatal> {
         let placement = placed.placement.unwrap_or(&Placement::IDENTITY);
         let tolerance = Tolerance { distance: self.limits.curves, most_pieces: self.limits.entities };
         let parts = match shape {
@@ -161,7 +161,7 @@ impl<'d> Collector<'d> {
     #[inline(always)]
     fn push(
         &mut self,
-        placed: &Placed<'_>,
+        placed: &PlacedEntity<'_>,
         layer: u32,
         group: Option<u32>,
         geometry: Geometry,
@@ -174,7 +174,12 @@ impl<'d> Collector<'d> {
     }
 
     /// Records a fault of an entity. Copies of a block repeat the same fault, which is reported once.
-    fn refuse(&mut self, placed: &Placed<'_>, layer: u32, trouble: &EntityError<'_>) -> Result<(), Fatal> {
+    fn refuse(
+        &mut self,
+        placed: &PlacedEntity<'_>,
+        layer: u32,
+        trouble: &EntityError<'_>,
+    ) -> Result<(), Fatal> {
         let diagnostic = match trouble {
             EntityError::Group(group) => group.diagnostic(placed.kind),
             EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
@@ -201,7 +206,7 @@ impl<'d> Collector<'d> {
 
     fn leave_out(
         &mut self,
-        placed: &Placed<'_>,
+        placed: &PlacedEntity<'_>,
         layer: u32,
         message: &'static Message,
         point: Option<Point>,
@@ -217,7 +222,7 @@ impl<'d> Collector<'d> {
     }
 
     /// In compatible mode, skips an entity that PathDxf2GCode does not know. Reported once per drawing.
-    pub(crate) fn ignore(&mut self, placed: &Placed<'_>) {
+    pub(crate) fn ignore(&mut self, placed: &PlacedEntity<'_>) {
         let layer = self.layer(placed);
         if !std::mem::replace(&mut self.has_ignored, true) {
             let diagnostic = Diagnostic::new(&NOT_COMPATIBLE).quoting("entity", placed.kind.name());
@@ -226,7 +231,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    fn note_invisible(&mut self, placed: &Placed<'_>, layer: u32) {
+    fn note_invisible(&mut self, placed: &PlacedEntity<'_>, layer: u32) {
         if self.with_invisible.insert(layer) {
             let diagnostic = Diagnostic::new(&INVISIBLE).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic, placed, layer);
@@ -234,7 +239,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    fn note_frozen(&mut self, placed: &Placed<'_>, layer: u32, frozen: &str) {
+    fn note_frozen(&mut self, placed: &PlacedEntity<'_>, layer: u32, frozen: &str) {
         if self.with_frozen.insert(layer) {
             let diagnostic = Diagnostic::new(&INSERTED_FROZEN).quoting("entity", placed.kind.name());
             let diagnostic = self.located(diagnostic.quoting("layer", frozen), placed, layer);
@@ -243,7 +248,7 @@ impl<'d> Collector<'d> {
     }
 
     /// Fills in the entity's place. A line that is already set is that of the faulty value and stays.
-    fn located(&self, mut diagnostic: Diagnostic, placed: &Placed<'_>, layer: u32) -> Diagnostic {
+    fn located(&self, mut diagnostic: Diagnostic, placed: &PlacedEntity<'_>, layer: u32) -> Diagnostic {
         let place = &mut diagnostic.place;
         place.line = place.line.or(Some(placed.own.line));
         place.handle = placed.own.handle;
@@ -254,7 +259,7 @@ impl<'d> Collector<'d> {
 
     /// The index in the drawing of an entity's layer.
     #[inline]
-    fn layer(&mut self, placed: &Placed<'_>) -> u32 {
+    fn layer(&mut self, placed: &PlacedEntity<'_>) -> u32 {
         if let Some((id, layer)) = self.last
             && id == placed.layer_id
         {

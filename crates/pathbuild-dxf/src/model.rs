@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 
 use crate::Origin;
 use crate::blocks::{BlockId, Blocks, Steps};
-use crate::collect::{Collector, Placed};
+use crate::collect::{Collector, PlacedEntity};
 use crate::entities::{EntityReader, Item, Shape, Space, Traits};
 use crate::faults::{EntityError, Fatal, stopped};
 use crate::groups::Records;
@@ -184,12 +184,12 @@ fn placed<'p>(
     traits: &Traits,
     layer_id: LayerId,
     around: &'p EntityContext,
-) -> Result<Placed<'p>, Fatal> {
+) -> Result<PlacedEntity<'p>, Fatal> {
     let EntityReader { layers, line_types, fields, decoder, .. } = reader;
     let layer = layers.used(layer_id, &mut Reading { fields, decoder });
     let layer = layer.map_err(|stop| stopped(stop, "TABLES"))?;
     let insertion = around.insertion.as_ref();
-    Ok(Placed {
+    Ok(PlacedEntity {
         kind: traits.kind,
         layer_id,
         layer,

@@ -13,8 +13,8 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
         return Statistics::of_reference(program, rapid);
     }
     let mut tally = Tally::default();
-    for (_, it) in program.moves() {
-        tally.add(&it, true);
+    for (_, movement) in program.moves() {
+        tally.add(&movement, true);
     }
     Statistics {
         milling: tally.milling.total,
@@ -37,9 +37,9 @@ impl Counting {
     pub(crate) fn counts(&mut self, step: &Step) -> bool {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
-            Action::Move(it) => {
-                [stated, step.stated, it.from.known, it.to.known].iter().all(|axes| axes.has(Axes::ALL))
-            }
+            Action::Move(movement) => [stated, step.stated, movement.from.known, movement.to.known]
+                .iter()
+                .all(|axes| axes.has(Axes::ALL)),
             _ => false,
         }
     }
@@ -92,22 +92,22 @@ impl Tally {
     }
 
     /// Adds a move. `has_length` tells whether its length is known and counts.
-    pub(crate) fn add(&mut self, it: &Move, has_length: bool) {
-        self.arcs += u64::from(matches!(it.shape, MoveShape::Arc(_)));
-        let kind = match it.pace {
+    pub(crate) fn add(&mut self, movement: &Move, has_length: bool) {
+        self.arcs += u64::from(matches!(movement.shape, MoveShape::Arc(_)));
+        let kind = match movement.pace {
             Pace::Probe { .. } => {
                 self.probing += 1;
                 return;
             }
             Pace::Rapid => &mut self.rapid,
-            Pace::Feed(_) if it.is_vertical() => &mut self.drilling,
+            Pace::Feed(_) if movement.is_vertical() => &mut self.drilling,
             Pace::Feed(_) => &mut self.milling,
         };
         kind.moves += 1;
         if has_length {
-            let length = it.length();
+            let length = movement.length();
             kind.total.length += length;
-            if let Some(feed) = it.pace.feed()
+            if let Some(feed) = movement.pace.feed()
                 && length > 0.0
             {
                 kind.total.time += if feed > 0.0 { length / feed } else { f64::INFINITY };
@@ -122,7 +122,7 @@ pub struct Summary {
     /// The totals of the program.
     pub total: Tally,
     /// The totals of each tool in order of first use; for XpertMILL, of each layer.
-    pub tools: Vec<Used>,
+    pub tools: Vec<ToolTotals>,
     /// Least and greatest X, Y, Z of all moves in mm; `None` for axes that never move to a known position.
     pub extent: Extent,
     /// The same for cutting moves.
@@ -140,7 +140,7 @@ pub type Extent = [Option<(f64, f64)>; 3];
 
 /// The totals of a tool.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Used {
+pub struct ToolTotals {
     /// Number of the tool; `None` before the program names one.
     pub tool: Option<u32>,
     /// Totals of its moves.
@@ -195,7 +195,7 @@ impl Collector {
     fn step(&mut self, step: &Step) {
         let has_length = self.counting.counts(step);
         match &step.action {
-            Action::Move(it) if !it.is_nothing() => self.go(it, has_length),
+            Action::Move(movement) if !movement.is_nothing() => self.go(movement, has_length),
             Action::Dwell(seconds) => self.summary.dwell += seconds,
             Action::SelectTool(tool) if !self.has_changes => self.tool = Some(*tool),
             Action::ChangeTool(tool) => {
@@ -211,27 +211,27 @@ impl Collector {
         }
     }
 
-    fn go(&mut self, it: &Move, has_length: bool) {
-        self.summary.total.add(it, has_length);
-        if it.named.is_none() {
-            widen(&mut self.summary.extent, it);
+    fn go(&mut self, movement: &Move, has_length: bool) {
+        self.summary.total.add(movement, has_length);
+        if movement.named.is_none() {
+            widen(&mut self.summary.extent, movement);
         }
-        if matches!(it.pace, Pace::Feed(_)) {
-            widen(&mut self.summary.cut, it);
+        if matches!(movement.pace, Pace::Feed(_)) {
+            widen(&mut self.summary.cut, movement);
         }
         let speed = self.spindle.speed;
         let (used, known) = self.used();
-        used.tally.add(it, has_length);
-        if let Pace::Feed(feed) = it.pace {
+        used.tally.add(movement, has_length);
+        if let Pace::Feed(feed) = movement.pace {
             note(&mut used.feeds, &mut known.feeds, feed);
             note(&mut used.speeds, &mut known.speeds, speed.unwrap_or_default());
         }
     }
 
-    fn used(&mut self) -> (&mut Used, &mut KnownTool) {
+    fn used(&mut self) -> (&mut ToolTotals, &mut KnownTool) {
         let tools = &mut self.summary.tools;
         let known = self.known.entry(self.tool).or_insert_with(|| {
-            tools.push(Used { tool: self.tool, ..Used::default() });
+            tools.push(ToolTotals { tool: self.tool, ..ToolTotals::default() });
             KnownTool { index: tools.len() - 1, feeds: HashSet::new(), speeds: HashSet::new() }
         });
         (&mut tools[known.index], known)
@@ -245,8 +245,8 @@ fn note(values: &mut Vec<f64>, known: &mut HashSet<u64>, value: f64) {
     }
 }
 
-fn widen(extent: &mut Extent, it: &Move) {
-    for (known, more) in extent.iter_mut().zip(it.extent()) {
+fn widen(extent: &mut Extent, movement: &Move) {
+    for (known, more) in extent.iter_mut().zip(movement.extent()) {
         *known = match (*known, more) {
             (Some((low, high)), Some((least, most))) => Some((low.min(least), high.max(most))),
             (known, more) => known.or(more),
@@ -257,8 +257,8 @@ fn widen(extent: &mut Extent, it: &Move) {
 /// Least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
 pub fn cutting_box(program: &Program) -> Extent {
     let mut extent = Extent::default();
-    for (_, it) in program.moves().filter(|(_, it)| matches!(it.pace, Pace::Feed(_))) {
-        widen(&mut extent, &it);
+    for (_, movement) in program.moves().filter(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {
+        widen(&mut extent, &movement);
     }
     extent
 }

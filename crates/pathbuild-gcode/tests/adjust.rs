@@ -11,12 +11,12 @@ use std::fs;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
-use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
+use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
 
 /// A file with the value of one probe that was drawn at 2.
 const VALUES: &str = "([1.000 2.000]/T=2.000) #51=2.100\n";
 
-fn run(program: impl AsRef<[u8]>, values: impl AsRef<[u8]>) -> Result<Adjusted, Vec<Diagnostic>> {
+fn run(program: impl AsRef<[u8]>, values: impl AsRef<[u8]>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     adjust(&inputs(program.as_ref(), values.as_ref()))
 }
 
@@ -29,7 +29,7 @@ fn inputs<'a>(program: &'a [u8], values: &'a [u8]) -> Inputs<'a> {
     }
 }
 
-fn run_with_log(program: &str, values: &str, log: &str) -> Result<Adjusted, Vec<Diagnostic>> {
+fn run_with_log(program: &str, values: &str, log: &str) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let log = Some(Source { file: Utf8Path::new("sender.log"), bytes: log.as_bytes() });
     adjust(&Inputs { log, ..inputs(program.as_bytes(), values.as_bytes()) })
 }
@@ -51,7 +51,7 @@ fn told(problems: &[Diagnostic]) -> Vec<String> {
 }
 
 #[track_caller]
-fn refused(result: Result<Adjusted, Vec<Diagnostic>>) -> Vec<String> {
+fn refused(result: Result<AdjustedProgram, Vec<Diagnostic>>) -> Vec<String> {
     told(&result.expect_err("it was adjusted"))
 }
 

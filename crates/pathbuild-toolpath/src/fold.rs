@@ -394,7 +394,7 @@ const ROUNDING: f64 = 1e-12;
 /// Starts at (0, 0) and repeatedly goes to the nearest probe not yet visited; the first of these if there are several. Returns the indices
 /// of the probes.
 fn in_order(found: &[ProbePoint]) -> Vec<usize> {
-    let mut waiting = Waiting::new(found);
+    let mut waiting = UnvisitedProbes::new(found);
     let mut at = Xy::origin();
     let next = || {
         let number = waiting.take_nearest(at)?;
@@ -405,13 +405,13 @@ fn in_order(found: &[ProbePoint]) -> Vec<usize> {
 }
 
 /// Probes that have not been visited yet.
-struct Waiting {
+struct UnvisitedProbes {
     /// The probes of each place, by index.
     places: Vec<VecDeque<usize>>,
     tree: RTree<GeomWithData<[f64; 2], usize>>,
 }
 
-impl Waiting {
+impl UnvisitedProbes {
     fn new(found: &[ProbePoint]) -> Self {
         let mut places = BTreeMap::<_, VecDeque<usize>>::new();
         for (number, probe) in found.iter().enumerate() {

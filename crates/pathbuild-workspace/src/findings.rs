@@ -58,9 +58,9 @@ impl Workspace {
         let severities = self.settings.severities();
         let mut waived: Vec<(Diagnostic, Waiver)> = Vec::new();
         let judge = |diagnostic: Diagnostic| match self.judge(diagnostic, &severities) {
-            Judged::Reported(diagnostic) => Some(diagnostic),
-            Judged::Ignored => None,
-            Judged::Waived(diagnostic, waiver) => {
+            Verdict::Reported(diagnostic) => Some(diagnostic),
+            Verdict::Ignored => None,
+            Verdict::Waived(diagnostic, waiver) => {
                 waived.push((diagnostic, waiver));
                 None
             }
@@ -100,7 +100,7 @@ impl Workspace {
         unused.map(|entry| entry.waiver.unused(configuration)).collect()
     }
 
-    fn judge(&self, diagnostic: Diagnostic, severities: &Severities) -> Judged {
+    fn judge(&self, diagnostic: Diagnostic, severities: &Severities) -> Verdict {
         let code = diagnostic.code();
         let run = self.settings.date;
         let file = diagnostic.file.as_deref().map(|file| self.configured(file));
@@ -118,17 +118,17 @@ impl Workspace {
         let noted = |diagnostic| {
             ended.iter().fold(diagnostic, |diagnostic, waiver| waiver.note_end(diagnostic, place, run))
         };
-        let Some((level, waiver)) = level else { return Judged::Reported(noted(diagnostic)) };
+        let Some((level, waiver)) = level else { return Verdict::Reported(noted(diagnostic)) };
         match (level.severity(), waiver.filter(|waiver| waiver.is_stated())) {
             (Some(severity), waiver) => {
                 let diagnostic = noted(Diagnostic { severity, ..diagnostic });
-                Judged::Reported(match waiver {
+                Verdict::Reported(match waiver {
                     Some(waiver) => waiver.note_severity(diagnostic, place, run),
                     None => diagnostic,
                 })
             }
-            (None, Some(waiver)) => Judged::Waived(diagnostic, waiver.clone()),
-            (None, None) => Judged::Ignored,
+            (None, Some(waiver)) => Verdict::Waived(diagnostic, waiver.clone()),
+            (None, None) => Verdict::Ignored,
         }
     }
 
@@ -146,7 +146,7 @@ impl Workspace {
 }
 
 /// A diagnostic after applying the configured severities and waivers.
-enum Judged {
+enum Verdict {
     /// It is reported, with the severity that it has now.
     Reported(Diagnostic),
     /// It is dropped.

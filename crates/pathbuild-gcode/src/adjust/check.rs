@@ -9,8 +9,8 @@ use pathbuild_path::approx::above;
 use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
-use super::scan::{Survey, Used};
-use super::values::{Entered, ProbeLine};
+use super::scan::{ProbeUse, Survey};
+use super::values::{EnteredValue, ProbeLine};
 use super::values::{ProbePoint, ProbeTable, ProgramProbe};
 use crate::native::{f3, push_exact};
 
@@ -44,9 +44,9 @@ impl Check<'_, '_> {
     fn value(&self, line: &ProbeLine<'_>) -> Result<Option<f64>, Box<Diagnostic>> {
         self.check_made(line)?;
         let value = match line.value {
-            Entered::Nothing => return Err(Box::new(line.value_fault(&messages::NO_VALUE))),
-            Entered::Wrong => return Ok(None),
-            Entered::Value(value) => value,
+            EnteredValue::Nothing => return Err(Box::new(line.value_fault(&messages::NO_VALUE))),
+            EnteredValue::Wrong => return Ok(None),
+            EnteredValue::Value(value) => value,
         };
         for expected in self.expected(line)? {
             let off = (value - expected).abs();
@@ -103,8 +103,10 @@ impl Check<'_, '_> {
         }
         match self.survey.probes.get(&line.probe) {
             None => Ok(Vec::new()),
-            Some(Used { drawn: Some((least, greatest)), .. }) => Ok(vec![*least, *greatest]),
-            Some(Used { drawn: None, .. }) => Err(Box::new(line.value_fault(&messages::NO_EXPECTED_HEIGHT))),
+            Some(ProbeUse { drawn: Some((least, greatest)), .. }) => Ok(vec![*least, *greatest]),
+            Some(ProbeUse { drawn: None, .. }) => {
+                Err(Box::new(line.value_fault(&messages::NO_EXPECTED_HEIGHT)))
+            }
         }
     }
 
@@ -138,7 +140,7 @@ impl Check<'_, '_> {
     /// Probes that do not fit their neighbours. This requires that the program lists the positions of its probes.
     pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
-            (Entered::Value(value), Some(ProgramProbe { at: Some(at), height, .. })) => {
+            (EnteredValue::Value(value), Some(ProgramProbe { at: Some(at), height, .. })) => {
                 Some((*at, value - height))
             }
             _ => None,

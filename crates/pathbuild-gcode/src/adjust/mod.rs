@@ -41,7 +41,7 @@ pub struct Inputs<'a> {
 
 /// A program with measured heights.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Adjusted {
+pub struct AdjustedProgram {
     /// `DRAWING_Milling.gcode`.
     pub program: Vec<u8>,
     /// Number of corrected heights.
@@ -143,7 +143,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
     let stated = ProbeTable::read(program).probes;
     let lines = values::read(values, &mut Vec::new());
     lines.iter().any(|line| match (line.value, stated.get(&line.probe).and_then(|probe| probe.measured)) {
-        (values::Entered::Value(value), Some(measured)) => (value - measured).abs() > check::DIFFERENT,
+        (values::EnteredValue::Value(value), Some(measured)) => (value - measured).abs() > check::DIFFERENT,
         _ => false,
     })
 }
@@ -152,7 +152,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
 ///
 /// # Errors
 /// All errors in the files, each with line and column: PB601 to PB604. Then no program is produced.
-pub fn adjust(inputs: &Inputs<'_>) -> Result<Adjusted, Vec<Diagnostic>> {
+pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);
     let survey = scan::Survey::of(inputs.program, &mut problems);

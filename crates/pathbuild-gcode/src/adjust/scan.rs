@@ -115,12 +115,12 @@ fn closing(line: &[u8], open: usize) -> Option<usize> {
 /// The probes used by the formulas of a program.
 #[derive(Debug, Default)]
 pub(super) struct Survey<'a> {
-    pub(super) probes: BTreeMap<u32, Used<'a>>,
+    pub(super) probes: BTreeMap<u32, ProbeUse<'a>>,
 }
 
 /// A probe used by formulas.
 #[derive(Debug)]
-pub(super) struct Used<'a> {
+pub(super) struct ProbeUse<'a> {
     /// The line of its first use.
     pub(super) line: Line<'a>,
     pub(super) at: Range<usize>,
@@ -188,7 +188,7 @@ struct ProbeReader<'s, 'a> {
 impl Probes for ProbeReader<'_, '_> {
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64 {
         let at = at.start + self.start..at.end + self.start;
-        self.survey.probes.entry(probe).or_insert(Used { line: self.line, at, drawn: None });
+        self.survey.probes.entry(probe).or_insert(ProbeUse { line: self.line, at, drawn: None });
         // With NaN as height, results computed from it are not reported as errors yet.
         f64::NAN
     }

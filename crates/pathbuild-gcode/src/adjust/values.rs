@@ -30,14 +30,14 @@ pub(super) struct ProbeLine<'a> {
     pub(super) at: Option<Xy>,
     /// The expected height (th); missing in the older form.
     pub(super) height: Option<f64>,
-    pub(super) value: Entered,
+    pub(super) value: EnteredValue,
     /// Position of the value, present or missing: in this line, or in a line of a log.
     pub(super) value_at: (Line<'a>, Range<usize>),
 }
 
 /// What follows the `=`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Entered {
+pub(super) enum EnteredValue {
     Nothing,
     Value(f64),
     /// An error that has already been reported.
@@ -68,8 +68,8 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
         if first != line.number {
             let problem = line.fault(&messages::PROBE_TWICE, 0..line.content().len());
             problems.push(problem.with("probe", u64::from(read.probe)).with("first", u64::from(first)));
-            read.value = Entered::Wrong;
-        } else if read.value == Entered::Wrong {
+            read.value = EnteredValue::Wrong;
+        } else if read.value == EnteredValue::Wrong {
             let entered = String::from_utf8_lossy(&line.content()[read.value_at.1.clone()]).into_owned();
             problems.push(read.value_fault(&messages::NOT_A_VALUE).quoting("found", entered));
         }
@@ -93,9 +93,9 @@ fn probe_line<'a>(line: Line<'a>, parts: &Captures<'_>) -> Option<ProbeLine<'a>>
     let start = behind.end() - behind.as_bytes().trim_ascii_start().len();
     let entered = behind.as_bytes().trim_ascii();
     let value = match parse(entered) {
-        _ if entered.is_empty() => Entered::Nothing,
-        Some(value) => Entered::Value(value),
-        None => Entered::Wrong,
+        _ if entered.is_empty() => EnteredValue::Nothing,
+        Some(value) => EnteredValue::Value(value),
+        None => EnteredValue::Wrong,
     };
     Some(ProbeLine {
         line,
@@ -197,7 +197,7 @@ static LOG_REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
 
 /// A probing result.
 #[derive(Debug)]
-struct Measured<'a> {
+struct LoggedHeight<'a> {
     line: Line<'a>,
     at: Range<usize>,
     z: f64,
@@ -230,25 +230,25 @@ pub(super) fn fill_from_log<'a>(
 
 /// Marks missing values as already reported, because the problem is the log and not each single value.
 fn give_up(probes: &mut [ProbeLine<'_>]) {
-    for probe in probes.iter_mut().filter(|probe| probe.value == Entered::Nothing) {
-        probe.value = Entered::Wrong;
+    for probe in probes.iter_mut().filter(|probe| probe.value == EnteredValue::Nothing) {
+        probe.value = EnteredValue::Wrong;
     }
 }
 
-fn take<'a>(probe: &mut ProbeLine<'a>, measured: Measured<'a>, problems: &mut Vec<Diagnostic>) {
+fn take<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mut Vec<Diagnostic>) {
     match probe.value {
-        Entered::Nothing => {
-            probe.value = Entered::Value(measured.z);
+        EnteredValue::Nothing => {
+            probe.value = EnteredValue::Value(measured.z);
             probe.value_at = (measured.line, measured.at);
         }
-        Entered::Value(value) if (value - measured.z).abs() > SAME => {
+        EnteredValue::Value(value) if (value - measured.z).abs() > SAME => {
             problems.push(probe.value_fault(&messages::VALUE_DIFFERS_FROM_LOG).with("measured", measured.z));
         }
-        Entered::Value(_) | Entered::Wrong => {}
+        EnteredValue::Value(_) | EnteredValue::Wrong => {}
     }
 }
 
-fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<Measured<'a>> {
+fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHeight<'a>> {
     let mut measured = Vec::new();
     let mut offset = 0.0;
     for line in lines(log) {
@@ -259,7 +259,7 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<Measured
             }
             let at = report.get_match().range();
             match height(&report) {
-                Ok(z) => measured.push(Measured { line, at, z: z - offset }),
+                Ok(z) => measured.push(LoggedHeight { line, at, z: z - offset }),
                 Err(message) => {
                     problems.push(line.fault(message, at));
                     break;

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::messages::probes as messages;
 use super::check::Values;
 use super::scan::{Fault, Line, Probes, Spot, in_line, lines, located, mark, number, spots, value_of};
 use super::values::{entry_of_line, is_header};
-use super::{Adjusted, Inputs};
+use super::{AdjustedProgram, Inputs};
 use crate::native::{f3, push_exact};
 
 /// Factor and amount in mm by which a height may exceed the largest correction, although no probe does: weights with three decimals need
@@ -19,9 +19,9 @@ const SLACK: (f64, f64) = (1.002, 0.002);
 ///
 /// # Errors
 /// Formulas that cannot be evaluated, or whose result is too large.
-pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<Adjusted, Vec<Diagnostic>> {
+pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
-    let mut writer = Writer { inputs, values, adjusted: Adjusted::default(), problems: Vec::new() };
+    let mut writer = Writer { inputs, values, adjusted: AdjustedProgram::default(), problems: Vec::new() };
     writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
     writer.adjusted.program.extend_from_slice(mark(bytes));
     let mut is_in_header = true;
@@ -39,7 +39,7 @@ pub(super) fn adjusted(inputs: &Inputs<'_>, values: &Values) -> Result<Adjusted,
 struct Writer<'w> {
     inputs: &'w Inputs<'w>,
     values: &'w Values,
-    adjusted: Adjusted,
+    adjusted: AdjustedProgram,
     problems: Vec<Diagnostic>,
 }
 
@@ -85,8 +85,8 @@ impl Writer<'_> {
     fn height(&mut self, line: Line<'_>, spot: &Spot) -> Result<f64, Box<Diagnostic>> {
         let formula = &line.content()[spot.formula.clone()];
         let told = |fault: Fault| Box::new(located(line, &fault));
-        let height =
-            value_of(formula, &mut Measured(self.values)).map_err(|fault| told(in_line(&fault, spot)))?;
+        let height = value_of(formula, &mut MeasuredHeights(self.values))
+            .map_err(|fault| told(in_line(&fault, spot)))?;
         if !height.is_finite() {
             return Err(told(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
         }
@@ -126,9 +126,9 @@ fn is_height(line: &[u8], spot: &Spot) -> bool {
 }
 
 /// The measured heights. Every probe used by a formula has one, which was checked before.
-struct Measured<'v>(&'v Values);
+struct MeasuredHeights<'v>(&'v Values);
 
-impl Probes for Measured<'_> {
+impl Probes for MeasuredHeights<'_> {
     fn value(&mut self, probe: u32, _at: Range<usize>) -> f64 {
         self.0.get(&probe).copied().unwrap_or(f64::NAN)
     }

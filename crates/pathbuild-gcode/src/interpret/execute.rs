@@ -17,7 +17,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) rules: &'static Rules,
     pub(super) options: &'i Options,
     pub(super) state: State,
-    pub(super) words: Gathered,
+    pub(super) words: BlockWords,
     pub(super) problems: Problems,
     pub(super) parameters: Parameters,
     pub(super) stated: StatedProbes,
@@ -39,7 +39,7 @@ impl<'i> Interpreter<'i> {
             rules,
             options,
             state: State::new(rules, options.offsets.as_ref()),
-            words: Gathered::default(),
+            words: BlockWords::default(),
             problems: Problems::default(),
             parameters: Parameters::default(),
             stated: StatedProbes::default(),
@@ -184,7 +184,7 @@ pub(super) fn whole(value: f64) -> Option<u32> {
 
 /// The words of a block: commands in their order in the text, values by letter.
 #[derive(Debug, Default)]
-pub(super) struct Gathered {
+pub(super) struct BlockWords {
     pub(super) commands: Vec<(Command, u16, Span)>,
     pub(super) m_codes: Vec<(u16, Span)>,
     pub(super) values: Values,
@@ -198,7 +198,7 @@ pub(super) enum Setting {
     Named(Box<str>),
 }
 
-impl Gathered {
+impl BlockWords {
     pub(super) fn clear(&mut self) {
         self.commands.clear();
         self.m_codes.clear();

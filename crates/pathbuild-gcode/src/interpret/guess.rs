@@ -253,7 +253,7 @@ fn union_g_word(code: u16) -> UnionWord {
 
 /// The meaning of a G word in a dialect.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Meaning {
+enum WordMeaning {
     Command(Command),
     Dwell(DwellUnit),
     /// Something that no other dialect has.
@@ -298,19 +298,19 @@ fn is_known(rules: &Rules, letter: char, code: u16) -> bool {
     if letter == 'M' { words.has_m(code) || words.m_ignored.contains(&code) } else { words.has_g(code) }
 }
 
-fn meaning(rules: &Rules, code: u16) -> Option<Meaning> {
+fn meaning(rules: &Rules, code: u16) -> Option<WordMeaning> {
     let [inch, mm] = rules.unit_words;
     if !rules.words.has_g(code) {
         return None;
     }
     Some(match Command::of(code) {
-        _ if code == inch || code == mm => Meaning::Command(Command::Inches(code == inch)),
-        _ if rules.words.g_own.contains(&code) => Meaning::Own,
-        Command::Dwell => Meaning::Dwell(match rules.dwell.p {
+        _ if code == inch || code == mm => WordMeaning::Command(Command::Inches(code == inch)),
+        _ if rules.words.g_own.contains(&code) => WordMeaning::Own,
+        Command::Dwell => WordMeaning::Dwell(match rules.dwell.p {
             // The configuration tells which; the difference does not count as a dispute.
             DwellUnit::BySetting => DwellUnit::Seconds,
             unit => unit,
         }),
-        command => Meaning::Command(command),
+        command => WordMeaning::Command(command),
     })
 }

@@ -42,7 +42,7 @@ pub(super) struct State {
     pub(super) retract_to_r: bool,
     pub(super) cycle: CycleState,
     pub(super) offsets: Offsets,
-    pub(super) stated: Stated,
+    pub(super) stated: StatedModes,
 }
 
 /// The values of drilling cycles, which are kept until another motion.
@@ -60,7 +60,7 @@ pub(super) struct CycleState {
 /// What the program has specified, and which omissions have been reported.
 #[derive(Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
-pub(super) struct Stated {
+pub(super) struct StatedModes {
     pub(super) units: bool,
     pub(super) distance: bool,
     pub(super) plane: bool,
@@ -95,7 +95,7 @@ impl State {
             retract_to_r: !rules.lifts_to_start,
             cycle: CycleState::default(),
             offsets: Offsets::new(offsets),
-            stated: Stated::default(),
+            stated: StatedModes::default(),
         }
     }
 }

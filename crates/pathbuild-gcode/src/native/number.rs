@@ -97,14 +97,14 @@ pub(crate) fn push_exact(text: &mut String, number: f64) {
 }
 
 /// An arc from the printed position of the tool.
-pub(super) struct Printed {
+pub(super) struct PrintedArc {
     pub(super) from: Xy,
     /// Relative to `from`.
     pub(super) centre: Xy,
     pub(super) clockwise: bool,
 }
 
-impl Printed {
+impl PrintedArc {
     /// Rounds the values as they are printed.
     pub(super) fn new(from: Xy, centre: Xy, clockwise: bool) -> Self {
         Self { from: rounded(from), centre: rounded(centre), clockwise }

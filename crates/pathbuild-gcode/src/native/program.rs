@@ -10,7 +10,7 @@ use pathbuild_toolpath::{
     Statistics, Total, Xy, is_doubtful, is_point,
 };
 
-use super::number::{FIRST_PARAMETER, Formulas, Printed, f3, printed, push_f3};
+use super::number::{FIRST_PARAMETER, Formulas, PrintedArc, f3, printed, push_f3};
 use crate::dialect::{Charset, Dialect, within_comment};
 use crate::statistics::statistics;
 
@@ -252,7 +252,7 @@ impl Writer<'_> {
     /// The end that is printed for an arc.
     fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Xy {
         if is_doubtful(centre, length) {
-            Printed::new(self.at, centre, clockwise).end(to, length)
+            PrintedArc::new(self.at, centre, clockwise).end(to, length)
         } else {
             to
         }

@@ -14,7 +14,7 @@ const EXACT_DIGITS: usize = 15;
 
 /// A number found in a line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scanned {
+pub(super) struct ScannedNumber {
     pub(super) number: Number,
     /// Offset after the number.
     pub(super) end: usize,
@@ -31,7 +31,7 @@ pub(super) enum Oddity {
 
 /// Not a valid number; `end` is the offset after it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Malformed {
+pub(super) struct MalformedNumber {
     pub(super) end: usize,
 }
 
@@ -41,17 +41,17 @@ pub(super) fn begins(byte: u8) -> bool {
 }
 
 /// Reads the number that begins at `start`.
-pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<Scanned, Malformed> {
+pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<ScannedNumber, MalformedNumber> {
     let digits = Digits::scan(line, start);
     match line.get(digits.end) {
-        Some(b'.') => Err(Malformed { end: run_end(line, digits.end, begins) }),
+        Some(b'.') => Err(MalformedNumber { end: run_end(line, digits.end, begins) }),
         Some(b' ' | b'\t') if spelling.blanks == Blanks::Ignored && goes_on(line, digits.end) => {
             rewritten(line, start, Oddity::BlankInside)
         }
         Some(b',') if spelling.decimal_comma && !digits.point && is_digit(line, digits.end + 1) => {
             rewritten(line, start, Oddity::DecimalComma)
         }
-        _ => digits.number(line, start).map(|number| Scanned { number, end: digits.end, oddity: None }),
+        _ => digits.number(line, start).map(|number| ScannedNumber { number, end: digits.end, oddity: None }),
     }
 }
 
@@ -133,26 +133,26 @@ impl Digits {
         self.count += self.end - from;
     }
 
-    fn number(&self, line: &[u8], start: usize) -> Result<Number, Malformed> {
+    fn number(&self, line: &[u8], start: usize) -> Result<Number, MalformedNumber> {
         if self.count == 0 {
-            return Err(Malformed { end: self.end });
+            return Err(MalformedNumber { end: self.end });
         }
         let value = if self.count <= EXACT_DIGITS {
             let value = self.mantissa as f64 / POWERS[self.decimals];
             if self.negative { -value } else { value }
         } else {
-            decode(&line[start..self.end]).parse().map_err(|_| Malformed { end: self.end })?
+            decode(&line[start..self.end]).parse().map_err(|_| MalformedNumber { end: self.end })?
         };
         if value.is_finite() {
             Ok(Number { value, decimals: u8::try_from(self.decimals).unwrap_or(u8::MAX) })
         } else {
-            Err(Malformed { end: self.end })
+            Err(MalformedNumber { end: self.end })
         }
     }
 }
 
 /// Reads a number with blanks inside or a decimal comma by converting it to the usual notation.
-fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<Scanned, Malformed> {
+fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<ScannedNumber, MalformedNumber> {
     let end = match oddity {
         Oddity::BlankInside => last_digit(line, start),
         Oddity::DecimalComma => run_end(line, start, |byte| begins(byte) || byte == b','),
@@ -164,10 +164,10 @@ fn rewritten(line: &[u8], start: usize, oddity: Oddity) -> Result<Scanned, Malfo
         .collect();
     let digits = Digits::scan(&usual, 0);
     if digits.end < usual.len() {
-        return Err(Malformed { end });
+        return Err(MalformedNumber { end });
     }
-    let number = digits.number(&usual, 0).map_err(|_| Malformed { end })?;
-    Ok(Scanned { number, end, oddity: Some(oddity) })
+    let number = digits.number(&usual, 0).map_err(|_| MalformedNumber { end })?;
+    Ok(ScannedNumber { number, end, oddity: Some(oddity) })
 }
 
 /// Offset after the last digit or point of a number that contains blanks.

@@ -237,9 +237,9 @@ impl<'t> BlockReader<'t> {
             return false;
         }
         let start = match self.percent(line) {
-            Beginning::Nothing => 0,
-            Beginning::Passed(start) => start,
-            Beginning::Comment(text) => {
+            PercentSign::Nothing => 0,
+            PercentSign::Passed(start) => start,
+            PercentSign::Comment(text) => {
                 self.parts.comments.push(Comment { style: CommentStyle::Percent, text });
                 return !text.range().is_empty();
             }
@@ -266,29 +266,29 @@ impl<'t> BlockReader<'t> {
         .read()
     }
 
-    fn percent(&mut self, line: &[u8]) -> Beginning {
+    fn percent(&mut self, line: &[u8]) -> PercentSign {
         let is_blank = |byte: &&u8| matches!(byte, b' ' | b'\t');
         let mut blanks = line.iter().take_while(is_blank).count();
         if self.rules.spelling.percent == Percent::Title {
             blanks += title_number(&line[blanks..]);
         }
         if line.get(blanks) != Some(&b'%') {
-            return Beginning::Nothing;
+            return PercentSign::Nothing;
         }
         let behind = blanks + 1;
         match self.rules.spelling.percent {
-            Percent::Start if self.state == State::Leader => Beginning::Passed(behind),
+            Percent::Start if self.state == State::Leader => PercentSign::Passed(behind),
             Percent::Start => {
                 self.report(&say::SECOND_PERCENT, &line[..behind], |d| d);
-                Beginning::Passed(behind)
+                PercentSign::Passed(behind)
             }
             Percent::Refused => {
                 self.report(&say::UNKNOWN_PERCENT, &line[..behind], |d| d);
-                Beginning::Passed(behind)
+                PercentSign::Passed(behind)
             }
             Percent::Title if self.state == State::Leader => {
                 self.state = State::Program;
-                Beginning::Comment(Span::new(behind, line.len()))
+                PercentSign::Comment(Span::new(behind, line.len()))
             }
             Percent::Frame | Percent::Title => {
                 let text = Span::new(behind, line.len());
@@ -300,7 +300,7 @@ impl<'t> BlockReader<'t> {
                 if !text.range().is_empty() {
                     self.report(&say::TEXT_AFTER_PERCENT, line, |d| d);
                 }
-                Beginning::Comment(text)
+                PercentSign::Comment(text)
             }
         }
     }
@@ -360,7 +360,7 @@ impl<'t> BlockReader<'t> {
 }
 
 /// The effect of `%` at the beginning of a line.
-enum Beginning {
+enum PercentSign {
     /// There is no `%`.
     Nothing,
     /// The line continues at this offset.

@@ -29,7 +29,7 @@ pub(super) struct Item<'a> {
 }
 
 /// A role, and the effective parameters that can change moves.
-type Meaning<'i> = (Option<Role>, Vec<(Letter, &'i str)>);
+type Effect<'i> = (Option<Role>, Vec<(Letter, &'i str)>);
 
 /// The elements and markers of a path.
 pub(super) fn items(side: DrawnSide<'_>) -> Vec<Item<'_>> {
@@ -93,8 +93,8 @@ impl Item<'_> {
         self.shape.point()
     }
 
-    /// What it means, regardless of its shape: equal for elements that are treated alike.
-    pub(super) fn meaning(&self) -> Meaning<'_> {
+    /// What it does to the moves, regardless of its shape: equal for elements that are treated alike.
+    pub(super) fn effect(&self) -> Effect<'_> {
         let values = self.parameters.iter().map(|parameter| (parameter.letter, parameter.value.as_str()));
         (self.role.map(swept), values.collect())
     }
@@ -103,7 +103,7 @@ impl Item<'_> {
     pub(super) fn line_type_change(&self, new: &Self) -> Option<[&'static str; 2]> {
         let (old_role, new_role) = (self.role?, new.role?);
         let is_changed = swept(old_role) != swept(new_role)
-            || old_role != new_role && self.meaning() != new.meaning() && self.text_change(new).is_none();
+            || old_role != new_role && self.effect() != new.effect() && self.text_change(new).is_none();
         is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
     }
 

@@ -96,7 +96,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     let (old_items, new_items) = (items(old), items(new));
     let frame = Frame::between(&old_items, &new_items);
     let pairs = pair(&old_items, &new_items, &frame);
-    let mut found: Vec<Found<'_>> = Vec::new();
+    let mut found: Vec<FoundChange<'_>> = Vec::new();
     for (was, is) in &pairs.both {
         found.extend(element_changes(was, is, &frame).into_iter().map(|change| (*is, change)));
     }
@@ -111,7 +111,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
 }
 
 /// A changed element, of the new drawing if it is there.
-type Found<'i> = (&'i Item<'i>, ElementChange);
+type FoundChange<'i> = (&'i Item<'i>, ElementChange);
 
 /// The changes from one version of an element to the other.
 fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<ElementChange> {
@@ -131,7 +131,7 @@ fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<Element
 }
 
 /// Groups equal changes of elements of one kind. The first element by place stands for its group.
-fn grouped(mut found: Vec<Found<'_>>) -> Vec<DrawnChange> {
+fn grouped(mut found: Vec<FoundChange<'_>>) -> Vec<DrawnChange> {
     found.sort_by(|(one, _), (other, _)| by_place(one.kind, one.at(), other.kind, other.at()));
     let mut groups: Vec<DrawnChange> = Vec::new();
     let mut numbers: BTreeMap<(ElementKind, String), usize> = BTreeMap::new();

@@ -83,7 +83,7 @@ pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) 
         both: Vec::with_capacity(old.len()),
         shift: frame.shift,
     };
-    pairing.by_key(|item, place| Some((place, item.meaning())));
+    pairing.by_key(|item, place| Some((place, item.effect())));
     pairing.by_key(|_, place| Some(place));
     pairing.by_rounded_place();
     if pairing.has_lasting_handles() {

@@ -346,7 +346,7 @@ mod tests {
     use crate::geometry::Xy;
 
     /// The number of ends examined when each end is queried for its neighbours.
-    fn looked_at(points: &[Xy]) -> usize {
+    fn examined_ends(points: &[Xy]) -> usize {
         let ends = Ends::of_segments(points.iter().map(|point| [*point; 2]));
         let mut count = 0;
         for point in points {
@@ -369,8 +369,8 @@ mod tests {
 
     /// Four times as many points in four times the area, all within a thousandth of a mm² or less.
     #[test]
-    fn ends_that_lie_close_but_do_not_meet_are_not_looked_at() {
-        let (one, four) = (looked_at(&crowd(50)), looked_at(&crowd(100)));
+    fn ends_that_lie_close_but_do_not_meet_are_not_compared() {
+        let (one, four) = (examined_ends(&crowd(50)), examined_ends(&crowd(100)));
         assert!(four <= 5 * one, "{one}, {four}");
         assert!(one <= 100 * 2500, "{one}");
     }

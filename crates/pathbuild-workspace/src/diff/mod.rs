@@ -43,14 +43,14 @@ pub struct Comparison {
     /// Paths that differ between the sides, sorted by name.
     pub paths: Vec<PathDiff>,
     /// Number of paths on the new side.
-    pub looked_at: usize,
+    pub path_count: usize,
     /// Diagnostics of what could not be compared, on the old and on the new side.
     pub problems: [Vec<Diagnostic>; 2],
 }
 
 impl Comparison {
     /// Whether the problems of a side include errors of a path.
-    pub fn tells_of(&self, path: &PathDiff) -> bool {
+    pub fn has_error_of(&self, path: &PathDiff) -> bool {
         let is_of = |problem: &Diagnostic| {
             let name = problem.path.as_deref().map(PathName::new);
             problem.is_error() && name == Some(PathName::new(&path.name))
@@ -152,13 +152,13 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     let (old_path, old_problems) = old.paths();
     let (new_path, new_problems) = new.paths();
     let mut problems = [old_problems, new_problems];
-    let looked_at = new_path.len();
+    let path_count = new_path.len();
     let mut paths: Vec<PathDiff> = pair_up(old_path, new_path)
         .into_iter()
         .filter_map(|pair| pair.compare([old.session, new.session], pictures, &mut problems))
         .collect();
     paths.sort_by(|a, b| by_name(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
-    Comparison { paths, looked_at, problems }
+    Comparison { paths, path_count, problems }
 }
 
 /// A path on one side.

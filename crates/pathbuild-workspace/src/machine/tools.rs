@@ -36,7 +36,7 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
         }
         let place = u32::try_from(index + 1).ok();
         let find = |letter| words.split_whitespace().find_map(|word| number_after(word, letter));
-        let mut tool = Described::new(comment.trim(), place);
+        let mut tool = ToolDescription::new(comment.trim(), place);
         tool.number =
             tools.tool_number("T", words.split_whitespace().find_map(|word| word.strip_prefix('T')), place);
         match find('D').filter(|diameter| *diameter > 0.0) {
@@ -84,7 +84,7 @@ fn fusion(library: &[Value]) -> Description {
             tools.unused.extend(fields.unused());
             continue;
         }
-        let mut tool = Described::new(&fields.text("description").unwrap_or_default(), None);
+        let mut tool = ToolDescription::new(&fields.text("description").unwrap_or_default(), None);
         let number = fields.take("post-process/number").map(|number| shown(&number));
         tool.number = tools.tool_number("post-process/number", number.as_deref(), None);
         let unit = match fields.text("unit").as_deref() {
@@ -144,7 +144,8 @@ fn freecad_library(list: &[Value], bit: ReadBit<'_>) -> Result<Description, Box<
 
 fn freecad_bit(bit: &Value, number: Option<u32>, tools: &mut Tools) {
     let mut fields = Fields::new(bit);
-    let mut tool = Described { number, ..Described::new(&fields.text("name").unwrap_or_default(), None) };
+    let mut tool =
+        ToolDescription { number, ..ToolDescription::new(&fields.text("name").unwrap_or_default(), None) };
     let shape = fields.text("shape-type").or_else(|| fields.text("shape")).unwrap_or_default();
     let shape = shape.to_ascii_lowercase();
     let shape = shape.strip_suffix(".fcstd").unwrap_or(&shape);
@@ -236,7 +237,7 @@ fn shown(value: &Value) -> String {
 
 /// A tool that is being read.
 #[derive(Debug, Default)]
-struct Described {
+struct ToolDescription {
     name: String,
     number: Option<u32>,
     line: Option<u32>,
@@ -245,7 +246,7 @@ struct Described {
     shape: Option<Quantity>,
 }
 
-impl Described {
+impl ToolDescription {
     fn new(name: &str, line: Option<u32>) -> Self {
         Self { name: name.trim().to_owned(), line, ..Self::default() }
     }
@@ -310,14 +311,14 @@ impl Tools {
     }
 
     /// Reports a tool whose diameter, or its unit, is not known.
-    fn without_diameter(&mut self, tool: &Described) {
+    fn without_diameter(&mut self, tool: &ToolDescription) {
         let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
         let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
         self.problems.push(at(problem, tool.line));
     }
 
     /// Adds a tool, unless it has no diameter, without which the configuration takes none, or a tip that no tool has.
-    fn add(&mut self, tool: Described) {
+    fn add(&mut self, tool: ToolDescription) {
         let Some(diameter) = tool.number_of("diameter") else { return };
         let radius = tool.number_of("corner-radius").unwrap_or_default();
         if is_too_round(radius, diameter) {

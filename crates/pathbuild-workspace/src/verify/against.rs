@@ -110,8 +110,9 @@ impl ReferenceProgram {
     ) -> verify::Against<'w, impl Iterator<Item = (u32, Move)>> {
         let clearance = self.drawn.start_height();
         let above_zero = Position::known(0.0, 0.0, clearance);
-        let (start, written) = rewritten
-            .map_or((above_zero, None), |it| (it.start.unwrap_or(above_zero), Some(it.moves.clone())));
+        let (start, written) = rewritten.map_or((above_zero, None), |known| {
+            (known.start.unwrap_or(above_zero), Some(known.moves.clone()))
+        });
         let is_native = written.is_none();
         let drawn_moves = is_native.then(|| self.drawn.moves()).into_iter().flatten();
         let drawn = verify::Drawn {

@@ -26,7 +26,7 @@ pub use self::commands::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCod
 pub use self::commands::{MachineArgs, MachineCommand};
 pub use self::commands::{ServeArgs, WatchArgs};
 pub use self::shared::CommonArgs;
-pub use self::shared::Deferred;
+pub use self::shared::DeferredArgs;
 pub use self::shared::InputArgs;
 use self::shared::LangArg;
 pub use self::shared::ReportFile;
@@ -52,59 +52,59 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Check every path of the given drawings, paths or directories; without arguments the library. Writes no programs
-    Check(Deferred<CheckArgs>),
+    Check(DeferredArgs<CheckArgs>),
     /// Write the files of one or more paths; without arguments those of `[emit] targets`
-    Emit(Deferred<EmitArgs>),
+    Emit(DeferredArgs<EmitArgs>),
     /// Put measured heights into a program: `DRAWING_Clean.gcode` and `DRAWING_Z.txt` become `DRAWING_Milling.gcode`
-    Adjust(Deferred<AdjustArgs>),
+    Adjust(DeferredArgs<AdjustArgs>),
     /// Check again whenever a drawing changes
-    Watch(Deferred<WatchArgs>),
+    Watch(DeferredArgs<WatchArgs>),
     /// Show which element each parameter text belongs to
-    Texts(Deferred<TextsArgs>),
+    Texts(DeferredArgs<TextsArgs>),
     /// Show a path, a drawing or a program: in the browser, or as SVG, PNG, PDF, HTML or JSON
-    View(Deferred<ViewArgs>),
+    View(DeferredArgs<ViewArgs>),
     /// Make a path's setup sheet for the machine operator: PDF, HTML or SVG, or in the browser
-    Sheet(Deferred<SheetArgs>),
+    Sheet(DeferredArgs<SheetArgs>),
     /// Show how changed drawings change the moves: between directories, Git revisions, or a program and a path
-    Diff(Deferred<DiffArgs>),
+    Diff(DeferredArgs<DiffArgs>),
     /// Read a G-code program and print what it does: moves, depths, feeds, times
-    Import(Deferred<ImportArgs>),
+    Import(DeferredArgs<ImportArgs>),
     /// Check a G-code program
-    Verify(Deferred<VerifyArgs>),
+    Verify(DeferredArgs<VerifyArgs>),
     /// Write a G-code program for another machine
-    Post(Deferred<PostArgs>),
+    Post(DeferredArgs<PostArgs>),
     /// Show which path embeds which, with the values of variables
-    Graph(Deferred<GraphArgs>),
+    Graph(DeferredArgs<GraphArgs>),
     /// Show which paths a path embeds
-    Deps(Deferred<GraphArgs>),
+    Deps(DeferredArgs<GraphArgs>),
     /// Show which paths embed a path
-    Rdeps(Deferred<GraphArgs>),
+    Rdeps(DeferredArgs<GraphArgs>),
     /// List paths with drawing, M, T, O, size, length, minutes and state; without arguments those of the library
-    List(Deferred<ListArgs>),
+    List(DeferredArgs<ListArgs>),
     /// Count the paths by material, cutter and state
-    Stats(Deferred<ListArgs>),
+    Stats(DeferredArgs<ListArgs>),
     /// Show where a path is defined
-    Where(Deferred<GraphArgs>),
+    Where(DeferredArgs<GraphArgs>),
     /// Show why drawings would be compiled again: what has changed since the last `check` of the library
-    Why(Deferred<GraphArgs>),
+    Why(DeferredArgs<GraphArgs>),
     /// Write a Q-project: a drawing that embeds every path of another
-    QProject(Deferred<QProjectArgs>),
+    QProject(DeferredArgs<QProjectArgs>),
     /// Manage the results cached between runs
-    Cache(Deferred<CacheArgs>),
+    Cache(DeferredArgs<CacheArgs>),
     /// Explain the codes of messages; without a code list all of them
-    Explain(Deferred<ExplainArgs>),
+    Explain(DeferredArgs<ExplainArgs>),
     /// Write a commented pathbuild.toml into the working directory
-    Init(Deferred<InitArgs>),
+    Init(DeferredArgs<InitArgs>),
     /// Show the configuration
-    Config(Deferred<ConfigArgs>),
+    Config(DeferredArgs<ConfigArgs>),
     /// Take over what a controller or a CAM program knows about the machine
-    Machine(Deferred<MachineArgs>),
+    Machine(DeferredArgs<MachineArgs>),
     /// Print a completion script for a shell
-    Completions(Deferred<CompletionsArgs>),
+    Completions(DeferredArgs<CompletionsArgs>),
     /// Print the manual page
     Man,
     /// Run a command line of `PathDxf2GCode` or `PathGCodeAdjustZ`
-    Compat(Deferred<CompatArgs>),
+    Compat(DeferredArgs<CompatArgs>),
 }
 
 impl Command {

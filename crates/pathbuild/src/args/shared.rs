@@ -315,9 +315,9 @@ fn is_name(text: &str) -> bool {
 
 /// Arguments of a command, defined only if the command is used.
 #[derive(Clone, Debug)]
-pub struct Deferred<T>(T);
+pub struct DeferredArgs<T>(T);
 
-impl<T> Deref for Deferred<T> {
+impl<T> Deref for DeferredArgs<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
@@ -325,7 +325,7 @@ impl<T> Deref for Deferred<T> {
     }
 }
 
-impl<T: Args> Args for Deferred<T> {
+impl<T: Args> Args for DeferredArgs<T> {
     fn augment_args(command: Definition) -> Definition {
         command.defer(define::<T>)
     }
@@ -335,7 +335,7 @@ impl<T: Args> Args for Deferred<T> {
     }
 }
 
-impl<T: FromArgMatches> FromArgMatches for Deferred<T> {
+impl<T: FromArgMatches> FromArgMatches for DeferredArgs<T> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         T::from_arg_matches(matches).map(Self)
     }

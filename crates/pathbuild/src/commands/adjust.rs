@@ -5,7 +5,7 @@ use pathbuild_db::catch_bugs;
 use pathbuild_db::system::{FileKind, WriteOutcome, join};
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_diagnostic::{Diagnostic, in_prose};
-use pathbuild_gcode::adjust::{Adjusted, Inputs, Source, adjust};
+use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::read::quote;
@@ -283,7 +283,7 @@ impl<'a> Adjustment<'a> {
         }
     }
 
-    fn report_written(&self, file: &Utf8Path, written: WriteOutcome, adjusted: &Adjusted) {
+    fn report_written(&self, file: &Utf8Path, written: WriteOutcome, adjusted: &AdjustedProgram) {
         self.context.json_row(|| {
             let (kind, mut row) = output_row(self.context, file, written);
             row["heights"] = adjusted.heights.into();

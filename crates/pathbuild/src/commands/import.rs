@@ -5,7 +5,7 @@ use std::fmt::Write;
 use pathbuild_diagnostic::{Diagnostic, Lang, Number, in_prose, shown};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
-use pathbuild_gcode::statistics::{Extent, MoveTotals, Summary, Tally, Used, is_guess};
+use pathbuild_gcode::statistics::{Extent, MoveTotals, Summary, Tally, ToolTotals, is_guess};
 use pathbuild_workspace::program::Program;
 use serde_json::{Value, json};
 
@@ -125,7 +125,7 @@ fn extent(extent: &Extent) -> Value {
     json!({ "x": axis(&extent[0]), "y": axis(&extent[1]), "z": axis(&extent[2]) })
 }
 
-fn used(used: &Used) -> Value {
+fn used(used: &ToolTotals) -> Value {
     json!({ "tool": used.tool, "moves": tally(&used.tally), "feeds": used.feeds, "speeds": used.speeds })
 }
 
@@ -239,7 +239,7 @@ impl Formatter<'_> {
         (!axes.is_empty()).then(|| axes.join(", "))
     }
 
-    fn used(&self, used: &Used, is_layer: bool, facts: &Facts<'_>) -> String {
+    fn used(&self, used: &ToolTotals, is_layer: bool, facts: &Facts<'_>) -> String {
         let name = match used.tool {
             Some(number) if is_layer => number.to_string(),
             Some(number) => format!("T{number}"),

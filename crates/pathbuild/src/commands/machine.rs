@@ -67,13 +67,13 @@ fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Valu
 }
 
 /// Entries without a key: the file, its format, and the entries.
-type Unused<'f> = (&'f Utf8Path, &'static str, Vec<Entry>);
+type UnusedEntries<'f> = (&'f Utf8Path, &'static str, Vec<Entry>);
 
 /// Shows the values beside those of the configuration, and writes them if requested.
 fn compare(
     context: &Context,
     values: &[DescribedValue],
-    unused: &[Unused<'_>],
+    unused: &[UnusedEntries<'_>],
     write: bool,
 ) -> Result<(), Vec<Diagnostic>> {
     let file = configuration(context);
@@ -107,7 +107,7 @@ fn configuration(context: &Context) -> Utf8PathBuf {
     context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
 }
 
-fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[Unused<'_>]) {
+fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[UnusedEntries<'_>]) {
     if context.format == Format::Json {
         for Change { table, key, old, new, source, is_new } in changes {
             let row = json!({ "table": table, "key": key, "old": old, "new": new, "from": source, "differs": is_new });

@@ -72,7 +72,7 @@ fn single(old: ComparedProgram, new: ComparedProgram, pictures: Option<Pictures>
     let name = new.path.name.clone();
     let path = PathDiff { name, files, outcome: Outcome::Changed(Box::new(changed)) };
     let paths = if is_same { Vec::new() } else { vec![path] };
-    Comparison { paths, looked_at: 1, problems: [old.problems, new.problems] }
+    Comparison { paths, path_count: 1, problems: [old.problems, new.problems] }
 }
 
 fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitStatus {

@@ -108,7 +108,7 @@ pub(super) fn place(path: &PathDiff) -> String {
 pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
         // `check` builds no programs, so it does not report limits that only programs exceed.
-        Outcome::Broken if comparison.tells_of(path) => ("has errors now", "hat jetzt Fehler"),
+        Outcome::Broken if comparison.has_error_of(path) => ("has errors now", "hat jetzt Fehler"),
         Outcome::Added => ("new", "neu"),
         Outcome::Removed => ("gone", "weg"),
         Outcome::Broken => {
@@ -203,10 +203,10 @@ pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
     let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
     let mut parts = vec![match lang {
         Lang::En => {
-            format!("{changed} of {} changed", counted(comparison.looked_at, lang, ["path", "paths"]))
+            format!("{changed} of {} changed", counted(comparison.path_count, lang, ["path", "paths"]))
         }
         Lang::De => {
-            format!("{changed} von {} geändert", counted(comparison.looked_at, lang, ["Pfad", "Pfaden"]))
+            format!("{changed} von {} geändert", counted(comparison.path_count, lang, ["Pfad", "Pfaden"]))
         }
     }];
     let mut add = |number: usize, en: &str, de: &str| {
@@ -300,7 +300,7 @@ pub(super) fn rows(context: &Context, comparison: &Comparison) {
     for changed in &comparison.paths {
         context.row("path_change", path(changed, context.lang()));
     }
-    context.row("comparison", json!({ "paths": comparison.looked_at, "changed": comparison.paths.len() }));
+    context.row("comparison", json!({ "paths": comparison.path_count, "changed": comparison.paths.len() }));
 }
 
 fn path(path: &PathDiff, lang: Lang) -> Value {
