@@ -11,7 +11,7 @@ use pathbuild_motion::{Action, StatedWord, Step, WordEffect};
 
 use super::codes;
 use super::evaluate::name_of;
-use super::execute::{Interpreter, Jump, SubprogramName, ValueFault, limits, whole};
+use super::execute::{Interpreter, Jump, LoopExit, SubprogramName, ValueFault, limits, whole};
 use super::switches::CALLS;
 use crate::read::{Block, BlockReader, Code, OWord, OWordKind, Place, Value};
 
@@ -26,8 +26,8 @@ const MOST_LINES: u32 = 1_000_000;
 enum Outcome {
     Returned,
     Repeated,
-    /// `break` or `continue` ended a pass through the loop that [`Runner::left`] names. The flag says whether another pass may follow.
-    Left(bool),
+    /// A pass through the loop that [`Runner::left`] names has ended early.
+    Left(LoopExit),
     /// There are no more lines.
     NoLines,
     /// The program has ended, or the caller wants no more steps, or too much has been executed.
@@ -120,12 +120,12 @@ impl<'r, 'i> Runner<'r, 'i> {
                 Some(Jump::While(name)) if self.is_end_of_do(&name) => return Outcome::Repeated,
                 Some(Jump::While(name)) => self.repeat_while(reader, name, before, line),
                 Some(Jump::Do(name)) => self.repeat_do(reader, name, line),
-                Some(Jump::Leave(name, goes_on)) => {
+                Some(Jump::Leave(name, exit)) => {
                     let open = self.loops.iter().find(|open| open.name == name);
-                    let message = match open.map(|open| open.is_do && goes_on) {
+                    let message = match open.map(|open| open.is_do && exit == LoopExit::Continue) {
                         Some(false) => {
                             self.left = name;
-                            return Outcome::Left(goes_on);
+                            return Outcome::Left(exit);
                         }
                         // After it, rs274 runs a loop once more that a later `break` leaves from within another one.
                         Some(true) => &say::CONTINUED_DO,
@@ -260,11 +260,8 @@ impl<'r, 'i> Runner<'r, 'i> {
             }
             match self.body(reader, start) {
                 Outcome::Repeated => {}
-                Outcome::Left(goes_on) if self.left == name => {
-                    if !goes_on {
-                        break Outcome::Repeated;
-                    }
-                }
+                Outcome::Left(LoopExit::Continue) if self.left == name => {}
+                Outcome::Left(LoopExit::Break) if self.left == name => break Outcome::Repeated,
                 outcome => break outcome,
             }
         };
@@ -400,8 +397,8 @@ impl Interpreter<'_> {
             OWordKind::EndIf => None,
             OWordKind::While => Some(Jump::While(name)),
             OWordKind::Do => Some(Jump::Do(name)),
-            OWordKind::Break => Some(Jump::Leave(name, false)),
-            OWordKind::Continue => Some(Jump::Leave(name, true)),
+            OWordKind::Break => Some(Jump::Leave(name, LoopExit::Break)),
+            OWordKind::Continue => Some(Jump::Leave(name, LoopExit::Continue)),
             OWordKind::EndRepeat | OWordKind::EndWhile => Some(Jump::EndRepeat),
             OWordKind::Other => {
                 self.report(block, &say::O_WORD, word.span, |d| d);

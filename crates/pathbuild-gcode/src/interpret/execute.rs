@@ -342,12 +342,21 @@ pub(super) enum Jump {
     While(Box<str>),
     /// Begins a loop whose condition is tested after each pass.
     Do(Box<str>),
-    /// Ends a pass through the loop of this name. The flag says whether another pass may follow.
-    Leave(Box<str>, bool),
+    /// Ends a pass through the loop of this name early.
+    Leave(Box<str>, LoopExit),
     /// Ends the subprogram.
     Return,
     /// Ends a pass through the innermost loop.
     EndRepeat,
+}
+
+/// The word that ends a pass through a loop early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LoopExit {
+    /// No other pass follows.
+    Break,
+    /// Another pass may follow.
+    Continue,
 }
 
 impl SubprogramName {
