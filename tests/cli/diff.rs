@@ -222,6 +222,25 @@ fn changes_are_seen() {
     assert_snapshot!(pictures.collect::<Vec<_>>().join("\n\n"));
 }
 
+/// Removed moves are seen beneath those in their place, and the legend has the numbers of its language.
+#[test]
+fn removed_moves_are_wider_and_beneath() {
+    let drawing = |elements: &str| dxf("1001.1P", "1", elements);
+    let place = two(drawing("mill 0,0 40,0"), drawing("mill 0,0 33.51,0\nsweep 33.51,0 40,0"));
+    told(&place.run("diff old new -o d.html --lang de"), 0, &[]);
+    let page = place.read("d.html");
+    let picture = page.split("<svg").nth(1).unwrap().split_once("</svg>").unwrap().0;
+    let place_of = |style: &str| picture.find(style).unwrap_or_else(|| panic!("{style} in {picture}"));
+    let removed = place_of("stroke=\"#d55e00\" stroke-width=\"6\" stroke-dasharray");
+    assert!(removed < place_of("stroke=\"#0072b2\" stroke-width=\"2\""), "{picture}");
+    let legend: Vec<&str> = picture.split("</text>").filter(|text| text.ends_with(" mm")).collect();
+    assert!(
+        legend.len() > 1 && legend.iter().any(|text| text.rsplit(' ').nth(1).unwrap().contains(',')),
+        "{picture}"
+    );
+    assert!(legend.iter().all(|text| !text.rsplit(' ').nth(1).unwrap().contains('.')), "{picture}");
+}
+
 /// A deeper cut removes more, a higher one leaves more, and another feed does neither.
 #[test]
 fn the_stock_shows_what_a_change_removes_or_leaves() {

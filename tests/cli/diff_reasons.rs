@@ -72,6 +72,24 @@ fn what_was_drawn_explains_the_moves() {
     assert!(german.stdout.contains("\n  Ursache:\n"), "{german}");
 }
 
+/// A line type that takes no text has lost its text with the change; another change of the text is told as before.
+#[test]
+fn a_line_type_without_texts_is_told_instead_of_the_text() {
+    let part = |sweep: &str| part("1001.1P", "B1 F200", &format!("{sweep}\nmill 20,0 40,0"));
+    let dashed = |text: &str| part(&format!("sweep 0,0 20,0 \"{text}\""));
+    explained(
+        dashed("S12"),
+        part("sweep 0,0 20,0"),
+        &["    line at (0, 0): line type changed from DASHED to HIDDEN"],
+    );
+    explained(
+        part("sweep 0,0 20,0"),
+        dashed("S12"),
+        &["    line at (0, 0): line type changed from HIDDEN to DASHED"],
+    );
+    explained(dashed("S12"), dashed("S14"), &["    line at (0, 0): text S12 became S14"]);
+}
+
 #[test]
 fn what_changes_no_move_explains_nothing() {
     // Both have comments and a hidden line's text changed, but only the depth changes moves.

@@ -107,8 +107,12 @@ impl Item<'_> {
         is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
     }
 
-    /// The parameters in the own texts of both versions that differ and whose effective values differ with them.
+    /// The parameters in the own texts of both versions that differ and whose effective values differ with them. A line type that takes no
+    /// text has lost it with the change of the line type, which says so.
     pub(super) fn text_change(&self, new: &Self) -> Option<[String; 2]> {
+        if self.role != new.role && [self.role, new.role].iter().flatten().any(|role| !takes_text(*role)) {
+            return None;
+        }
         let is_changed = |letter| self.value(letter) != new.value(letter);
         let gives = |item: &Self, letter| item.parameter(letter).is_some_and(|own| own.from == Provider::Own);
         let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
@@ -180,6 +184,11 @@ fn swept(role: Role) -> Role {
         Role::SilentSweep | Role::SkippedSubpath => Role::Sweep,
         Role::Cut(_) | Role::Sweep | Role::Subpath => role,
     }
+}
+
+/// Whether elements with this role have texts of their own.
+fn takes_text(role: Role) -> bool {
+    role != Role::SilentSweep
 }
 
 /// The usual line type for a role.

@@ -1,6 +1,6 @@
 //! Pictures of how a changed drawing affects the moves of a path. Old and new share one frame, so that the pictures can be overlaid.
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Lang, Number};
 
 use super::canvas::{Anchor, Canvas, INK, OTHER, n};
 use super::frame::{Frame, PageTransform, widen};
@@ -9,7 +9,7 @@ use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
 
 use crate::scene::{MoveKind, Point, SceneMove};
 
-/// Added moves are blue, removed ones vermilion and dashed. The dashes also distinguish them for the colour-blind.
+/// Added moves are blue, removed ones vermilion, wider and dashed. The dashes also distinguish them for the colour-blind.
 const ADDED: &str = "#0072b2";
 const REMOVED: &str = "#d55e00";
 const SHIFTED: &str = "#009e73";
@@ -88,19 +88,17 @@ impl Pair<'_> {
         }
         let stays = self.new.iter().zip(&is_changed).filter(|(_, is_changed)| !**is_changed);
         for (movement, _) in stays {
-            stroke(canvas, movement, place, OTHER, "");
+            stroke(canvas, movement, place, Style::plain(OTHER));
         }
-        for change in self.changes {
-            let (old, new) = (&self.old[change.old.clone()], &self.new[change.new.clone()]);
-            let was = if matches!(change.kind, ChangeKind::Altered { .. } | ChangeKind::Reordered) {
-                &[]
-            } else {
-                old
-            };
-            for movement in was {
+        let is_gone =
+            |change: &&Change| !matches!(change.kind, ChangeKind::Altered { .. } | ChangeKind::Reordered);
+        for change in self.changes.iter().filter(is_gone) {
+            for movement in &self.old[change.old.clone()] {
                 self.stroke(canvas, movement, place, Some(ChangeKind::Removed));
             }
-            for movement in new {
+        }
+        for change in self.changes {
+            for movement in &self.new[change.new.clone()] {
                 self.stroke(canvas, movement, place, Some(change.kind));
             }
         }
@@ -125,29 +123,29 @@ impl Pair<'_> {
         kind: Option<ChangeKind>,
     ) {
         let kind = kind.filter(|_| movement.kind != MoveKind::Sweep);
-        let Style { color, dashes } = Style::of(kind, self.groups);
-        stroke(canvas, movement, place, color, dashes);
+        stroke(canvas, movement, place, Style::of(kind, self.groups));
     }
 }
 
-fn all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &str) {
+fn all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &'static str) {
     for movement in moves {
-        stroke(canvas, movement, place, color, "");
+        stroke(canvas, movement, place, Style::plain(color));
     }
 }
 
-fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str, dashes: &str) {
+fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, style: Style) {
+    let Style { color, dashes, width } = style;
     if !movement.is_placed() || movement.kind == MoveKind::Lift {
         return;
     }
     if matches!(movement.kind, MoveKind::Plunge | MoveKind::Probe) {
         return canvas.circle(
             place.at(movement.to()),
-            2.5,
+            width + 0.5,
             &format!("fill=\"{color}\" stroke=\"{color}\"{dashes}"),
         );
     }
-    let (width, dashes) = if movement.kind == MoveKind::Sweep { (0.7, DOTS) } else { (2.0, dashes) };
+    let (width, dashes) = if movement.kind == MoveKind::Sweep { (0.7, DOTS) } else { (width, dashes) };
     canvas.path(
         &data(&movement.way, place),
         &format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width)),
@@ -157,21 +155,31 @@ fn stroke(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, colo
 /// Dashes of rapid moves.
 const DOTS: &str = " stroke-dasharray=\"1 4\"";
 
-/// Colour and dashes of an entry of the legend.
+/// Width of lines in px; of removed moves, so that they are seen beneath what is milled in their place now.
+const WIDTH: f64 = 2.0;
+const REMOVED_WIDTH: f64 = 6.0;
+
+/// The strokes of an entry of the legend.
 #[derive(Clone, Copy)]
 struct Style {
     color: &'static str,
     dashes: &'static str,
+    width: f64,
 }
 
 impl Style {
+    /// A line of the usual width without dashes.
+    fn plain(color: &'static str) -> Self {
+        Self { color, dashes: "", width: WIDTH }
+    }
+
     /// The style of the moves in a group; `None` for rapid moves.
     fn of(kind: Option<ChangeKind>, groups: &[Group]) -> Self {
         let [color, dashes] = match kind {
             None => [RAPIDS, DOTS],
             Some(ChangeKind::Reordered) => [REORDERED, " stroke-dasharray=\"9 3 2 3\""],
             Some(ChangeKind::Added) => [ADDED, ""],
-            Some(ChangeKind::Removed) => [REMOVED, " stroke-dasharray=\"5 4\""],
+            Some(ChangeKind::Removed) => [REMOVED, " stroke-dasharray=\"5 4\" stroke-linecap=\"butt\""],
             Some(ChangeKind::Shifted(_)) => [SHIFTED, ""],
             Some(ChangeKind::Altered { .. }) => {
                 let is_altered = |group: &&Group| matches!(group.kind, Some(ChangeKind::Altered { .. }));
@@ -179,18 +187,20 @@ impl Style {
                 ALTERED[place.unwrap_or_default() % ALTERED.len()]
             }
         };
-        Self { color, dashes }
+        let width = if kind == Some(ChangeKind::Removed) { REMOVED_WIDTH } else { WIDTH };
+        Self { color, dashes, width }
     }
 }
 
 /// Draws a line of the legend.
 fn entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lang: Lang) {
     let middle = top + LINE / 2.0;
-    if let Some(Style { color, dashes }) = style {
-        let style = format!("stroke=\"{color}\" stroke-width=\"2\"{dashes}");
+    if let Some(Style { color, dashes, width }) = style {
+        let style = format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", n(width));
         canvas.line([40.0, middle], [76.0, middle], &style);
     }
-    let text = format!("{}: {}, {} mm", phrase(group, lang), moves(group, lang), n(group.length));
+    let length = Number((group.length * 100.0).round() / 100.0).prose(lang);
+    let text = format!("{}: {}, {length} mm", phrase(group, lang), moves(group, lang));
     canvas.text([86.0, middle + LETTERS / 3.0], LETTERS, Anchor::Start, &format!("fill=\"{INK}\""), &text);
 }
 
