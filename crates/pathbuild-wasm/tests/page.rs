@@ -234,6 +234,26 @@ fn drawings_without_a_configuration_ask_for_values() {
     assert_eq!(page.head(&json!({ "ask": "scene", "file": "1000.1P.dxf", "path": "1.1P" }))["seen"], false);
 }
 
+/// A page has no date: a waiver that ends does not hold there, and the finding says so; one without an end holds.
+#[test]
+fn a_waiver_that_ends_does_not_hold_without_a_date() {
+    let drawing = "layer 1000.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 20,0 40,0\nturn 20,0\nend 40,0\n";
+    let messages = |end: &str| {
+        let mut page = Page::default();
+        page.put("1000.1P.dxf", &dxf(drawing));
+        let waiver =
+            format!("[[severity-in]]\nfiles = [\"*.dxf\"]\nPB114 = \"ignore\"\nreason = \"by hand\"\n{end}");
+        page.put("pathbuild.toml", waiver.as_bytes());
+        assert_eq!(page.open(&full())["halted"], Value::Null);
+        let (_, scene) = page.ask(&json!({ "ask": "scene", "file": "1000.1P.dxf", "path": "1000.1P" }));
+        let scene: Value = serde_json::from_slice(&scene).unwrap();
+        scene["findings"].as_array().unwrap().iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(messages(""), Vec::<String>::new());
+    let [finding] = &messages("until = 2999-12-31\n")[..] else { panic!("one finding") };
+    assert!(finding.contains("PB114") && finding.contains("because this run has no date"), "{finding}");
+}
+
 /// A path that ended the compiler has PB005 or PB006 in every answer; the other paths are unaffected.
 #[test]
 fn what_was_lost_is_told() {
