@@ -84,6 +84,44 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
+/// Each number of the picture is explained, or is said to have no room; a table on a new page has its title there.
+#[test]
+fn operations_are_listed_and_no_number_is_lost() {
+    let place = library();
+    place.run("view 8001.1P -o x.json --no-cache");
+    let scene: Value = serde_json::from_str(&place.read("x.json")).unwrap();
+    let elements = scene["paths"][0]["elements"].as_array().unwrap();
+    let mut numbers: Vec<u64> = elements.iter().filter_map(|element| element["order"].as_u64()).collect();
+    numbers.sort_unstable();
+    place.run("sheet 8001.1P -o sheet.svg");
+    let svg = place.read("sheet.svg");
+    let picture = svg.split_once("id=\"order\"").unwrap().1.split_once("</g>").unwrap().0;
+    let drawn: Vec<u64> = texts(picture).iter().map(|text| text.parse().unwrap()).collect();
+    let all = texts(&svg);
+    let ranges = |text: &str| -> Vec<u64> {
+        let range = |range: &str| {
+            let (first, last) = range.split_once('–').unwrap_or((range, range));
+            Some(first.parse().ok()?..=last.parse().ok()?)
+        };
+        text.split(", ").filter_map(range).flatten().collect()
+    };
+    let hidden =
+        all.iter().find_map(|text| text.strip_prefix("no room for: ")).map(ranges).unwrap_or_default();
+    let mut found = [drawn, hidden].concat();
+    found.sort_unstable();
+    assert_eq!(found, numbers);
+    let head = all.iter().position(|text| *text == "down to").unwrap();
+    let end = all.iter().position(|text| *text == "Embedded paths").unwrap();
+    let listed: Vec<u64> = all[head + 1..end].iter().flat_map(|text| ranges(text)).collect();
+    assert_eq!(listed, numbers, "{all:?}");
+    assert!(all.contains(&"drilling Ø 2") && all.contains(&"milling with support bars"), "{all:?}");
+    assert!(
+        all.contains(&"Operations (continued)") || all.contains(&"Embedded paths (continued)"),
+        "{all:?}"
+    );
+    assert_eq!(fact(&all, "rapid across"), "Z 4 / 15");
+}
+
 /// One that is rotated on a page of its own, and one that is enlarged next to its true size.
 #[test]
 fn long_and_small_ones_are_seen() {

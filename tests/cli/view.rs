@@ -369,6 +369,74 @@ fn a_wrong_text_is_circled_itself() {
     }
 }
 
+/// A line of a type without a meaning is drawn, and the finding is on its middle instead of on the start marker.
+#[test]
+fn an_element_is_circled_at_its_middle() {
+    let place = library();
+    place.run("view mistakes/3010.1P.dxf --no-cache -o x.json");
+    let scene: Value = serde_json::from_str(&place.read("x.json")).unwrap();
+    assert_eq!(scene["findings"][0]["code"], "PB106");
+    let elements = scene["paths"][0]["elements"].as_array().unwrap();
+    let shape = &elements.iter().find(|element| element["kind"] == "unclear").unwrap()["shape"];
+    let middle = [0, 1].map(|axis| {
+        f64::midpoint(shape["from"][axis].as_f64().unwrap(), shape["to"][axis].as_f64().unwrap())
+    });
+    assert_eq!(scene["findings"][0]["at"], serde_json::json!(middle));
+    // The path breaks off at a place of its own, which is the start of an element as well.
+    let drawing = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 F150\"\nmill 20,0 0,0\nmill 21,0 30,0\nend 30,0\n";
+    let place = Place::new().file("1234.1P.dxf", sheet(drawing).unwrap().to_dxf());
+    place.run("view 1234.1P --no-cache -o x.json");
+    let scene: Value = serde_json::from_str(&place.read("x.json")).unwrap();
+    let finding = &scene["findings"][0];
+    assert_eq!((finding["code"].as_str(), &finding["at"]), (Some("PB401"), &serde_json::json!([20.0, 0.0])));
+}
+
+/// A full circle keeps its centre: SVG computes it from the ends of arcs, which are rounded.
+#[test]
+fn circles_keep_their_centres() {
+    let program = "G21 G90 G17\nG0 Z5\nG0 X10 Y0\nG1 Z-1 F100\nG2 X10 Y0 I3.37 J1.11 F100\nG0 Z5\nM30\n";
+    let place = Place::new().file("a.nc", program);
+    let run = place.run("view a.nc -o x.svg");
+    assert_eq!(run.status, Some(0), "{run}");
+    let svg = place.read("x.svg");
+    let numbers = |text: &str| -> Vec<f64> {
+        text.split(|letter: char| letter != '.' && letter != '-' && !letter.is_ascii_digit())
+            .filter_map(|number| number.parse().ok())
+            .collect()
+    };
+    let mut seen = 0;
+    for data in svg.split(" d=\"").skip(1).map(|text| text.split_once('"').unwrap().0) {
+        let pieces: Vec<Vec<f64>> = data.split('A').map(numbers).collect();
+        let ends: Vec<[f64; 2]> =
+            pieces.iter().map(|piece| [piece[piece.len() - 2], piece[piece.len() - 1]]).collect();
+        if pieces.len() < 2 || ends[0] != ends[ends.len() - 1] {
+            continue;
+        }
+        seen += 1;
+        // The angle between neighbouring ends, seen from the centre, says how far their rounding moves it.
+        let radius = pieces[1][0];
+        let is_apart = |pair: &[[f64; 2]]| {
+            let [[x, y], [a, b]] = [pair[0], pair[1]];
+            (a - x).hypot(b - y) < 1.8 * radius
+        };
+        assert!(ends.windows(2).all(is_apart), "{data}");
+    }
+    assert_eq!(seen, 1, "{svg}");
+}
+
+/// Texts of one height have one size, whether they are TEXT or MTEXT, short or long.
+#[test]
+fn texts_of_one_height_have_one_size() {
+    let place = library();
+    place.run("view mistakes/3004.1P.dxf --no-cache -o x.svg");
+    let svg = place.read("x.svg");
+    let size = |text: &str| {
+        let line = svg.lines().find(|line| line.ends_with(&format!(">{text}</text>"))).unwrap();
+        line.split_once("font-size=\"").unwrap().1.split_once('"').unwrap().0.to_owned()
+    };
+    assert_eq!(size("O2 T2 M20x2 F150 I0.5 B-0.2"), size("b0.5"));
+}
+
 #[test]
 fn a_program_is_seen_without_elements() {
     let place =
@@ -380,6 +448,26 @@ fn a_program_is_seen_without_elements() {
     let arc = path["moves"].as_array().unwrap().iter().find(|it| it["arc"].is_object()).unwrap();
     assert_eq!((arc["arc"]["degrees"].as_f64(), arc["line"].as_u64()), (Some(180.0), Some(5)));
     assert_eq!(place.run("view a.nc -o a.svg").status, Some(0));
+}
+
+/// A page is sent to others: it names files beside what is shown, but not where they lie on this machine.
+#[test]
+fn absolute_names_are_not_in_a_scene() {
+    let place = library().file("else/a.nc", "G21 G90 G17\nG0 X0 Y0 Z5\nG1 F100 Z-1\nM30\n");
+    let root = place.path().to_str().unwrap();
+    for (file, expected) in [
+        ("else/a.nc", "a.nc"),
+        ("mistakes/3008.1P.dxf", "3008.1P.dxf"),
+        ("projects/8001.1P.dxf", "../components/2050.1P.dxf"),
+    ] {
+        let file = format!("{root}/{file}");
+        let run = place.run_in("else", &["view", &file, "-o", "x.json", "--no-cache"]);
+        assert!(run.stderr.contains("x.json: written"), "{run}");
+        let scene = place.read("else/x.json");
+        assert!(!scene.contains(root) && scene.contains(&format!("\"{expected}\"")), "{scene}");
+        // The terminal names them as they were given.
+        assert_eq!(run.stderr.contains("<PLACE>/mistakes"), file.contains("3008"), "{run}");
+    }
 }
 
 /// Cases without pictures in the book: a drawing with an erroneous path, and a program of another origin.

@@ -157,6 +157,19 @@ impl Diagnostic {
         self.place.handle = handle;
     }
 
+    /// Gives files the names that `replacement` knows for them, wherever it names them.
+    pub fn rename_files(&mut self, replacement: impl Fn(&str) -> Option<String>) {
+        let notes = self.notes.iter_mut().flat_map(|note| &mut note.arguments);
+        for (_, value) in self.arguments.iter_mut().chain(notes) {
+            value.replace_texts(&replacement);
+        }
+        for file in self.file.iter_mut().chain(self.trace.iter_mut().map(|step| &mut step.file)) {
+            if let Some(new) = replacement(file.as_str()) {
+                *file = new.into();
+            }
+        }
+    }
+
     /// The key for sorting diagnostics wherever several are shown: file, path, place, code.
     pub fn sort_key(&self) -> impl Ord + '_ {
         (

@@ -105,6 +105,23 @@ impl Value {
         Self::Foreign(text.to_string().into())
     }
 
+    /// Replaces the texts that `replacement` knows, in lists and sentences as well. Prose stays.
+    pub(crate) fn replace_texts(&mut self, replacement: &dyn Fn(&str) -> Option<String>) {
+        let replace = |text: &mut Box<str>| {
+            if let Some(new) = replacement(text) {
+                *text = new.into();
+            }
+        };
+        match self {
+            Self::Quoted(text) | Self::Foreign(text) => replace(text),
+            Self::List(texts) => texts.iter_mut().for_each(replace),
+            Self::Sentence(sentence) => {
+                sentence.arguments.iter_mut().for_each(|(_, value)| value.replace_texts(replacement));
+            }
+            Self::Number(_) | Self::Count(_) | Self::Point(_) | Self::Prose(_) => {}
+        }
+    }
+
     fn number(&self) -> Option<Number> {
         match self {
             Self::Number(number) => Some(*number),

@@ -118,6 +118,11 @@ impl RawPath {
         missing.map(report).collect()
     }
 
+    /// Lines and arcs of line types without a meaning.
+    pub fn unclear_curves(&self) -> &[Element] {
+        &self.faults.unclear_curves
+    }
+
     /// The cutter's diameter: O, if it is a literal and valid number.
     pub fn tool(&self) -> Option<f64> {
         let parameters = self.parameters();

@@ -201,6 +201,8 @@ pub enum ElementKind {
     Sweep,
     SkippedSubpath,
     Subpath,
+    /// Its line type has no meaning.
+    Unclear,
     Start,
     End,
     Turn,
@@ -258,6 +260,9 @@ pub struct Label {
     /// The radius of that circle.
     #[serde(serialize_with = "millimetres")]
     pub radius: f64,
+    /// The height of a line.
+    #[serde(skip)]
+    pub height: f64,
     /// Its elements, as indices into [`ScenePath::elements`].
     pub elements: Vec<u32>,
 }
@@ -441,6 +446,15 @@ impl Shape {
     pub fn start(&self) -> Point {
         match self {
             Self::Line { from, .. } | Self::Arc(ArcShape { from, .. }) => *from,
+            Self::Circle { centre, .. } => *centre,
+        }
+    }
+
+    /// The middle of a curve, or the centre of a circle.
+    pub fn middle(&self) -> Point {
+        match self {
+            Self::Line { from, to } => [0, 1].map(|axis| f64::midpoint(from[axis], to[axis])),
+            Self::Arc(arc) => arc.point(0.5),
             Self::Circle { centre, .. } => *centre,
         }
     }

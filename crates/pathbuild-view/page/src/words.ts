@@ -60,7 +60,7 @@ const words = {
   legendUncut: ["uncut stock", "ungeschnittenes Rohteil"],
   legendThrough: ["cut through", "durchgefräst"],
   legendWrong: ["rapid in material, cut into a part or bar", "Eilgang im Material, Schnitt in Teil oder Steg"],
-  legendOutline: ["outline of a part", "Kontur eines Teils"],
+  legendOutline: ["outline of a part", "Umriss eines Teils"],
   legendLeft: ["material left", "stehengebliebenes Material"],
   legendLoose: ["loose part", "loses Teil"],
   legendClamp: ["clamp", "Spannmittel"],
@@ -175,6 +175,7 @@ const words = {
   probe: ["Z-probe", "Z-Probe"],
   subpath: ["embedded path", "eingebetteter Pfad"],
   "skipped-subpath": ["skipped path", "übergangener Pfad"],
+  unclear: ["line type without a meaning", "Linientyp ohne Bedeutung"],
   end: ["end", "Ende"],
   turn: ["turn marker", "Wendemarke"],
 } satisfies Record<string, [string, string]>;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::ElementId;
+use pathbuild_diagnostic::{ElementId, EntityKind};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{
     Arc, AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, Placement, Position,
@@ -92,6 +92,9 @@ impl ElementBuilder<'_> {
             let kind = element_kind(element.role);
             known.push(self.add(elements, kind, &origin, element.shape));
         }
+        for element in raw.unclear_curves() {
+            known.push(self.add(elements, ElementKind::Unclear, &raw.drawn.origin(element), element.shape));
+        }
         let circle = |marker: &Marker, radius| DrawnShape::Circle { centre: marker.at, radius };
         let groups: [(&[Marker], ElementKind, f64); 4] = [
             (raw.start.as_slice(), ElementKind::Start, 0.5),
@@ -146,9 +149,19 @@ impl ElementBuilder<'_> {
             text: text.text.trim_end().to_owned(),
             at: pair(self.placement.place(text.circle.centre)),
             radius: text.circle.radius,
+            height: line_height(text),
             elements: owners.map(|(index, _)| number(first + index)).collect(),
         }
     }
+}
+
+/// The height in mm of a line of a text, which follows from its circle. The circle of a long MTEXT is smaller than the text.
+fn line_height(text: &AssignedText) -> f64 {
+    let longest = text.text.lines().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
+    let (rows, letters) = (text.text.lines().count().max(1) as f64, 0.6 * longest as f64);
+    let by_diagonal = 2.0 * text.circle.radius / libm::hypot(rows, letters);
+    let by_height = text.circle.radius / (0.7 * rows);
+    if text.entity == EntityKind::MText { by_diagonal.max(by_height) } else { by_diagonal }
 }
 
 fn parameter(known: &InForceParameter) -> Parameter {

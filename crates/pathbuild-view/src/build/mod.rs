@@ -3,9 +3,11 @@
 mod drawn;
 mod program;
 
-use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+use std::collections::HashMap;
 
-use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, shown};
+
+use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape};
 
 pub use drawn::{DrawnSource, PartSource, drawn_path, finished_part, keep_out, other_layers, outline};
 pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
@@ -13,14 +15,68 @@ pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_p
 // Findings with their places.
 
 impl Scene {
-    /// Sets the findings. `file` is the drawing shown. A finding about a parameter text is placed on that text.
+    /// Sets the findings. `file` is the drawing shown. A finding about a parameter text is placed on that text, one about an element on its
+    /// middle.
     pub fn set_findings(&mut self, diagnostics: &[Diagnostic], file: &str) {
-        self.findings = findings(diagnostics, file);
-        for (finding, diagnostic) in self.findings.iter_mut().zip(diagnostics) {
-            let text = text_at(&self.paths, diagnostic, file);
-            finding.at = text.or(finding.at);
+        let mut findings = findings(diagnostics, file);
+        let places = self.places(file);
+        for (finding, diagnostic) in findings.iter_mut().zip(diagnostics) {
+            finding.at = places.of(diagnostic).or(finding.at);
         }
+        self.findings = findings;
     }
+
+    /// The places of parameter texts and of elements as wholes, to which findings refer. `file` is the drawing shown.
+    pub fn places<'s>(&'s self, file: &'s str) -> Places<'s> {
+        let mut elements = HashMap::new();
+        for path in &self.paths {
+            let own =
+                path.elements.iter().filter(|element| path.embedded[element.path as usize].file == file);
+            for (element, line) in own.filter_map(|element| Some((element, element.line?))) {
+                elements.entry(line).or_insert((element.shape, path.zero));
+            }
+        }
+        Places { file, paths: &self.paths, elements }
+    }
+}
+
+/// The places in a drawing to which findings refer.
+#[derive(Debug)]
+pub struct Places<'s> {
+    file: &'s str,
+    paths: &'s [ScenePath],
+    /// The shapes of elements by their lines in the file, and the zero points of their paths.
+    elements: HashMap<u32, (Shape, Point)>,
+}
+
+impl Places<'_> {
+    /// The place of the parameter text or of the element as a whole that a finding is about.
+    pub fn of(&self, diagnostic: &Diagnostic) -> Option<Point> {
+        text_at(self.paths, diagnostic, self.file).or_else(|| self.middle_of_element(diagnostic))
+    }
+
+    /// The middle of the element that a finding is about, if the finding refers to the element by its start.
+    fn middle_of_element(&self, diagnostic: &Diagnostic) -> Option<Point> {
+        diagnostic
+            .file
+            .as_ref()
+            .filter(|found| *found == self.file && is_about_element(diagnostic.code()))?;
+        let (at, line) = (diagnostic.place.point?, diagnostic.place.line?);
+        let (shape, zero) = self.elements.get(&line)?;
+        let in_drawing = |[x, y]: Point| [x + zero[0], y + zero[1]];
+        let [x, y] = in_drawing(shape.start());
+        let is_start = (x - at.x.0).abs() < NEAR && (y - at.y.0).abs() < NEAR;
+        is_start.then(|| in_drawing(shape.middle()))
+    }
+}
+
+/// Distance in mm up to which points are the same.
+const NEAR: f64 = 1e-6;
+
+/// Whether findings with this code are about whole elements. All others about elements have a place of their own: where the way breaks off,
+/// or where the cutter enters something.
+fn is_about_element(code: Code) -> bool {
+    matches!(code.number(), 100..=211 | 500..=599)
 }
 
 /// The centre of the parameter text that a diagnostic quotes, in the drawing shown.

@@ -140,6 +140,12 @@ pub(super) fn n(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// A length with at most three decimals.
+pub(super) fn mm(value: f64) -> String {
+    let text = format!("{:.3}", value + 0.0);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 // Colours. Kinds also differ in line style, and depths in lightness, so that they can be distinguished in print and by the colour-blind.
 // (Okabe and Ito's palette; depths from light to dark)
 

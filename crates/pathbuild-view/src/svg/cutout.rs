@@ -1,9 +1,9 @@
 //! Cut-outs of a drawing around a finding.
 
-use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING};
+use super::canvas::{Anchor, Canvas, ERROR, INK, TEXT, WARNING, mm};
 use super::frame::VisibleParts;
 use super::frame::{Frame, PageTransform, Room, widen};
-use super::stock::{LEFT, MilledStock};
+use super::stock::{self, MilledStock};
 use super::things;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
@@ -55,10 +55,7 @@ pub fn cutout_svg(scene: &Scene, spot: &Spot, lang: Lang) -> String {
     canvas.open("id=\"drawing\"");
     let mut room = Room::new([[0.0; 2], SIZE]);
     things::under(&mut canvas, &near, &frame, &mut room);
-    for ring in &near.uncut {
-        let style = format!("fill=\"{LEFT}\" fill-opacity=\"0.35\"");
-        canvas.path(&things::outline(ring, &frame.of_drawing()), &style);
-    }
+    stock::uncut(&mut canvas, &near, &frame.of_drawing());
     let shown = VisibleParts { rapids: false, order: false, arrows: false, ..VisibleParts::all(lang) };
     for path in &near.paths {
         let place = frame.of_path(path);
@@ -203,6 +200,6 @@ fn ruler(canvas: &mut Canvas, scale: f64) {
     let Some(length) = lengths.take_while(|length| length * scale <= SIZE[0] / 4.0).last() else { return };
     let y = SIZE[1] - 8.0;
     canvas.line([8.0, y], [8.0 + length * scale, y], &format!("stroke=\"{INK}\" stroke-width=\"1.5\""));
-    let text = format!("{} mm", super::legend::mm(length));
+    let text = format!("{} mm", mm(length));
     canvas.text([8.0, y - 4.0], 10.0, Anchor::Start, &format!("fill=\"{INK}\""), &text);
 }

@@ -184,6 +184,8 @@ pub(super) fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
 pub(super) struct Room {
     area: Rectangle,
     taken: BTreeSet<(i64, i64)>,
+    /// Lines that labels beside symbols avoid.
+    pub(super) lines: Vec<[Point; 2]>,
 }
 
 /// Width and height of a cell in px.
@@ -201,7 +203,7 @@ pub(super) type Rectangle = [Point; 2];
 impl Room {
     /// Creates the free space of a picture.
     pub(super) fn new(area: Rectangle) -> Self {
-        Self { area, taken: BTreeSet::new() }
+        Self { area, taken: BTreeSet::new(), lines: Vec::new() }
     }
 
     /// Occupies a rectangle.
@@ -243,10 +245,12 @@ impl Room {
         self.find(&candidates[..NEAREST]).map(|found| starts[found])
     }
 
-    /// Like [`find_beside`](Self::find_beside), but also farther away. Without any room, the label is placed where it overlaps least.
+    /// Like [`find_beside`](Self::find_beside), but also farther away, and over as few lines as possible. Without any room, the label is
+    /// placed where it overlaps least.
     pub(super) fn beside(&mut self, at: Point, preferred: Point, size: f64, text: &str) -> Point {
         let (starts, candidates) = beside(at, preferred, size, text);
-        let least = || (0..candidates.len()).min_by_key(|number| self.met(candidates[*number]));
+        let cost = |number: &usize| (self.met(candidates[*number]), self.crossed(candidates[*number]));
+        let least = || (0..candidates.len()).min_by_key(cost);
         let least = least().unwrap_or_default();
         self.take(candidates[least]);
         starts[least]
@@ -261,6 +265,13 @@ impl Room {
         if is_outside { taken + OUTSIDE } else { taken }
     }
 
+    /// Length of all lines within a rectangle, in cells.
+    #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
+    fn crossed(&self, rectangle: Rectangle) -> i64 {
+        let length: f64 = self.lines.iter().map(|line| length_within(line, rectangle)).sum();
+        (length / CELL).ceil() as i64
+    }
+
     /// The cells of a rectangle that lie in the picture. A text of another layer may be a thousand times as large.
     #[expect(clippy::cast_possible_truncation, reason = "px of a page")]
     fn cells(&self, [low, high]: Rectangle) -> impl Iterator<Item = (i64, i64)> + use<> {
@@ -270,6 +281,24 @@ impl Room {
         let (columns, rows) = (range(0), range(1));
         columns.flat_map(move |column| rows.clone().map(move |row| (column, row)))
     }
+}
+
+/// Length of the part of a line that lies in a rectangle.
+fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for axis in [0, 1] {
+        let way = to[axis] - from[axis];
+        if way == 0.0 {
+            if from[axis] < low[axis] || from[axis] > high[axis] {
+                return 0.0;
+            }
+            continue;
+        }
+        let shares = [low, high].map(|side| (side[axis] - from[axis]) / way);
+        enters = enters.max(shares[0].min(shares[1]));
+        leaves = leaves.min(shares[0].max(shares[1]));
+    }
+    (leaves - enters).max(0.0) * libm::hypot(to[0] - from[0], to[1] - from[1])
 }
 
 /// Offsets in rows and columns, nearest first.

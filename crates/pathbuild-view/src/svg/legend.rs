@@ -1,9 +1,10 @@
 //! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
-use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, n};
+use super::canvas::{Anchor, BAR, Canvas, Depths, ERROR, INK, PROBE, TEXT, WARNING, color, mm, n};
 use super::frame::Frame;
 use super::frame::VisibleParts;
 use super::stock::MilledStock;
+use super::text::wrapped;
 use super::things::SWEEP;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
@@ -11,8 +12,9 @@ use pathbuild_diagnostic::Lang;
 /// Line height in px.
 const LINE: f64 = 17.0;
 
-/// Maximum number of characters on a line of findings.
-const LETTERS: usize = 150;
+/// Letter size and width in px of a line of findings.
+const LETTERS: f64 = 11.0;
+const WIDTH: f64 = Frame::WIDTH - 80.0;
 
 /// Number of steps in the depth scale.
 const STEPS: u32 = 24;
@@ -50,7 +52,8 @@ impl<'a> Legend<'a> {
         self.top + 5.0 * LINE + self.findings.len() as f64 * LINE
     }
 
-    pub(super) fn draw(&self, canvas: &mut Canvas) {
+    /// Draws the legend. `hidden`: the numbers of elements that the picture has no room for.
+    pub(super) fn draw(&self, canvas: &mut Canvas, hidden: &[u32]) {
         canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
         canvas.text([40.0, self.top + LINE], 14.0, Anchor::Start, "font-weight=\"bold\"", &self.headline());
         canvas.text(
@@ -66,7 +69,11 @@ impl<'a> Legend<'a> {
         self.scale_bar(canvas, self.top + 3.0 * LINE);
         match self.stock {
             Some(stock) => stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE], Frame::WIDTH),
-            None => depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]),
+            None => {
+                depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE]);
+                let left = 40.0 + DEPTHS_WIDTH;
+                self::hidden(canvas, hidden, self.shown, [left, self.top + 4.0 * LINE], Frame::WIDTH - left);
+            }
         }
         for (row, (finding, line)) in self.findings.iter().enumerate() {
             let y = self.top + (5.0 + row as f64) * LINE;
@@ -77,7 +84,7 @@ impl<'a> Legend<'a> {
                 }
                 None => String::new(),
             };
-            canvas.text([40.0, y], 11.0, Anchor::Start, &style, line);
+            canvas.text([40.0, y], LETTERS, Anchor::Start, &style, line);
         }
         canvas.close();
     }
@@ -133,14 +140,39 @@ impl<'a> Legend<'a> {
     }
 }
 
-/// Draws the kinds of lines that occur, from `left` to `right`, continuing on further lines.
+/// Width in px of the depth scale with its labels.
+const DEPTHS_WIDTH: f64 = 380.0;
+
+/// Draws the numbers of elements that the picture has no room for, if any.
+pub(super) fn hidden(canvas: &mut Canvas, numbers: &[u32], shown: VisibleParts, at: Point, width: f64) {
+    if numbers.is_empty() {
+        return;
+    }
+    let text = format!("{}: {}", shown.either("no room for", "kein Platz für"), ranges(numbers));
+    let mut lines = wrapped(&text, width - 20.0, 10.5).into_iter();
+    let first = lines.next().unwrap_or_default();
+    let more = if lines.next().is_some() { " …" } else { "" };
+    canvas.text(at, 10.5, Anchor::Start, &format!("fill=\"{TEXT}\""), &format!("{first}{more}"));
+}
+
+/// Ascending numbers, with a dash for three or more in a row: `3, 7–9`.
+fn ranges(numbers: &[u32]) -> String {
+    let runs = numbers.chunk_by(|one, next| one + 1 == *next);
+    let run = |run: &[u32]| match run {
+        [first, _, .., last] => format!("{first}–{last}"),
+        run => run.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+    };
+    runs.map(run).collect::<Vec<_>>().join(", ")
+}
+
+/// Draws the kinds of lines that occur, from `left` to `right`, continuing on further lines. Returns the last line.
 pub(super) fn kinds(
     canvas: &mut Canvas,
     scene: &Scene,
     shown: VisibleParts,
     [left, mut y]: Point,
     right: f64,
-) {
+) -> f64 {
     let moves = || scene.paths.iter().flat_map(|path| &path.moves);
     let has = |kind| moves().any(|movement| movement.kind == kind);
     let cut = color(0.6);
@@ -186,6 +218,7 @@ pub(super) fn kinds(
         canvas.text([x + 34.0, y], 10.5, Anchor::Start, "", name);
         x += width;
     }
+    y
 }
 
 /// Draws the depth scale.
@@ -211,12 +244,6 @@ pub(super) fn depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point) {
     canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));
 }
 
-/// A length with at most three decimals.
-pub(super) fn mm(value: f64) -> String {
-    let text = format!("{:.3}", value + 0.0);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
 /// The lines of a finding, the first with its number.
 fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |text: &'a crate::scene::BilingualText| match shown.lang {
@@ -225,29 +252,12 @@ fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Findi
     };
     let mut lines = Vec::new();
     let first = format!("{} · {}: {}", finding.number, finding.code, pick(&finding.message));
-    for (row, line) in wrapped(&first).into_iter().enumerate() {
+    for (row, line) in wrapped(&first, WIDTH, LETTERS).into_iter().enumerate() {
         lines.push(((row == 0).then_some(finding), line));
     }
     let help = pick(&finding.help);
     if !help.is_empty() {
-        lines.extend(wrapped(help).into_iter().map(|line| (None, format!("    {line}"))));
-    }
-    lines
-}
-
-/// Wraps a text at spaces.
-fn wrapped(text: &str) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let last = lines.last_mut().expect("there is a line always");
-        if !last.is_empty() && last.chars().count() + 1 + word.chars().count() > LETTERS {
-            lines.push(word.to_owned());
-        } else {
-            if !last.is_empty() {
-                last.push(' ');
-            }
-            last.push_str(word);
-        }
+        lines.extend(wrapped(help, WIDTH, LETTERS).into_iter().map(|line| (None, format!("    {line}"))));
     }
     lines
 }

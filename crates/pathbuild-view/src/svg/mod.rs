@@ -8,6 +8,7 @@ mod legend;
 mod moves;
 mod sheet;
 mod stock;
+mod text;
 mod things;
 
 use crate::scene::Scene;
@@ -22,12 +23,13 @@ pub use sheet::sheet_pdf;
 #[cfg(feature = "pictures")]
 pub(crate) use sheet::xmp;
 pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg};
+use stock::MilledStock;
 pub use stock::{StockChange, has_stock, stock_change_svg};
 
 /// Draws a scene: its drawing and moves, or the stock after them.
 pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     if shown.stock {
-        return stock::svg(scene, shown);
+        return stock_svg(scene, shown);
     }
     let frame = Frame::of(scene);
     let depths = Depths::of(scene);
@@ -36,16 +38,46 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.title(&scene.title);
     canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
     canvas.clip("frame", frame.area());
-    let mut room = Room::new(frame.area());
-    things::under(&mut canvas, scene, &frame, &mut room);
+    let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut Room::new(frame.area()));
+    canvas.close();
+    legend.draw(&mut canvas, &hidden);
+    canvas.finish()
+}
+
+/// Draws the drawing and the moves of a scene. Returns the numbers of elements for which there was no room.
+fn drawing(
+    canvas: &mut Canvas,
+    scene: &Scene,
+    frame: &Frame,
+    depths: &Depths,
+    shown: VisibleParts,
+    room: &mut Room,
+) -> Vec<u32> {
+    things::under(canvas, scene, frame, room);
+    let mut hidden = Vec::new();
     for path in &scene.paths {
         let place = frame.of_path(path);
-        moves::draw(&mut canvas, path, &place, &depths, shown);
-        things::reserve(path, &place, &mut room);
-        things::over(&mut canvas, path, &place, shown, &mut room);
+        moves::draw(canvas, path, &place, depths, shown);
+        things::reserve(path, &place, room);
+        hidden.extend(things::over(canvas, path, &place, shown, room));
     }
-    things::findings(&mut canvas, scene, &frame, &mut room);
+    things::findings(canvas, scene, frame, room);
+    hidden
+}
+
+/// Draws the stock of a scene, or an empty page if there is none.
+fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
+    let stock = MilledStock::of(scene);
+    let frame = Frame::around(stock.extent());
+    let depths = Depths { range: None };
+    let legend = legend::Legend::of_stock(&stock, &frame, &depths, shown);
+    let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
+    canvas.title(&scene.title);
+    canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
+    canvas.clip("frame", frame.area());
+    stock.draw(&mut canvas, &frame, "stock");
+    things::findings(&mut canvas, scene, &frame, &mut Room::new(frame.area()));
     canvas.close();
-    legend.draw(&mut canvas);
+    legend.draw(&mut canvas, &[]);
     canvas.finish()
 }

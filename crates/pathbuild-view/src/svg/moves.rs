@@ -182,6 +182,13 @@ pub(super) fn along(movement: &SceneMove, share: f64) -> Point {
     [x, y]
 }
 
+/// Number of arcs that an arc is drawn as. SVG computes the centre from the ends, whose rounding would move it by up to 1 px if they were
+/// opposite each other; and a single arc cannot be a full circle.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+pub(super) fn arc_pieces(degrees: f64) -> u32 {
+    ((degrees.abs() / 120.0 - 1e-6).ceil() as u32).max(2)
+}
+
 /// A move as SVG path data; arcs in the plane stay arcs.
 pub(super) fn data(way: &Move, place: &PageTransform) -> String {
     let point = |at: Point| {
@@ -193,13 +200,11 @@ pub(super) fn data(way: &Move, place: &PageTransform) -> String {
     match way.shape {
         MoveShape::Line => _ = write!(data, "L{}", in_plane(way.to.at)),
         MoveShape::Arc(arc) if arc.plane.axes() == [0, 1] => {
-            // Drawn as two halves, since SVG cannot express a full circle as one arc and each half is at most half a turn.
-            let turns = arc.extra_turns + 1;
+            let pieces = arc_pieces(arc.sweep(&way.from, &way.to).to_degrees());
             let radius = n(arc.radius(&way.from) * place.scale());
             let sweep = i32::from(arc.clockwise);
-            let halves = if turns > 1 { 2 * turns } else { 2 };
-            for half in 1..=halves {
-                let to = in_plane(way.point(f64::from(half) / f64::from(halves)));
+            for piece in 1..=pieces {
+                let to = in_plane(way.point(f64::from(piece) / f64::from(pieces)));
                 _ = write!(data, "A{radius} {radius} 0 0 {sweep} {to}");
             }
         }

@@ -6,13 +6,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
 use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position, Step};
 
-use super::canvas::{Anchor, Canvas, Depths, INK, n};
-use super::frame::{Frame, PageTransform, Room, VisibleParts, widen};
-use super::legend::{Legend, mm};
+use super::canvas::{Anchor, Canvas, INK, mm, n};
+use super::frame::{Frame, PageTransform, VisibleParts, widen};
 use super::moves::data;
 use super::things;
 use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape};
@@ -22,7 +21,7 @@ const EDGE: &str = "#4a3012";
 const THROUGH: &str = "#ccd6e0";
 /// Rapid moves through material, cuts into parts and support bars that are cut away.
 const WRONG: &str = "#e50d1a";
-pub(super) const LEFT: &str = "#9628c8";
+const LEFT: &str = "#9628c8";
 const REMOVED_NOW: &str = "#0072b2";
 const LOOSE: &str = "#e69f00";
 const OUTLINE: &str = "#0b57c4";
@@ -51,7 +50,7 @@ pub(super) struct MilledStock<'s> {
     hits: Vec<Swept>,
     /// Highest upper face and deepest cut.
     range: [f64; 2],
-    /// Whether corners that the cutter does not reach are filled.
+    /// Whether corners that the cutter does not reach are filled: the findings of the scene name some, or the caller asks for it.
     pub(super) has_corners: bool,
 }
 
@@ -152,7 +151,9 @@ impl<'s> MilledStock<'s> {
         sort(&mut strokes);
         let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
         let hits = scene.paths.iter().flat_map(|path| hits(scene, path, blank)).collect();
-        Self { scene, blanks, strokes, hits, range: [top, low], has_corners: false }
+        let unreachable = Code::UnreachableCorner.to_string();
+        let has_corners = scene.findings.iter().any(|finding| finding.code == unreachable);
+        Self { scene, blanks, strokes, hits, range: [top, low], has_corners }
     }
 
     /// Both stocks in one, with the cuts of this one marked where they are deeper; `None` if the other one has all
@@ -235,6 +236,7 @@ impl<'s> MilledStock<'s> {
             }
         }
         canvas.close();
+        uncut(canvas, self.scene, &place);
         canvas.open(&format!("fill=\"none\" stroke=\"{OUTLINE}\" stroke-width=\"1.2\""));
         self.parts(|part, path, _| {
             for ring in &part.rings {
@@ -323,6 +325,16 @@ impl<'s> MilledStock<'s> {
                 LEFT.to_owned(),
                 shown.either("left at the part", "bleibt am Teil stehen"),
             ),
+            (
+                self.has_corners,
+                LEFT.to_owned(),
+                shown.either("corner out of the cutter's reach", "Ecke, die der Fräser nicht erreicht"),
+            ),
+            (
+                !self.scene.uncut.is_empty(),
+                LEFT.to_owned(),
+                shown.either("outline that is not cut", "nicht gefräster Umriss"),
+            ),
             (has_part(|part| part.is_loose), LOOSE.to_owned(), shown.either("loose part", "loses Teil")),
             (
                 has_part(|part| !part.lost_bars.is_empty()),
@@ -385,23 +397,6 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
     canvas.path(&format!("M40 {}h12v10h-12Z", n(y - 9.0)), &format!("fill=\"{color}\""));
     canvas.text([57.0, y], 13.0, Anchor::Start, &format!("fill=\"{INK}\""), lang.choose(en, de));
     Some(canvas.finish())
-}
-
-/// Draws the stock of a scene, or an empty page if there is none.
-pub(super) fn svg(scene: &Scene, shown: VisibleParts) -> String {
-    let stock = MilledStock::of(scene);
-    let frame = Frame::around(stock.extent());
-    let depths = Depths { range: None };
-    let legend = Legend::of_stock(&stock, &frame, &depths, shown);
-    let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
-    canvas.title(&scene.title);
-    canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
-    canvas.clip("frame", frame.area());
-    stock.draw(&mut canvas, &frame, "stock");
-    things::findings(&mut canvas, scene, &frame, &mut Room::new(frame.area()));
-    canvas.close();
-    legend.draw(&mut canvas);
-    canvas.finish()
 }
 
 /// Whether the cutter and the upper face of anything that is cut are known.
@@ -548,6 +543,14 @@ const TOUCH: f64 = 1e-4;
 /// The number of the next step.
 fn line(steps: usize) -> u32 {
     u32::try_from(steps + 1).unwrap_or(u32::MAX)
+}
+
+/// Fills the outlines that no path comes near.
+pub(super) fn uncut(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
+    let style = format!("fill=\"{LEFT}\" fill-opacity=\"0.35\"");
+    for ring in &scene.uncut {
+        canvas.path(&things::outline(ring, place), &style);
+    }
 }
 
 fn stroke(canvas: &mut Canvas, data: &str, width: f64, color: &str) {

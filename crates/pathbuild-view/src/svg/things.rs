@@ -3,7 +3,11 @@
 use super::canvas::{Anchor, BAR, Canvas, ERROR, INK, OTHER, PROBE, RAPID, TEXT, WARNING, n};
 use super::frame::VisibleParts;
 use super::frame::{Frame, PageTransform, Rectangle, Room, around, width};
-use crate::scene::{ArcShape, Element, ElementKind, OtherShape, Point, Scene, ScenePath, Shape};
+use super::moves::{along, arc_pieces};
+use crate::scene::{
+    ArcShape, Element, ElementKind, Label, MoveKind, OtherShape, Point, Scene, SceneMove, ScenePath, Shape,
+};
+use pathbuild_motion::MoveShape;
 
 /// Minimum size in px of the path's own texts.
 const LEAST: f64 = 7.5;
@@ -89,14 +93,14 @@ fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point,
     canvas.text([x, y], size, Anchor::Middle, &style, text);
 }
 
-/// Draws elements, texts, support bars, probes and markers.
+/// Draws elements, texts, support bars, probes and markers. Returns the numbers of elements for which there was no room.
 pub(super) fn over(
     canvas: &mut Canvas,
     path: &ScenePath,
     place: &PageTransform,
     shown: VisibleParts,
     room: &mut Room,
-) {
+) -> Vec<u32> {
     elements(canvas, path, place);
     canvas.open(&format!(
         "id=\"bars\" fill=\"none\" stroke=\"{BAR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
@@ -110,10 +114,9 @@ pub(super) fn over(
     }
     ends(canvas, path, place, shown, room);
     probes(canvas, path, place, room);
-    if shown.order {
-        order(canvas, path, place, room);
-    }
+    let hidden = if shown.order { order(canvas, path, place, room) } else { Vec::new() };
     embedded(canvas, path, place, room);
+    hidden
 }
 
 /// Draws elements that are not moves: with a program, subpaths and skipped elements; without one, everything.
@@ -124,6 +127,7 @@ fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
             ElementKind::Subpath => "stroke=\"#7b8a97\" stroke-width=\"1\" stroke-dasharray=\"9 3 2 3\"",
             ElementKind::SkippedSubpath => "stroke=\"#b8bfc6\" stroke-width=\"1\" stroke-dasharray=\"1 4\"",
             ElementKind::Turn => "stroke=\"#14202b\" stroke-width=\"0.8\"",
+            ElementKind::Unclear => "stroke=\"#d55e00\" stroke-dasharray=\"3 3\"",
             ElementKind::Probe if path.probes.is_empty() => "stroke=\"#009e73\"",
             ElementKind::Mill | ElementKind::Mark | ElementKind::Support | ElementKind::Sweep
                 if path.moves.is_empty() =>
@@ -148,13 +152,14 @@ fn style_without_program(element: &Element) -> &'static str {
 
 fn texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT}\""));
-    for label in &path.texts {
+    // The text at the start of an embedded path concerns that path's own drawing.
+    let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
+    let is_shown = |label: &&Label| label.path == 0 || !label.elements.iter().any(is_start);
+    for label in path.texts.iter().filter(is_shown) {
         let lines: Vec<&str> = label.text.lines().collect();
         let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
-        // The radius of a text's circle is half the diagonal of the text.
-        let (rows, letters) = (lines.len().max(1) as f64, 0.6 * longest as f64);
-        let height = 2.0 * label.radius / libm::hypot(rows, letters);
-        let size = (height * place.scale()).min(14.0);
+        let rows = lines.len().max(1) as f64;
+        let size = (label.height * place.scale()).min(14.0);
         // The path's own texts are always legible; those of embedded paths are shown only if they are large enough.
         let size = if label.path == 0 { size.max(LEAST) } else { size };
         if size < READABLE {
@@ -228,18 +233,22 @@ pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
         let [x, y] = place.at(at);
         format!("{} {}", n(x), n(y))
     };
-    let halves = |arc: &ArcShape| {
+    let pieces = |arc: &ArcShape| {
         let radius = n(arc.radius * place.scale());
         let sweep = i32::from(arc.clockwise);
-        let half = |share| format!("A{radius} {radius} 0 0 {sweep} {}", point(arc.point(share)));
-        format!("M{}{}{}", point(arc.from), half(0.5), half(1.0))
+        let pieces = arc_pieces(arc.degrees);
+        let piece = |piece: u32| {
+            let to = point(arc.point(f64::from(piece) / f64::from(pieces)));
+            format!("A{radius} {radius} 0 0 {sweep} {to}")
+        };
+        format!("M{}{}", point(arc.from), (1..=pieces).map(piece).collect::<String>())
     };
     match shape {
         Shape::Line { from, to } => format!("M{}L{}", point(*from), point(*to)),
-        Shape::Arc(arc) => halves(arc),
+        Shape::Arc(arc) => pieces(arc),
         Shape::Circle { centre, radius } => {
             let right = [centre[0] + radius, centre[1]];
-            halves(&ArcShape {
+            pieces(&ArcShape {
                 from: right,
                 to: right,
                 centre: *centre,
@@ -280,17 +289,36 @@ fn probe_radius(place: &PageTransform) -> f64 {
     (3.0 * place.scale()).clamp(5.0, 16.0)
 }
 
-/// Draws the cutting order of the elements, as far as there is room.
-pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut Room) {
+/// Distances in px from an element to a number that has a leader line, and the number of directions in which room is searched.
+const LEADERS: [f64; 4] = [18.0, 26.0, 36.0, 48.0];
+const DIRECTIONS: u32 = 12;
+
+/// Draws the cutting order of the elements: on the element, or beside it with a leader line. Returns the numbers for which there is no room.
+pub(super) fn order(
+    canvas: &mut Canvas,
+    path: &ScenePath,
+    place: &PageTransform,
+    room: &mut Room,
+) -> Vec<u32> {
     let mut numbered: Vec<(u32, &Element)> =
         path.elements.iter().filter_map(|element| Some((element.order?, element))).collect();
     numbered.sort_by_key(|(order, _)| *order);
     let kerf = path.tool.unwrap_or(0.0) / 2.0 * place.scale();
     canvas.open(&format!("id=\"order\" fill=\"{INK}\""));
+    let mut hidden = Vec::new();
     for (order, element) in numbered {
-        let places = places(&element.shape, place, kerf);
+        let mut places = places(&element.shape, place, kerf);
+        let (near, anchor) = (places.len(), place.at(handle(&element.shape)));
+        places.extend(LEADERS.iter().flat_map(|distance| ring(anchor, *distance)));
         let taken: Vec<Rectangle> = places.iter().map(|at| around(*at, NUMBER + 1.0)).collect();
-        let Some(at) = room.find(&taken).map(|found| places[found]) else { continue };
+        let Some(found) = room.find(&taken) else {
+            hidden.push(order);
+            continue;
+        };
+        let at = places[found];
+        if found >= near {
+            canvas.line(at, anchor, &format!("stroke=\"{INK}\" stroke-width=\"0.6\""));
+        }
         canvas.circle(
             at,
             NUMBER,
@@ -300,6 +328,23 @@ pub(super) fn order(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform
         canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
     }
     canvas.close();
+    hidden
+}
+
+/// A point on a shape that stands for it: the middle of a curve; of a circle, its rightmost point.
+fn handle(shape: &Shape) -> Point {
+    match shape {
+        Shape::Circle { centre: [x, y], radius } => [x + radius, *y],
+        Shape::Line { .. } | Shape::Arc(_) => shape.middle(),
+    }
+}
+
+/// Points around a point.
+fn ring([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
+    (0..DIRECTIONS).map(move |direction| {
+        let (sin, cos) = libm::sincos(f64::from(direction) * std::f64::consts::TAU / f64::from(DIRECTIONS));
+        [x + distance * cos, y + distance * sin]
+    })
 }
 
 /// Possible positions for the number of a shape: at the middle, or nearer to an end. For a circle, the centre if the circle is visible
@@ -332,6 +377,8 @@ pub(super) fn ends(
     room: &mut Room,
 ) {
     let [start, end] = markers(path);
+    let known = room.lines.len();
+    room.lines.extend(lines(path, place, shown));
     canvas.open("id=\"ends\"");
     if let Some(start) = start {
         let at = place.at(start.shape.start());
@@ -353,7 +400,27 @@ pub(super) fn ends(
         label(canvas, room, [x, y], [-8.0, -11.0], shown.either("end", "Ende"), INK);
     }
     canvas.close();
+    room.lines.truncate(known);
 }
+
+/// The moves of a path as lines, arcs in pieces, for labels that avoid them.
+fn lines<'a>(
+    path: &'a ScenePath,
+    place: &'a PageTransform,
+    shown: VisibleParts,
+) -> impl Iterator<Item = [Point; 2]> + 'a {
+    let is_drawn = move |movement: &&SceneMove| {
+        movement.is_placed() && (movement.kind.cuts() || movement.kind == MoveKind::Sweep && shown.rapids)
+    };
+    path.moves.iter().filter(is_drawn).flat_map(move |movement| {
+        let pieces = if matches!(movement.way.shape, MoveShape::Line) { 1 } else { ARC_PIECES };
+        let at = move |piece: u32| place.at(along(movement, f64::from(piece) / f64::from(pieces)));
+        (0..pieces).map(move |piece| [at(piece), at(piece + 1)])
+    })
+}
+
+/// Number of lines that stand for an arc.
+const ARC_PIECES: u32 = 8;
 
 fn label(canvas: &mut Canvas, room: &mut Room, at: Point, offset: Point, text: &str, color: &str) {
     let halo = "stroke=\"#fff\" stroke-width=\"2.5\" paint-order=\"stroke\"";

@@ -2,10 +2,10 @@
 
 use std::slice;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
     Database, Role, SourceFile, Target, check_file, drawn_path, file_index, in_force, keep_outs,
-    other_layers, path_names, placed_keep_outs, traced_program,
+    other_layers, path_names, placed_keep_outs, traced_program, uncut_rings,
 };
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
@@ -24,7 +24,7 @@ use crate::posting::PostProcessor;
 use crate::session::{
     CheckedTarget, NamedPaths, NotOnePath, Session, drawn_source, examples, finished_parts, program_scene,
 };
-use crate::workspace::Workspace;
+use crate::workspace::{Workspace, relative};
 
 /// A scene, with the diagnostics of its paths.
 #[derive(Debug)]
@@ -51,6 +51,43 @@ impl SceneReport {
         scene.set_findings(&findings.diagnostics, file);
         (scene, findings)
     }
+
+    /// Like [`with_findings`](Self::with_findings), for a document that is sent to others: absolute names of files become relative to the
+    /// file that is shown, and do not reveal where its directory is.
+    pub fn for_others(mut self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
+        let findings = workspace.findings(self.diagnostics);
+        let directory = Utf8Path::new(file).parent().unwrap_or(Utf8Path::new(""));
+        let mut shown = findings.diagnostics.clone();
+        shown.iter_mut().for_each(|diagnostic| diagnostic.rename_files(|text| near_name(text, directory)));
+        let own_name = |file: &str| near_name(file, directory).unwrap_or_else(|| outer_name(file));
+        for path in &mut self.scene.paths {
+            if path.name == path.file {
+                path.name = own_name(&path.name);
+            }
+            path.file = own_name(&path.file);
+            path.embedded.iter_mut().for_each(|embedded| embedded.file = own_name(&embedded.file));
+        }
+        self.scene.set_findings(&shown, &own_name(file));
+        (self.scene, findings)
+    }
+}
+
+/// The name of a file or directory relative to a directory, if both are absolute and have more in common than the root.
+fn near_name(name: &str, directory: &Utf8Path) -> Option<String> {
+    let name = Utf8Path::new(name);
+    let common = name.components().zip(directory.components()).take_while(|(one, other)| one == other);
+    let is_near = name.is_absolute() && common.filter(|(one, _)| is_normal(one)).count() > 0;
+    is_near.then(|| relative(name, directory).into_string())
+}
+
+fn is_normal(component: &Utf8Component<'_>) -> bool {
+    matches!(component, Utf8Component::Normal(_))
+}
+
+/// The last component of an absolute name; any other name as it is.
+fn outer_name(name: &str) -> String {
+    let path = Utf8Path::new(name);
+    path.file_name().filter(|_| path.is_absolute()).unwrap_or(name).to_owned()
 }
 
 impl Session<'_> {
@@ -75,6 +112,7 @@ impl Session<'_> {
             diagnostics.extend(found);
         }
         scene.other_layers = view::other_layers(other_layers(self.db(), file));
+        scene.uncut = uncut_rings(self.db(), file).into_iter().map(view::outline).collect();
         self.add_origins(&mut scene);
         SceneReport { scene, diagnostics }
     }

@@ -29,7 +29,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
         Ok(scene) => scene,
         Err(failure) => return context.failed(failure),
     };
-    let (scene, findings) = target.report.with_findings(context, &target.file);
+    let (scene, findings) = target.report.for_others(context, &target.file);
     context.show(&findings);
     if output.shown.stock && !has_stock(&scene) {
         return no_stock(context, &findings);

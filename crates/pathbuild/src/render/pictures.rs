@@ -3,7 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
-use pathbuild_view::{Scene, Spot, cutout_svg, has_stock, stock_cutout_svg};
+use pathbuild_view::{Places, Scene, Spot, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::cannot_write;
 use pathbuild_workspace::findings::Findings;
@@ -23,8 +23,12 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     files.sort_unstable();
     files.dedup();
     let scenes = Session::new(workspace).drawn_scenes(&files);
-    let scene = |file: &Utf8Path| -> Option<&Scene> {
-        scenes.get(files.binary_search(&file).ok()?).and_then(Option::as_ref)
+    let places = scenes.iter().zip(&files).map(|(scene, file)| Some(scene.as_ref()?.places(file.as_str())));
+    let places: Vec<Option<Places<'_>>> = places.collect();
+    let drawn = |diagnostic: &Diagnostic| -> Option<String> {
+        let file = files.binary_search(&drawing(diagnostic)?).ok()?;
+        let spot = spot(diagnostic, places[file].as_ref())?;
+        Some(cutout_svg(scenes[file].as_ref()?, &spot, workspace.lang()))
     };
     let session = Session::new(workspace);
     let mut known: Option<StockScene<'_>> = None;
@@ -36,13 +40,12 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
         }
         let scene = known.as_ref()?.1.as_ref()?;
         let has_corners = diagnostic.code() == Code::UnreachableCorner;
-        Some(stock_cutout_svg(scene, &spot(diagnostic)?, has_corners, index))
+        Some(stock_cutout_svg(scene, &spot(diagnostic, None)?, has_corners, index))
     };
     let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &'d Diagnostic)| {
-        let drawing = drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?;
-        let drawn = || Some(cutout_svg(scene(drawing)?, &spot(diagnostic)?, workspace.lang()));
-        let picture = stock(index, diagnostic).or_else(drawn)?;
+        drawing(diagnostic).filter(|_| index < MOST && bytes < MOST_BYTES)?;
+        let picture = stock(index, diagnostic).or_else(|| drawn(diagnostic))?;
         bytes += picture.len();
         Some(picture)
     };
@@ -74,9 +77,9 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
 }
 
 /// The place of a finding, with further places named in its message and notes.
-fn spot(diagnostic: &Diagnostic) -> Option<Spot> {
+fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<Spot> {
     let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
-    let at = pair(diagnostic.place.point?);
+    let at = places.and_then(|places| places.of(diagnostic)).or(diagnostic.place.point.map(pair))?;
     let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
     let is_centre = |name: &str| name == "centre";
     let own = diagnostic.arguments.iter().filter(|(name, _)| !is_centre(name));

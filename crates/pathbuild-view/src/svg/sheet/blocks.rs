@@ -2,8 +2,9 @@
 
 use super::data::{Sheet, SheetTool, Words, distinct};
 use super::flow::Block;
+use super::operations;
 use crate::scene::{BilingualText, MoveKind, Point};
-use crate::svg::legend::mm;
+use crate::svg::canvas::mm;
 use crate::svg::sheet::data::cleared;
 use crate::svg::sheet::data::feeds;
 use crate::svg::sheet::data::outline;
@@ -158,7 +159,13 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.fact("deepest", "am tiefsten", sheet.cutting_box[2].map(|(low, _)| format!("Z {}", mm(low))));
     let rapids = rapid_heights(sheet);
     facts.fact("lowest rapid", "tiefster Eilgang", rapids.lowest().map(|z| format!("Z {}", mm(z))));
-    facts.fact("rapid across", "Eilgang quer", listed(&rapids.across).map(|heights| format!("Z {heights}")));
+    let (inside, above) = rapids.across.split_at(rapids.inside);
+    facts.fact("rapid across", "Eilgang quer", listed(above).map(|heights| format!("Z {heights}")));
+    facts.fact(
+        "rapid across inside what is milled",
+        "Eilgang quer in Gefrästem",
+        listed(inside).map(|heights| format!("Z {heights}")),
+    );
     facts.fact("rapid down to", "Eilgang hinab", rapids.down.map(|z| format!("Z {}", mm(z))));
     facts.fact("length", "Länge", Some(format!("{:.0} mm", sheet.length)));
     facts.fact("time", "Zeit", sheet.minutes.map(|minutes| format!("{minutes:.0} min")));
@@ -190,8 +197,21 @@ pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
         }
         let head: Vec<String> = head.iter().map(|&text| text.to_owned()).collect();
         blocks.push(Block::Heading(heading.to_owned()));
-        blocks.extend(rows.into_iter().map(|cells| Block::Row { cells, shares, head: head.clone() }));
+        let continued = format!("{heading} ({})", words.either("continued", "Fortsetzung"));
+        let row = |cells| Block::Row { cells, shares, head: head.clone(), continued: continued.clone() };
+        blocks.extend(rows.into_iter().map(row));
     };
+    table(
+        words.either("Operations", "Arbeitsgänge"),
+        &[0.16, 0.26, 0.42, 0.16],
+        &[
+            words.either("No.", "Nr."),
+            words.either("path", "Pfad"),
+            words.either("what", "was"),
+            words.either("down to", "bis"),
+        ],
+        operations::rows(sheet, words),
+    );
     table(
         words.either("Z-probes", "Z-Proben"),
         &[0.09, 0.37, 0.12, 0.12, 0.12, 0.18],

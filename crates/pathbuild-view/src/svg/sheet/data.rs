@@ -3,8 +3,8 @@
 use pathbuild_diagnostic::Lang;
 
 use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, Shape};
+use crate::svg::canvas::mm;
 use crate::svg::frame::widen;
-use crate::svg::legend::mm;
 
 /// The size of a page in mm.
 pub(super) const PAPER: Point = [210.0, 297.0];
@@ -146,6 +146,8 @@ pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f
 pub(super) struct RapidHeights {
     /// Of moves in the plane, in ascending order.
     pub(super) across: Vec<f64>,
+    /// The number of these below the upper face of the material. They lead through what is milled already.
+    pub(super) inside: usize,
     /// The lowest end of moves straight down.
     pub(super) down: Option<f64>,
     /// The lowest end of moves straight up.
@@ -169,7 +171,9 @@ pub(super) fn rapid_heights(sheet: &Sheet) -> RapidHeights {
         let lifts = lifts.filter(|movement| (movement.way.to.z() < movement.way.from.z()) == is_down);
         lifts.map(|movement| movement.way.to.z()).reduce(f64::min)
     };
-    RapidHeights { across, down: lowest_end(true), up: lowest_end(false) }
+    let surface = sheet.scene.paths.iter().filter_map(|path| path.thickness).fold(f64::INFINITY, f64::min);
+    let inside = if surface.is_finite() { across.partition_point(|z| *z < surface) } else { 0 };
+    RapidHeights { across, inside, down: lowest_end(true), up: lowest_end(false) }
 }
 
 /// The values of all paths without duplicates, in order of the paths.

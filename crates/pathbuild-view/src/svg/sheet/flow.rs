@@ -3,6 +3,7 @@
 use crate::scene::Point;
 use crate::svg::canvas::OTHER;
 use crate::svg::canvas::{Anchor, Canvas, INK, n};
+use crate::svg::text::wrapped;
 
 /// Letter size and line height in units of the page.
 pub(super) const LETTERS: f64 = 10.0;
@@ -33,8 +34,8 @@ pub(super) enum Block {
     Check(String),
     /// A name and a value.
     Fact(String, String),
-    /// A row of a table, with cells of given fractions of the width. The head is repeated on each new page.
-    Row { cells: Vec<String>, shares: &'static [f64], head: Vec<String> },
+    /// A row of a table, with cells of given fractions of the width. Its title and its head are repeated on each new page.
+    Row { cells: Vec<String>, shares: &'static [f64], head: Vec<String>, continued: String },
 }
 
 /// An area of a page.
@@ -54,9 +55,12 @@ pub(super) fn lay<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<Item>
     for (index, block) in blocks.iter().enumerate() {
         let mut laid = Vec::new();
         let mut below = y;
-        if let Block::Row { shares, head: wanted, .. } = block
+        if let Block::Row { shares, head: wanted, continued, .. } = block
             && head != Some(wanted)
         {
+            if index == 0 {
+                below = heading(continued, column, below, true, &mut laid);
+            }
             below = row(wanted, shares, column, below, true, &mut laid);
             head = Some(wanted);
         }
@@ -79,13 +83,7 @@ impl Block {
     /// Lays out the block below `top`. Returns its lower edge.
     fn lay(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
         match self {
-            Self::Heading(text) => {
-                let y = top + if is_first { 0.0 } else { ABOVE_HEADING } + LETTERS;
-                items.push(Item::text([column.left, y], LETTERS + 1.0, text).bold());
-                let line = y + 3.5;
-                items.push(Item::rule([column.left, line], [column.left + column.width, line]));
-                line + 4.0
-            }
+            Self::Heading(text) => heading(text, column, top, is_first, items),
             Self::Check(text) => {
                 items.push(Item::Tick([column.left, top + 1.0]));
                 lines(text, column.left + INDENT, column.width - INDENT, top, items) + BELOW
@@ -99,6 +97,15 @@ impl Block {
             Self::Row { cells, shares, .. } => row(cells, shares, column, top, false, items),
         }
     }
+}
+
+/// Lays out a heading. Returns its lower edge.
+fn heading(text: &str, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
+    let y = top + if is_first { 0.0 } else { ABOVE_HEADING } + LETTERS;
+    items.push(Item::text([column.left, y], LETTERS + 1.0, text).bold());
+    let line = y + 3.5;
+    items.push(Item::rule([column.left, line], [column.left + column.width, line]));
+    line + 4.0
 }
 
 /// Lays out a row. Returns its lower edge.
@@ -134,46 +141,6 @@ fn lines(text: &str, left: f64, width: f64, top: f64, items: &mut Vec<Item>) -> 
         y += LINE;
     }
     y
-}
-
-/// Wraps a text to a width, at spaces or, in long words, anywhere.
-pub(super) fn wrapped(text: &str, width: f64, size: f64) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let last = lines.last_mut().expect("there is a line always");
-        if last.is_empty() || breadth(last, size) + breadth(word, size) + 0.32 * size > width {
-            if !last.is_empty() {
-                lines.push(String::new());
-            }
-        } else {
-            last.push(' ');
-        }
-        for letter in word.chars() {
-            let last = lines.last_mut().expect("there is a line always");
-            if !last.is_empty() && breadth(last, size) + advance(letter) * size > width {
-                lines.push(String::new());
-            }
-            lines.last_mut().expect("there is a line always").push(letter);
-        }
-    }
-    lines
-}
-
-/// Upper estimate of the width of a text.
-pub(super) fn breadth(text: &str, size: f64) -> f64 {
-    text.chars().map(advance).sum::<f64>() * size
-}
-
-/// The width of a character relative to the letter size. A few classes are precise enough for wrapping lines.
-fn advance(letter: char) -> f64 {
-    match letter {
-        ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | 'i' | 'j' | 'l' | 'I' => 0.34,
-        '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' => 0.42,
-        'm' | 'w' | 'M' | 'W' | '@' | '%' | '→' | '×' => 1.0,
-        '0'..='9' | 'a'..='z' | '_' | 'ä' | 'ö' | 'ü' | 'ß' => 0.64,
-        'A'..='Z' | 'Ä' | 'Ö' | 'Ü' | '#' | 'Ø' | '…' | '<' | '>' => 0.84,
-        _ => 1.0,
-    }
 }
 
 /// The edges of a column on a page.

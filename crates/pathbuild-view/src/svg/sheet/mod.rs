@@ -5,6 +5,7 @@
 mod blocks;
 mod data;
 mod flow;
+mod operations;
 mod page;
 mod picture;
 

@@ -2,15 +2,16 @@
 
 use pathbuild_diagnostic::Lang;
 
-use crate::scene::{Point, Scene};
-use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, n};
+use crate::scene::Point;
+use crate::svg::canvas::{Anchor, Canvas, Depths, INK, PROBE, TEXT, mm, n};
 use crate::svg::frame::{Frame, PageTransform, Room, VisibleParts};
-use crate::svg::legend::{self, mm};
+use crate::svg::legend;
 use crate::svg::stock::{MilledStock, has_stock};
-use crate::svg::{moves, things};
+use crate::svg::text::breadth;
+use crate::svg::{drawing, moves};
 
 use super::data::{Corners, Sheet, UNITS, Words, cleared, seen};
-use super::flow::{Column, PICTURE, breadth};
+use super::flow::{Column, PICTURE};
 
 /// Margins around the drawing in units: dimensions are to the left and below, and their last numbers extend to the right.
 const LEFT: f64 = 56.0;
@@ -169,10 +170,11 @@ impl PlacedPicture {
         canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
         canvas.clip("frame", clip);
-        axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
+        let axes = axes(canvas, place.at([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
         // Dimensions occupy the space to the left and below; the name of the axis is above.
-        let room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT, bottom + 20.0]]);
-        drawing(canvas, &sheet.scene, &frame, &depths, shown, room);
+        let mut room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT, bottom + 20.0]]);
+        room.lines.extend(axes);
+        let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
         canvas.close();
         if let Some(box_) = cleared(sheet) {
             draw(canvas, box_, &place, [left, bottom]);
@@ -180,7 +182,7 @@ impl PlacedPicture {
         if self.has_inset {
             self.inset(canvas, sheet, lang);
         }
-        self.legend(canvas, sheet, &depths, shown);
+        self.legend(canvas, sheet, &depths, shown, &hidden);
     }
 
     fn draw_stock(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
@@ -197,7 +199,14 @@ impl PlacedPicture {
         canvas.close();
     }
 
-    fn legend(&self, canvas: &mut Canvas, sheet: &Sheet, depths: &Depths, shown: VisibleParts) {
+    fn legend(
+        &self,
+        canvas: &mut Canvas,
+        sheet: &Sheet,
+        depths: &Depths,
+        shown: VisibleParts,
+        hidden: &[u32],
+    ) {
         let words = Words(shown.lang);
         let top = self.bottom() - LEGEND + 12.0;
         canvas.open(&format!("id=\"legend\" fill=\"{INK}\""));
@@ -206,13 +215,14 @@ impl PlacedPicture {
         let bold = "font-weight=\"bold\"";
         canvas.text([self.area.left, top], 11.0, Anchor::Start, bold, &scale);
         legend::depths(canvas, depths, [self.area.left + 110.0, top]);
-        legend::kinds(
+        let below = legend::kinds(
             canvas,
             &sheet.scene,
             shown,
             [self.area.left, top + 17.0],
             self.area.left + self.area.width + 30.0,
         );
+        legend::hidden(canvas, hidden, shown, [self.area.left, below + 15.0], self.area.width);
         canvas.close();
     }
 
@@ -234,30 +244,14 @@ impl PlacedPicture {
     }
 }
 
-fn drawing(
-    canvas: &mut Canvas,
-    scene: &Scene,
-    frame: &Frame,
-    depths: &Depths,
-    shown: VisibleParts,
-    mut room: Room,
-) {
-    things::under(canvas, scene, frame, &mut room);
-    for path in &scene.paths {
-        let place = frame.of_path(path);
-        moves::draw(canvas, path, &place, depths, shown);
-        things::reserve(path, &place, &mut room);
-        things::over(canvas, path, &place, shown, &mut room);
-    }
-    things::findings(canvas, scene, frame, &mut room);
-}
-
-/// Draws the lines X0 and Y0.
-fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) {
+/// Draws the lines X0 and Y0, and returns them.
+fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) -> [[Point; 2]; 2] {
     let style = format!("stroke=\"{PROBE}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
     canvas.open(&format!("id=\"axes\" fill=\"{PROBE}\""));
-    canvas.line([left, y], [right, y], &style);
-    canvas.line([x, bottom], [x, top], &style);
+    let lines = [[[left, y], [right, y]], [[x, bottom], [x, top]]];
+    for [from, to] in lines {
+        canvas.line(from, to, &style);
+    }
     canvas.raw(&format!(
         "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">X</text>",
         n(right + 3.0),
@@ -269,6 +263,7 @@ fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corn
         n(top - 2.0)
     ));
     canvas.close();
+    lines
 }
 
 // Dimensions of the removed material: its size, and the distance of its edges from X0 Y0.

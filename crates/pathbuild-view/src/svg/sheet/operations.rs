@@ -1,0 +1,99 @@
+//! The operations of a setup sheet: what each number of the picture stands for.
+
+use super::data::{Sheet, Words};
+use crate::scene::{Element, ElementKind, ScenePath, Shape};
+use crate::svg::canvas::mm;
+
+/// Upper bound on the rows. On paper, a longer table helps nobody.
+const MOST_ROWS: usize = 300;
+
+/// Consecutive numbers with the same work.
+#[derive(Debug)]
+struct Operation {
+    numbers: [u32; 2],
+    work: Work,
+}
+
+/// What is done at an element.
+#[derive(Debug, PartialEq)]
+struct Work {
+    /// The occurrence of the path, as an index into [`ScenePath::embedded`].
+    occurrence: u32,
+    path: String,
+    what: String,
+    /// The depth that is reached, in words.
+    depth: String,
+}
+
+/// The rows of the table: numbers, path, work, depth.
+pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
+    let mut rows: Vec<Vec<String>> =
+        sheet.scene.paths.iter().flat_map(|path| operations(path, words)).map(row).collect();
+    let more = rows.len().saturating_sub(MOST_ROWS);
+    if more > 0 {
+        rows.truncate(MOST_ROWS);
+        let text = words.either(format!("{more} more operations"), format!("{more} weitere Arbeitsgänge"));
+        rows.push(vec!["…".to_owned(), String::new(), text, String::new()]);
+    }
+    rows
+}
+
+fn row(operation: Operation) -> Vec<String> {
+    let Operation { numbers: [first, last], work } = operation;
+    let numbers = if first == last { first.to_string() } else { format!("{first}–{last}") };
+    vec![numbers, work.path, work.what, work.depth]
+}
+
+fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
+    let depths = depths(path);
+    let numbered = path.elements.iter().zip(depths);
+    let mut numbered: Vec<(u32, Work)> = numbered
+        .filter_map(|(element, depth)| Some((element.order?, work(path, element, depth, words))))
+        .collect();
+    numbered.sort_by_key(|(number, _)| *number);
+    let mut operations: Vec<Operation> = Vec::new();
+    for (number, work) in numbered {
+        match operations.last_mut() {
+            Some(last) if last.work == work && last.numbers[1] + 1 == number => last.numbers[1] = number,
+            _ => operations.push(Operation { numbers: [number; 2], work }),
+        }
+    }
+    operations
+}
+
+/// The lowest Z of the cuts of each element.
+fn depths(path: &ScenePath) -> Vec<Option<f64>> {
+    let mut depths: Vec<Option<f64>> = vec![None; path.elements.len()];
+    for movement in path.moves.iter().filter(|movement| movement.kind.cuts()) {
+        let Some(depth) = movement.element.and_then(|element| depths.get_mut(element as usize)) else {
+            continue;
+        };
+        *depth = (*depth).into_iter().chain(movement.depth()).reduce(f64::min);
+    }
+    depths
+}
+
+fn work(path: &ScenePath, element: &Element, depth: Option<f64>, words: Words) -> Work {
+    let name = path.embedded.get(element.path as usize).map_or(&path.name, |embedded| &embedded.name);
+    Work {
+        occurrence: element.path,
+        path: name.clone(),
+        what: what(path, element, words),
+        depth: depth.map(|z| format!("Z {}", mm(z))).unwrap_or_default(),
+    }
+}
+
+/// The work in words. A circle as wide as the cutter is drilled.
+fn what(path: &ScenePath, element: &Element, words: Words) -> String {
+    let work = match element.kind {
+        ElementKind::Mark => words.either("marking", "Markieren"),
+        ElementKind::Support => words.either("milling with support bars", "Fräsen mit Stützstegen"),
+        _ => words.either("milling", "Fräsen"),
+    };
+    let Shape::Circle { radius, .. } = element.shape else { return work.to_owned() };
+    let diameter = 2.0 * radius;
+    if path.tool.is_some_and(|tool| (tool - diameter).abs() < 0.001) {
+        return words.either(format!("drilling Ø {}", mm(diameter)), format!("Bohren Ø {}", mm(diameter)));
+    }
+    words.either(format!("{work}: circle Ø {}", mm(diameter)), format!("{work}: Kreis Ø {}", mm(diameter)))
+}
