@@ -147,13 +147,13 @@ pub(super) fn mm(value: f64) -> String {
 }
 
 // Colours. Kinds also differ in line style, and depths in lightness, so that they can be distinguished in print and by the colour-blind.
-// (Okabe and Ito's palette; depths from light to dark)
+// (Okabe and Ito's palette, darkened to a contrast of 4.5 for texts and 3 for lines; depths from light to dark)
 
-pub(super) const RAPID: &str = "#e69f00";
+pub(super) const RAPID: &str = "#c07800";
 pub(super) const BAR: &str = "#cc79a7";
-pub(super) const PROBE: &str = "#009e73";
-pub(super) const ERROR: &str = "#d55e00";
-pub(super) const WARNING: &str = "#b58900";
+pub(super) const PROBE: &str = "#007a58";
+pub(super) const ERROR: &str = "#c45200";
+pub(super) const WARNING: &str = "#8a6a00";
 pub(super) const TEXT: &str = "#4a5a68";
 pub(super) const OTHER: &str = "#b8bfc6";
 pub(super) const INK: &str = "#14202b";

@@ -232,8 +232,8 @@ impl Room {
         self.find(&middles.iter().map(rectangle).collect::<Vec<_>>()).map(|found| middles[found])
     }
 
-    /// Occupies space for a label beside a symbol, preferably at the given offset, and returns the start of its baseline. `None` if there
-    /// is no room.
+    /// Occupies space for a label beside a symbol, preferably at the given offset and over as few lines as possible, and returns the start of
+    /// its baseline. `None` if there is no room.
     pub(super) fn find_beside(
         &mut self,
         at: Point,
@@ -242,7 +242,11 @@ impl Room {
         text: &str,
     ) -> Option<Point> {
         let (starts, candidates) = beside(at, preferred, size, text);
-        self.find(&candidates[..NEAREST]).map(|found| starts[found])
+        let is_free = |number: &usize| self.met(candidates[*number]) == 0;
+        let free = (0..NEAREST).filter(is_free);
+        let found = free.min_by_key(|number| self.crossed(candidates[*number]))?;
+        self.take(candidates[found]);
+        Some(starts[found])
     }
 
     /// Like [`find_beside`](Self::find_beside), but also farther away, and over as few lines as possible. Without any room, the label is
@@ -254,6 +258,17 @@ impl Room {
         let least = least().unwrap_or_default();
         self.take(candidates[least]);
         starts[least]
+    }
+
+    /// Whether a line leads through occupied cells.
+    pub(super) fn is_crossed_by(&self, [from, to]: [Point; 2]) -> bool {
+        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few px")]
+        let count = (length / CELL).ceil().max(1.0) as u32;
+        let at = |step: u32| {
+            [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * f64::from(step) / f64::from(count))
+        };
+        (0..=count).any(|step| self.cells([at(step), at(step)]).any(|cell| self.taken.contains(&cell)))
     }
 
     /// Number of occupied cells in a rectangle. Outside of the picture, all are occupied.

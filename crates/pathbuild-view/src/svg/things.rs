@@ -127,8 +127,8 @@ fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
             ElementKind::Subpath => "stroke=\"#7b8a97\" stroke-width=\"1\" stroke-dasharray=\"9 3 2 3\"",
             ElementKind::SkippedSubpath => "stroke=\"#b8bfc6\" stroke-width=\"1\" stroke-dasharray=\"1 4\"",
             ElementKind::Turn => "stroke=\"#14202b\" stroke-width=\"0.8\"",
-            ElementKind::Unclear => "stroke=\"#d55e00\" stroke-dasharray=\"3 3\"",
-            ElementKind::Probe if path.probes.is_empty() => "stroke=\"#009e73\"",
+            ElementKind::Unclear => "stroke=\"#c45200\" stroke-dasharray=\"3 3\"",
+            ElementKind::Probe if path.probes.is_empty() => "stroke=\"#007a58\"",
             ElementKind::Mill | ElementKind::Mark | ElementKind::Support | ElementKind::Sweep
                 if path.moves.is_empty() =>
             {
@@ -145,7 +145,7 @@ fn style_without_program(element: &Element) -> &'static str {
     match element.kind {
         ElementKind::Mark => "stroke=\"#1868ac\" stroke-dasharray=\"2 3\"",
         ElementKind::Support => "stroke=\"#1868ac\" stroke-dasharray=\"12 3 3 3\"",
-        ElementKind::Sweep => "stroke=\"#e69f00\" stroke-dasharray=\"6 4\"",
+        ElementKind::Sweep => "stroke=\"#c07800\" stroke-dasharray=\"6 4\"",
         _ => "stroke=\"#1868ac\"",
     }
 }
@@ -304,31 +304,49 @@ pub(super) fn order(
         path.elements.iter().filter_map(|element| Some((element.order?, element))).collect();
     numbered.sort_by_key(|(order, _)| *order);
     let kerf = path.tool.unwrap_or(0.0) / 2.0 * place.scale();
+    let mut remaining = Vec::new();
+    let mut placed: Vec<(u32, Point)> = Vec::new();
+    for (order, element) in numbered {
+        match find_number(room, &places(&element.shape, place, kerf)) {
+            Some(at) => placed.push((order, at)),
+            None => remaining.push((order, element)),
+        }
+    }
     canvas.open(&format!("id=\"order\" fill=\"{INK}\""));
     let mut hidden = Vec::new();
-    for (order, element) in numbered {
-        let mut places = places(&element.shape, place, kerf);
-        let (near, anchor) = (places.len(), place.at(handle(&element.shape)));
-        places.extend(LEADERS.iter().flat_map(|distance| ring(anchor, *distance)));
-        let taken: Vec<Rectangle> = places.iter().map(|at| around(*at, NUMBER + 1.0)).collect();
-        let Some(found) = room.find(&taken) else {
-            hidden.push(order);
-            continue;
-        };
-        let at = places[found];
-        if found >= near {
-            canvas.line(at, anchor, &format!("stroke=\"{INK}\" stroke-width=\"0.6\""));
+    for (order, element) in remaining {
+        let anchor = place.at(handle(&element.shape));
+        let around = LEADERS.iter().flat_map(|distance| ring(anchor, *distance));
+        // Near the anchor, a leader line may touch another number.
+        let outer = |at: &Point| [[0, 1].map(|axis| anchor[axis] + (at[axis] - anchor[axis]) / 3.0), *at];
+        let around: Vec<Point> = around.filter(|at| !room.is_crossed_by(outer(at))).collect();
+        match find_number(room, &around) {
+            Some(at) => {
+                canvas.line(at, anchor, &format!("stroke=\"{INK}\" stroke-width=\"0.6\""));
+                placed.push((order, at));
+            }
+            None => hidden.push(order),
         }
-        canvas.circle(
-            at,
-            NUMBER,
-            &format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK}\" stroke-width=\"0.6\""),
-        );
-        let size = if order > 99 { 7.0 } else { 8.5 };
-        canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
+    }
+    placed.sort_by_key(|(order, _)| *order);
+    for (order, at) in placed {
+        number(canvas, order, at);
     }
     canvas.close();
     hidden
+}
+
+/// Occupies the first of the places that is free.
+fn find_number(room: &mut Room, places: &[Point]) -> Option<Point> {
+    let taken: Vec<Rectangle> = places.iter().map(|at| around(*at, NUMBER + 1.0)).collect();
+    room.find(&taken).map(|found| places[found])
+}
+
+fn number(canvas: &mut Canvas, order: u32, at: Point) {
+    let style = format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK}\" stroke-width=\"0.6\"");
+    canvas.circle(at, NUMBER, &style);
+    let size = if order > 99 { 7.0 } else { 8.5 };
+    canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
 }
 
 /// A point on a shape that stands for it: the middle of a curve; of a circle, its rightmost point.

@@ -65,6 +65,7 @@ impl SceneReport {
                 path.name = own_name(&path.name);
             }
             path.file = own_name(&path.file);
+            path.written = path.written.take().map(|file| own_name(&file));
             path.embedded.iter_mut().for_each(|embedded| embedded.file = own_name(&embedded.file));
         }
         self.scene.set_findings(&shown, &own_name(file));
