@@ -500,7 +500,7 @@ function describe(at: number | null): void {
     const joined = (labels: { text: string }[]) => labels.map((label) => label.text).join(" | ") || say("none", lang);
     list.push([say("element", lang), `${element.entity} ${element.handle ?? ""} · ${sayKind(element.kind, lang)}`]);
     list.push([say("layer", lang), element.layer]);
-    if (element.line !== null) list.push([say("line", lang), `${inside?.file ?? path.file}:${element.line}`]);
+    if (element.line !== null) list.push([say("line", lang), `${element.line} · ${inside?.file ?? path.file}`]);
     list.push([say("fromOwn", lang), joined(own)]);
     list.push([`${say("pathText", lang)} ${inside?.name ?? path.name}`, joined(ofPath)]);
     for (const parameter of element.parameters ?? []) list.push([parameter.letter, `${parameter.value} · ${provider(parameter)}`]);
