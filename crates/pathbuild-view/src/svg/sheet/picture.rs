@@ -174,6 +174,7 @@ impl PlacedPicture {
         // Dimensions occupy the space to the left and below; the name of the axis is above.
         let mut room = Room::new([[left - 14.0, top - 6.0], [right + RIGHT, bottom + 20.0]]);
         room.lines.extend(axes);
+        room.lines.extend(cleared(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
         let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
         canvas.close();
         if let Some(box_) = cleared(sheet) {
@@ -242,6 +243,12 @@ impl PlacedPicture {
         canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT}\""), "1:1");
         canvas.close();
     }
+}
+
+/// The sides of a rectangle on the page.
+fn sides([low, high]: Corners, place: &PageTransform) -> [[Point; 2]; 4] {
+    let corners = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| place.at(corner));
+    [0, 1, 2, 3].map(|side| [corners[side], corners[(side + 1) % 4]])
 }
 
 /// Draws the lines X0 and Y0, and returns them.
