@@ -228,6 +228,39 @@ fn arcs_need_a_centre() {
     );
 }
 
+/// GRBL ends with "Unused words" (error 36) where a value word has no command, "No axis words" (26) and "G43.1 dynamic axis error" (37).
+#[test]
+fn words_without_a_command_stop_grbl() {
+    for words in
+        ["G61", "G4 P5", "G54", "G10 L2 P1 X1", "G43.1 Z1", "G49", "G0 X1", "G38.2 Z-1 F10", "M3 S1", "T1"]
+    {
+        assert_eq!(wrong(Grbl, words), FINE, "{words}");
+    }
+    for words in [
+        "G61 P5", "G54 P2", "G49 P1", "G17 R1", "G94 L1", "M3 P1", "M8 I1", "M0 P1", "G0 X1 J2", "G21 K1",
+        "P5",
+    ] {
+        assert_eq!(wrong(Grbl, words), ["2 unused-word"], "{words}");
+    }
+    for words in ["G38.2 F10", "G43.1", "G43.1 X1", "G43.1 X1 Z1", "G4", "G92"] {
+        assert_eq!(wrong(Grbl, words), ["2 missing-word"], "{words}");
+    }
+    assert_eq!(wrong(LinuxCnc, "G43.1 X1"), FINE);
+}
+
+/// Fanuc keeps H and D, LinuxCNC refuses them where no word needs them.
+#[test]
+fn an_offset_beside_a_word_for_the_tool_length() {
+    for words in ["G49 H0", "G43 H1 D1"] {
+        assert_eq!([Fanuc, Haas, Mach3].map(|dialect| wrong(dialect, words)), [FINE; 3], "{words}");
+        assert_eq!(
+            [LinuxCnc, Rs274, Native].map(|dialect| wrong(dialect, words)),
+            [["2 unused-word"]; 3],
+            "{words}"
+        );
+    }
+}
+
 /// GRBL ignores K in the XY plane, LinuxCNC refuses it ("K word given for arc in xy plane").
 #[test]
 fn a_centre_of_the_third_axis_may_be_0_where_it_is_ignored() {
@@ -979,6 +1012,18 @@ fn subprograms_run_where_they_are_called() {
             "#5=0\no1 while [1]\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\no3 if [#5 gt 3]\no1 break\no3 endif\nG0 X#5\no1 endwhile\nM2",
             "1 3",
         ),
+        (
+            LinuxCnc,
+            "#5=0\no1 do\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\nG0 X#5\no1 while [#5 lt 3]\nM2",
+            "1 3",
+        ),
+        // A condition that does not hold forgets the `continue`, and a `do` loop with a single pass the `break`.
+        (
+            LinuxCnc,
+            "o1 do\no1 continue\no1 while [0]\no2 while [0]\no2 endwhile\no3 repeat [2]\nG0 X1\no3 endrepeat\nM2",
+            "1 1",
+        ),
+        (LinuxCnc, "o1 while [1]\no1 break\no1 endwhile\no2 do\nG0 X1\no2 while [0]\nM2", "1"),
         // `break` may leave an outer loop.
         (LinuxCnc, "o1 while [1]\no2 while [1]\nG0 X1\no1 break\no2 endwhile\no1 endwhile\nG0 X9\nM2", "1 9"),
         (
@@ -1019,7 +1064,9 @@ fn calls_that_cannot_be_followed_are_reported() {
         "o[1] call\nM2",
         "o1 while [1]\nG0 X1\nM2",
         "o1 while [1]\no1 endwhile\nM2",
-        "o1 do\no1 continue\no1 while [0]\nM2",
+        "o1 do\no1 continue\no1 while [0]\no2 repeat [1]\no2 endrepeat\nM2",
+        "o1 do\no1 continue\no1 while [0]\no2 while [1]\no2 break\no2 endwhile\nM2",
+        "#5=0\no1 while [1]\no1 break\no1 endwhile\no2 do\n#5=[#5+1]\no2 while [#5 lt 2]\nM2",
         "o1 if [0]\nG0 X1\nM2",
         "o1 if\no1 endif\nM2",
         "o1 break\nM2",

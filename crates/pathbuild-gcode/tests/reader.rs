@@ -3,7 +3,7 @@
 mod common;
 
 use common::{faults, reading_faults, spelled_out, words};
-use pathbuild_gcode::dialect::Dialect::{Grbl, LinuxCnc, Native, Rs274, Xpertmill};
+use pathbuild_gcode::dialect::Dialect::{Grbl, LinuxCnc, Marlin, Native, Rs274, Xpertmill};
 use pathbuild_gcode::read::{BlockReader, Op, Value};
 
 /// Value and number of decimals of the first word.
@@ -167,6 +167,23 @@ fn block_numbers_are_the_dialects() {
     );
     assert_eq!(reading_faults(LinuxCnc, b"N56.78 G0 X1\n"), [""; 0]);
     assert_eq!(reading_faults(Grbl, b"N10000000 X1\nN10000001 X1\n"), ["2 invalid-word"]);
+}
+
+/// Marlin: "No Checksum with line number", "No Line Number with checksum", "checksum mismatch".
+#[test]
+fn marlin_numbers_lines_only_with_a_checksum() {
+    assert_eq!(words(Marlin, "N5 G1 X2*103\n"), ["1: G1 X2"]);
+    let fine = b"G1 X2\nN5 G1 X2*103\n  N5 G1 X2*103 ; note\nN7 G1 X2 *69\nN6 M117 Hi*35\n";
+    assert_eq!(reading_faults(Marlin, fine), [""; 0]);
+    assert_eq!(
+        reading_faults(Marlin, b"N5 G1 X2*102\nN5 G1 X3*103\nN5 G1 X2*\nN5 G1 X2*x\n"),
+        ["1 invalid-word", "2 invalid-word", "3 invalid-word", "4 invalid-word"]
+    );
+    assert_eq!(
+        reading_faults(Marlin, b"N5 G1 X2\nG1 X2*60\n"),
+        ["1 doubtful-spelling", "2 doubtful-spelling"]
+    );
+    assert_eq!(reading_faults(Grbl, b"N5 G1 X2*103\n"), ["1 unknown-character"]);
 }
 
 #[test]

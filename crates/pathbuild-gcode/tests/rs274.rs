@@ -58,6 +58,13 @@ const REFUSED: &[(&str, &str)] = &[
     ("G0 X1 I3", "unused-word"),
     ("G0 X1 R3", "unused-word"),
     ("G0 X1 Q3", "unused-word"),
+    ("G61 P1", "unused-word"),
+    ("G61.1 Q1", "unused-word"),
+    ("G54 P2", "unused-word"),
+    ("G49 H1", "unused-word"),
+    ("G43 H1 D1", "unused-word"),
+    ("G43.1 Z1 H1", "unused-word"),
+    ("G38.2 F10", "missing-word"),
     ("G2 X2 Y0 R0.9987 F10", "invalid-arc"),
     ("G2 X0 Y0 R1 F10", "invalid-arc"),
     ("G2 X2 Y0 F10", "invalid-arc"),
@@ -162,5 +169,55 @@ fn recorded_programs_move_as_linuxcnc_moves_them() {
         let text = std::fs::read_to_string(path).expect("the fixture");
         // LinuxCNC clears the feed at G94, so it is repeated after that.
         assert_same(&rs274, name, &text.replace(" G94\n", " G94\nF150\n"));
+    }
+}
+
+/// Loops after `break` and `continue`, and whether LinuxCNC ends one of them too early or too late.
+const LOOPS: &[(&str, bool)] = &[
+    ("o1 do\n#5=[#5+1]\no2 if [#5 eq 2]\no1 continue\no2 endif\nG0 X#5\no1 while [#5 lt 4]", false),
+    (
+        "o1 do\n#5=[#5+1]\nG0 X#5\no1 continue\no1 while [#5 lt 2]\no2 repeat [3]\n#5=[#5+1]\nG0 X#5\no2 endrepeat",
+        true,
+    ),
+    (
+        "o1 do\n#5=[#5+1]\nG0 X#5\no1 continue\no1 while [#5 lt 2]\no2 while [#5 lt 9]\n#5=[#5+1]\nG0 X#5\no2 break\no2 endwhile",
+        true,
+    ),
+    (
+        "o1 do\n#5=[#5+1]\nG0 X#5\no1 continue\no1 while [#5 lt 2]\no3 while [#5 lt 3]\n#5=[#5+1]\no3 endwhile\no2 repeat [3]\n#5=[#5+1]\nG0 X#5\no2 endrepeat",
+        false,
+    ),
+    (
+        "o1 do\n#5=[#5+1]\nG0 X#5\no1 continue\no1 while [#5 lt 2]\no3 while [#5 lt 3]\n#5=[#5+1]\no3 continue\no3 endwhile\no2 repeat [3]\n#5=[#5+1]\nG0 X#5\no2 endrepeat",
+        false,
+    ),
+    (
+        "o1 do\n#5=[#5+1]\nG0 X#5\no1 continue\no1 while [#5 lt 2]\no2 repeat [0]\no2 endrepeat\no3 repeat [2]\n#5=[#5+1]\nG0 X#5\no3 endrepeat",
+        false,
+    ),
+    ("o1 while [1]\nG0 X1\no1 break\no1 endwhile\no2 do\n#5=[#5+1]\nG0 X[#5+1]\no2 while [#5 lt 3]", true),
+    ("o1 while [1]\nG0 X1\no1 break\no1 endwhile\no2 do\n#5=[#5+1]\nG0 X[#5+1]\no2 while [#5 lt 1]", false),
+    (
+        "o1 while [1]\nG0 X1\no1 break\no1 endwhile\no3 do\nG0 X2\no3 break\no3 while [1]\no2 do\n#5=[#5+1]\nG0 X[#5+3]\no2 while [#5 lt 3]",
+        false,
+    ),
+    ("o2 do\n#5=[#5+1]\no1 while [1]\nG0 X#5\no1 break\no1 endwhile\no2 while [#5 lt 3]", true),
+    (
+        "o1 sub\no3 while [1]\no3 break\no3 endwhile\no1 endsub\no2 do\n#5=[#5+1]\nG0 X#5\no1 call\no2 while [#5 lt 3]",
+        true,
+    ),
+];
+
+#[test]
+fn a_loop_that_linuxcnc_ends_too_early_or_too_late_is_reported() {
+    let rs274 = rs274();
+    for (lines, is_other) in LOOPS {
+        let text = format!("G17 G21 G90 G94 G54\nG0 X0 Y0 Z5\n#5=0\n{lines}\nG0 X99\nM2\n");
+        let result = interpret(text.as_bytes(), LinuxCnc, &Options::default());
+        let reported = result.problems.iter().filter(|problem| problem.is_error()).count();
+        assert_eq!(reported > 0, *is_other, "{lines}: {:?}", common::faults(LinuxCnc, &text));
+        if let Some(rs274) = &rs274 {
+            assert_eq!(difference(rs274, &text, &text, LinuxCnc).is_some(), *is_other, "{lines}");
+        }
     }
 }

@@ -125,6 +125,13 @@ messages! {
         help_en: "N comes first in the line, has no decimals, and is at most {most}",
         help_de: "N steht am Anfang der Zeile, ohne Nachkommastellen, und ist höchstens {most}",
     }
+    /// A checksum that is not that of its line.
+    WRONG_CHECKSUM: InvalidWord {
+        en: "`{found}` is not the checksum of this line, which is {expected}: the line was altered; it is left out",
+        de: "`{found}` ist nicht die Prüfsumme dieser Zeile, sie ist {expected}: die Zeile wurde verändert; sie bleibt unbeachtet",
+        help_en: "have the program written again, or remove N and the checksum: the host adds its own",
+        help_de: "das Programm neu schreiben lassen, oder N und die Prüfsumme entfernen: das sendende Programm fügt eigene an",
+    }
     /// An unclosed comment.
     UNCLOSED_COMMENT: InvalidComment {
         en: "the comment is not closed; the line is left out",
@@ -201,6 +208,20 @@ messages! {
         de: "zwischen Buchstabe und Zahl steht ein Leerzeichen, das {dialect} vielleicht nicht annimmt",
         help_en: "write the number directly after the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
+    }
+    /// N without the checksum that hosts send with it.
+    NUMBER_WITHOUT_CHECKSUM: DoubtfulSpelling {
+        en: "N without a checksum: {dialect} takes this line from an SD card, but refuses it from a host",
+        de: "N ohne Prüfsumme: {dialect} nimmt diese Zeile von der SD-Karte an, von einem sendenden Programm aber nicht",
+        help_en: "leave N out: hosts number the lines themselves",
+        help_de: "N weglassen: sendende Programme nummerieren die Zeilen selbst",
+    }
+    /// A checksum without N.
+    CHECKSUM_WITHOUT_NUMBER: DoubtfulSpelling {
+        en: "a checksum without N: {dialect} takes this line from an SD card, but refuses it from a host",
+        de: "Prüfsumme ohne N: {dialect} nimmt diese Zeile von der SD-Karte an, von einem sendenden Programm aber nicht",
+        help_en: "leave the checksum out: hosts add their own",
+        help_de: "die Prüfsumme weglassen: sendende Programme fügen eigene an",
     }
     /// A decimal comma such as `X1,5`.
     COMMA_FOR_POINT: DoubtfulSpelling {
@@ -328,12 +349,19 @@ messages! {
         help_en: "end subprograms with M99 or endsub, loops with endrepeat or endwhile, do with while, and branches with endif",
         help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat oder endwhile, do mit while, Verzweigungen mit endif",
     }
-    /// `continue` in a loop that begins with `do`.
-    CONTINUED_DO: WordNotFollowed {
-        en: "continue in the do loop {name} is not followed, because LinuxCNC may then leave later loops too late",
-        de: "continue in der do-Schleife {name} wird nicht verfolgt, weil LinuxCNC spätere Schleifen danach womöglich zu spät verlässt",
-        help_en: "write a while loop, or an if around the rest of the pass",
-        help_de: "eine while-Schleife schreiben oder den Rest des Durchgangs in ein if setzen",
+    /// A `do` loop after a `while` loop that was left by `break`.
+    ENDED_BY_EARLIER_BREAK: WordNotFollowed {
+        en: "LinuxCNC ends the do loop {name} here, although its condition holds, because a break left a while loop in line {earlier}",
+        de: "LinuxCNC beendet die do-Schleife {name} hier, obwohl ihre Bedingung gilt, weil ein break in Zeile {earlier} eine while-Schleife verlassen hat",
+        help_en: "write a while loop instead of the do loop, or end the earlier loop by its condition",
+        help_de: "statt der do-Schleife eine while-Schleife schreiben, oder die frühere Schleife durch ihre Bedingung beenden",
+    }
+    /// A loop that ends after `continue` in a `do` loop.
+    REPEATED_BY_EARLIER_CONTINUE: WordNotFollowed {
+        en: "LinuxCNC begins the loop {name} again where it should end, because of the continue in a do loop in line {earlier}",
+        de: "LinuxCNC beginnt die Schleife {name} erneut, wo sie enden sollte, wegen des continue in einer do-Schleife in Zeile {earlier}",
+        help_en: "in line {earlier}, write an if around the rest of the pass instead of continue",
+        help_de: "in Zeile {earlier} statt continue den Rest des Durchgangs in ein if setzen",
     }
     /// `break` or `continue` outside of its loop.
     LEFT_WITHOUT_LOOP: WordNotFollowed {

@@ -44,6 +44,8 @@ pub struct Rules {
     pub program_numbers: bool,
     /// Whether a number without a decimal point counts least increments on some machines, so that `X10` is 0.010 mm.
     pub least_increments: bool,
+    /// Whether the control keeps H and D, so that they may stand beside any word for the tool length.
+    pub keeps_offsets: bool,
     /// The letter for the repetitions of a drilling cycle.
     pub repeats: u8,
     /// Whether drilling cycles return to their initial height (G98) by default.
@@ -148,6 +150,7 @@ const BASE_SPELLING: Spelling = Spelling {
     line_length: None,
     block_numbers: Some(99_999),
     fractional_block_numbers: false,
+    checksums: false,
     grammar: None,
     decimal_comma: false,
     formulas: false,
@@ -183,6 +186,7 @@ const BASE: Rules = Rules {
     rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
+    keeps_offsets: false,
     repeats: b'L',
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
@@ -298,6 +302,7 @@ pub(super) static MACH3: Rules = Rules {
     arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, ..BASE.arcs },
     dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"" },
     program_numbers: true,
+    keeps_offsets: true,
     lifts_to_start: true,
     // Vectric's post for it begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
     unit_synonyms: Some([700, 710]),
@@ -311,6 +316,7 @@ const ISO: Rules = Rules {
     start_motion: StartMotion::None,
     program_numbers: true,
     least_increments: true,
+    keeps_offsets: true,
     lifts_to_start: true,
     // G80 is in a group of its own.
     ends_cycles_beside_motion: true,
@@ -344,6 +350,8 @@ pub(super) static MARLIN: Rules = Rules {
         slash: Slash::Unknown,
         line_length: Some(LineLength::Whole(96)),
         block_numbers: Some(u32::MAX),
+        // queue.cpp: "No Checksum with line number", unless the file is on the SD card.
+        checksums: true,
         message_codes: &[0, 1, 117, 118],
         ..BASE_SPELLING
     },
@@ -414,6 +422,8 @@ pub struct Spelling {
     pub block_numbers: Option<u32>,
     /// Whether block numbers may have decimals.
     pub fractional_block_numbers: bool,
+    /// Whether a line with a block number ends with `*` and its checksum if a host sends it.
+    pub checksums: bool,
     /// The syntax of `[ ]` and `#`, if they are supported.
     pub grammar: Option<Grammar>,
     /// Whether numbers may have a decimal comma, which causes a warning.

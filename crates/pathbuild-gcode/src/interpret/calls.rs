@@ -46,6 +46,8 @@ pub(super) struct Runner<'r, 'i> {
     loops: Vec<OpenLoop>,
     /// The name of the loop that `break` or `continue` leaves.
     left: Box<str>,
+    /// The flags that the last `break` and `continue` left behind in LinuxCNC.
+    stale: StaleFlags,
     /// The number of calls and loops that are being executed.
     depth: usize,
     /// Lines executed by calls and loops.
@@ -62,6 +64,17 @@ struct OpenLoop {
     is_do: bool,
 }
 
+/// LinuxCNC notes in one flag that a loop is left by `break`, and in another that a pass is left by `continue`. Only the end of a `do` loop
+/// clears the first one, and only the end of a `while` or `repeat` loop the second one. Until then, it affects other loops as well: the
+/// next `do` loop ends after its first pass, and the next `repeat` loop, or `while` loop left by `break`, runs again.
+#[derive(Clone, Copy, Debug, Default)]
+struct StaleFlags {
+    /// The line of a `break` that left a `while` loop.
+    break_line: Option<u32>,
+    /// The line of a `continue` in a `do` loop.
+    continue_line: Option<u32>,
+}
+
 impl<'r, 'i> Runner<'r, 'i> {
     pub(super) fn new(
         interpreter: &'r mut Interpreter<'i>,
@@ -74,6 +87,7 @@ impl<'r, 'i> Runner<'r, 'i> {
             active: Vec::new(),
             loops: Vec::new(),
             left: Box::default(),
+            stale: StaleFlags::default(),
             depth: 0,
             lines: 0,
             has_words: false,
@@ -121,17 +135,16 @@ impl<'r, 'i> Runner<'r, 'i> {
                 Some(Jump::While(name)) => self.repeat_while(reader, name, before, line),
                 Some(Jump::Do(name)) => self.repeat_do(reader, name, line),
                 Some(Jump::Leave(name, exit)) => {
-                    let open = self.loops.iter().find(|open| open.name == name);
-                    let message = match open.map(|open| open.is_do && exit == LoopExit::Continue) {
-                        Some(false) => {
-                            self.left = name;
-                            return Outcome::Left(exit);
+                    if let Some(open) = self.loops.iter().find(|open| open.name == name) {
+                        match (exit, open.is_do) {
+                            (LoopExit::Continue, true) => self.stale.continue_line = Some(line),
+                            (LoopExit::Break, false) => self.stale.break_line = Some(line),
+                            (LoopExit::Continue, false) | (LoopExit::Break, true) => {}
                         }
-                        // After it, rs274 runs a loop once more that a later `break` leaves from within another one.
-                        Some(true) => &say::CONTINUED_DO,
-                        None => &say::LEFT_WITHOUT_LOOP,
-                    };
-                    self.report(message, line, &format!("o{name}"), 0);
+                        self.left = name;
+                        return Outcome::Left(exit);
+                    }
+                    self.report(&say::LEFT_WITHOUT_LOOP, line, &format!("o{name}"), 0);
                     continue;
                 }
             };
@@ -212,6 +225,12 @@ impl<'r, 'i> Runner<'r, 'i> {
                 break;
             }
         }
+        match outcome {
+            Outcome::Repeated if times > 0 => self.end_after_continue(name, line),
+            // It begins again, with no pass either.
+            Outcome::Repeated => self.stale.continue_line = None,
+            _ => {}
+        }
         self.depth -= 1;
         outcome
     }
@@ -251,17 +270,29 @@ impl<'r, 'i> Runner<'r, 'i> {
         if !self.enter(line) {
             return Outcome::Repeated;
         }
-        let name = open.name.clone();
-        let mut is_untested = open.is_do;
+        let (name, is_do) = (open.name.clone(), open.is_do);
+        let mut is_first = true;
         self.loops.push(open);
         let outcome = loop {
-            if !std::mem::take(&mut is_untested) && !self.holds(reader, condition) {
+            let is_tested = !(std::mem::take(&mut is_first) && is_do);
+            if is_tested && !self.goes_on(reader, &name, is_do, condition) {
                 break Outcome::Repeated;
             }
             match self.body(reader, start) {
                 Outcome::Repeated => {}
-                Outcome::Left(LoopExit::Continue) if self.left == name => {}
-                Outcome::Left(LoopExit::Break) if self.left == name => break Outcome::Repeated,
+                Outcome::Left(LoopExit::Continue) if self.left == name => {
+                    if !is_do {
+                        self.stale.continue_line = None;
+                    }
+                }
+                Outcome::Left(LoopExit::Break) if self.left == name => {
+                    if is_do {
+                        self.stale.break_line = None;
+                    } else {
+                        self.end_after_continue(&name, line);
+                    }
+                    break Outcome::Repeated;
+                }
                 outcome => break outcome,
             }
         };
@@ -270,9 +301,33 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Whether the condition in the line after a place holds.
-    fn holds(&mut self, reader: &BlockReader<'_>, place: Place) -> bool {
-        reader.again_from(place).next_block().is_some_and(|block| self.interpreter.condition(&block))
+    /// Whether another pass follows. Its condition is in the line after `condition`.
+    fn goes_on(&mut self, reader: &BlockReader<'_>, name: &str, is_do: bool, condition: Place) -> bool {
+        let mut reader = reader.again_from(condition);
+        let Some(block) = reader.next_block() else { return false };
+        let holds = self.interpreter.condition(&block);
+        if is_do {
+            if let Some(earlier) = self.stale.break_line.take().filter(|_| holds) {
+                self.report_stale(&say::ENDED_BY_EARLIER_BREAK, block.line, name, earlier);
+            }
+        } else if !holds {
+            // The condition is tested once more, with the same result.
+            self.stale.continue_line = None;
+        }
+        holds
+    }
+
+    /// Reports a loop that LinuxCNC begins again at its end.
+    fn end_after_continue(&mut self, name: &str, line: u32) {
+        if let Some(left) = self.stale.continue_line.take() {
+            self.report_stale(&say::REPEATED_BY_EARLIER_CONTINUE, line, name, left);
+        }
+    }
+
+    fn report_stale(&mut self, message: &'static Message, line: u32, name: &str, earlier: u32) {
+        self.interpreter.problems.add_at_line(message, line, |d| {
+            d.quoting("name", format!("o{name}")).with("earlier", u64::from(earlier))
+        });
     }
 
     /// Skips the lines up to the next branch whose condition holds, or to the end of the branches.

@@ -67,8 +67,8 @@ impl Interpreter<'_> {
         self.state.motion_code = code;
     }
 
-    /// Warns about a motion word that neither moves nor sets F. In dialects where each line states its motion, such a word has no effect on
-    /// later lines either.
+    /// Reports a probe without coordinates, and warns about a motion word that neither moves nor sets F: in dialects where each line states
+    /// its motion, such a word has no effect on later lines either.
     fn check_does_something(&mut self, block: &Block<'_>, motion: Motion, code: u16, span: Span) {
         let sets_feed = self.words.values.has(b'F') && !self.rules.layers;
         let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);
@@ -76,6 +76,10 @@ impl Interpreter<'_> {
             self.report(block, &say::NEEDS, span, |d| {
                 let d = d.quoting("word", codes::name('G', code)).quoting("missing", "X, Y, Z");
                 Diagnostic { severity: Severity::Warning, ..d }
+            });
+        } else if matches!(code, 382..=385) {
+            self.report(block, &say::NEEDS, span, |d| {
+                d.quoting("word", codes::name('G', code)).quoting("missing", "X, Y, Z")
             });
         }
     }

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, ToolLength, Turning};
 
 use super::codes::{self, Command, FeedUnit};
-use super::execute::{Interpreter, Slot, limits, whole};
+use super::execute::{Interpreter, Slot, Values, limits, whole};
 use super::state::INCH;
 use crate::dialect::{DwellUnit, FeedMode};
 use crate::read::{Block, Span};
@@ -166,7 +166,10 @@ impl Interpreter<'_> {
                     self.state.stated.plane = true;
                 }
                 Command::Inches(inches) => self.units(block, inches, code, span),
-                Command::NoEffect(Group::ToolLength) => self.tool_length(block, code),
+                Command::NoEffect(Group::ToolLength) => {
+                    self.check_length_axis(block, code, span);
+                    self.tool_length(block, code);
+                }
                 Command::NoEffect(Group::PathControl) => self.corners(block, code),
                 Command::Incremental(incremental) => {
                     self.state.incremental = incremental;
@@ -186,10 +189,23 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Reports G43.1 without Z, or with another axis, for GRBL: "G43.1 dynamic axis error". LinuxCNC takes all axes.
+    fn check_length_axis(&mut self, block: &Block<'_>, code: u16, span: Span) {
+        let axes = Values::AXES.map(|axis| self.words.values.has(axis));
+        let takes_all = self.rules.words.has_g(432);
+        if code == 431 && !takes_all && axes != [false, false, true] {
+            self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G43.1").quoting("missing", "Z"));
+        }
+    }
+
     /// Sets the tool length by G43 with H and axis words. The position of the tool's tip does not depend on it.
     fn tool_length(&mut self, block: &Block<'_>, code: u16) {
-        let entry = self.words.values.take(b'H');
-        self.words.values.take(b'D');
+        let takes_offsets = self.rules.keeps_offsets;
+        let entry =
+            if takes_offsets || matches!(code, 430 | 432) { self.words.values.take(b'H') } else { None };
+        if takes_offsets {
+            self.words.values.take(b'D');
+        }
         // Some controls apply the length along the axes in the line.
         let is_across =
             [b'X', b'Y'].iter().any(|axis| self.words.values.has(*axis)) && !self.words.values.has(b'Z');
@@ -209,11 +225,14 @@ impl Interpreter<'_> {
     }
 
     fn corners(&mut self, block: &Block<'_>, code: u16) {
-        let unit = self.state.unit;
-        let most = self.words.values.take(b'P').map(|most| most * unit);
-        let joined = self.words.values.take(b'Q').map_or(0.0, |joined| joined * unit);
-        let most = most.map(|most| most.max(joined));
-        let corners = if code == 640 { Corners::Rounded(most) } else { Corners::Exact };
+        let corners = if code == 640 {
+            let unit = self.state.unit;
+            let most = self.words.values.take(b'P').map(|most| most * unit);
+            let joined = self.words.values.take(b'Q').map_or(0.0, |joined| joined * unit);
+            Corners::Rounded(most.map(|most| most.max(joined)))
+        } else {
+            Corners::Exact
+        };
         self.step(block, Action::Change(Change::Corners(corners)));
     }
 

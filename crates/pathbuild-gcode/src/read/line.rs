@@ -72,6 +72,8 @@ pub(super) struct Line<'l> {
     pub(super) problems: &'l mut Problems,
     /// Line number, counted from 1.
     pub(super) number: u32,
+    /// Whether a checksum has been read.
+    pub(super) checks_sum: bool,
 }
 
 impl Line<'_> {
@@ -83,7 +85,7 @@ impl Line<'_> {
             if self.has_message() {
                 self.message();
             }
-            let Some(byte) = self.peek() else { return Ok(()) };
+            let Some(byte) = self.peek() else { break };
             match byte {
                 b' ' | b'\t' => self.at += 1,
                 b'a'..=b'z' if !self.spelling().small_letters => self.small_letter(byte)?,
@@ -93,9 +95,12 @@ impl Line<'_> {
                 b'#' => self.setting()?,
                 b'0'..=b'9' | b'+' | b'-' | b'.' => self.bare_number()?,
                 b'@' | b'^' | b'$' if self.rules.words.letters.contains(byte) => self.word(byte)?,
+                b'*' if self.spelling().checksums => self.checksum()?,
                 _ => self.unknown_character()?,
             }
         }
+        self.check_host();
+        Ok(())
     }
 
     pub(super) fn peek(&self) -> Option<u8> {

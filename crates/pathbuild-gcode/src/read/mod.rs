@@ -4,6 +4,7 @@
 //! reported and skipped.
 
 mod block;
+mod checksum;
 mod expression;
 mod line;
 mod number;

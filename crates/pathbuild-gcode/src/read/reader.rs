@@ -262,6 +262,7 @@ impl<'t> BlockReader<'t> {
             rules: self.rules,
             problems: &mut self.problems,
             number: self.line,
+            checks_sum: false,
         }
         .read()
     }

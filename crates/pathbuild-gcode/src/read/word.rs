@@ -1,6 +1,6 @@
 //! Reads words and settings that do not have the simplest form.
 
-use memchr::memchr;
+use memchr::{memchr, memchr2};
 use pathbuild_diagnostic::messages::gcode as say;
 
 use super::block::{
@@ -317,7 +317,8 @@ impl Line<'_> {
         self.skip_blanks();
         let rest = &self.bytes[self.at..];
         let is_word = matches!(rest, [b'S' | b'P' | b's' | b'p', b'0'..=b'9' | b'.', ..]);
-        let length = memchr(b';', rest).unwrap_or(rest.len());
+        let checksum = if self.spelling().checksums { b'*' } else { b';' };
+        let length = memchr2(b';', checksum, rest).unwrap_or(rest.len());
         if is_word || length == 0 {
             return;
         }
