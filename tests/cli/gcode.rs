@@ -493,3 +493,40 @@ fn ignored_feeds_are_no_error() {
     assert_eq!(verified.status, Some(0), "{verified}");
     assert_eq!(place.run("import --dialect xpertmill --ignore-feed if.nc").status, Some(0));
 }
+
+/// The material reaches up to the higher of `--surface` and what the program states.
+#[test]
+fn the_last_line_tells_how_high_the_material_is() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    for (surface, height) in [("4", "Z 5 (header)"), ("5", "Z 5 (--surface)"), ("6", "Z 6 (--surface)")] {
+        let run = place.run(&format!("verify parts/1234_Milling.gcode --surface {surface}"));
+        assert!(run.stderr.contains(&format!("material up to {height};")), "{surface}\n{run}");
+    }
+}
+
+#[test]
+fn a_first_move_in_the_plane_does_not_change_the_height() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let text = place.read("parts/1234_Milling.gcode");
+    let raised = "G00 Z20.000\nG00 X0.000 Y0.000\n";
+    assert!(text.contains(raised), "{text}");
+    let native = text.replacen(raised, "G00 X0.000 Y0.000 Z20.000\n", 1);
+    let place = place.file("aslant.gcode", native);
+    for (options, status, severity) in [("", 0, "warning"), ("--against 1234.1P", 1, "error")] {
+        let run = place.run(&format!("verify aslant.gcode {options} --format concise"));
+        assert!(run.status == Some(status) && run.stderr.contains(&format!("{severity}[PB742]")), "{run}");
+    }
+    for (start, is_found) in [
+        ("G0 X0 Y0 Z5", true),
+        ("G0 Z5\nG0 X0 Y0", false),
+        ("G0 Z5\nG0 X0 Y0 Z6", false),
+        ("G53 G0 Z0\nG0 X0 Y0 Z5", false),
+    ] {
+        let program = format!("G17 G21 G40 G54 G90 G94\n{start}\nG1 Z-1 F100\nG0 Z5\nM30\n");
+        let place = Place::new().file("a.ngc", program);
+        let run = place.run("verify a.ngc --dialect linuxcnc --format concise");
+        assert_eq!(run.stderr.contains("PB742"), is_found, "{start}\n{run}");
+    }
+}

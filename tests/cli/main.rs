@@ -66,6 +66,7 @@ mod serve;
 mod sheet;
 mod shown;
 mod since;
+mod spindle_direction;
 mod stock;
 mod strangers;
 mod subprograms;

@@ -258,6 +258,7 @@ codes! {
     780 HeaderContradiction "header-contradiction" Warning "comments that describe a tool or the stock in two ways";
     781 RapidAtDepth "rapid-at-depth" Warning "a rapid move at cutting depth, where the surface of the material is unknown";
     782 UnknownPosition "unknown-position" Warning "a cut that begins before the program has stated X and Y";
+    783 SpindleDirection "spindle-direction" Error "a cut with the spindle turning in the opposite direction to that of its tool";
     790 DoubtfulChipLoad "doubtful-chip-load" Warning "a chip load outside the limits of `[tool]`";
 }
 

@@ -134,7 +134,7 @@ fn stated(program: &Program, rapids: Option<&RapidValues>) -> (Vec<ToolSpan>, Op
     let span = |tool: &pathbuild_gcode::header::CuttingTool| {
         Some(ToolSpan { line: tool.line, diameter: tool.cutter?.diameter, surface: None })
     };
-    let surface = rapids.and_then(|values| values.surface).or(header.surface);
+    let surface = rapids.filter(|values| values.is_level).map(|values| values.surface).or(header.surface);
     (header.tools.iter().filter_map(span).collect(), surface)
 }
 

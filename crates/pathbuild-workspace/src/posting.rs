@@ -434,7 +434,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
         diameter: tool.diameter,
         paths: tool.paths.as_deref().and_then(|pattern| Regex::new(pattern).ok()),
         index: tool.number,
-        spindle: tool.direction.or_else(|| tool.spindle.map(|_| Turning::Clockwise)),
+        spindle: tool.turning(),
         speed: tool.spindle,
         coolant: tool.coolant,
     }

@@ -72,6 +72,65 @@ pub(super) const MISTAKES: &[Mistake] = &[
     (["arc centre on the other side", "Bogenmittelpunkt auf der anderen Seite"], wrong_centre),
     (["arc in the other direction", "Bogen in der anderen Richtung"], wrong_direction),
     (["wrong plane", "falsche Ebene"], |program| program.with_arcs()?.replaced(r"G17([^.\d]|$)", "G18$1", 1)),
+    (["M4 for M3", "M4 statt M3"], |program| program.replaced(r"M0?3([^\d]|$)", "M4$1", 1)),
+    (["spindle stopped while cutting", "Spindel während des Fräsens gestoppt"], |program| {
+        Some(program.with_line_before(program.lateral().nth(1)?, "M5"))
+    }),
+    (["no retract at the start", "kein Rückzug am Anfang"], no_first_lift),
+    (["first move sideways and up", "erste Bewegung schräg nach oben"], first_move_aslant),
+    (["retract too low", "Rückzug zu niedrig"], |program| {
+        let (line, _) = program.lift_before_rapid()?;
+        let height = if program.is_in_inches() { "-0.01" } else { "-0.25" };
+        let height = (program.surface + number(height)).to_string();
+        Some(vec![(line, Some(with_value(&program.lines[line], 'Z', |_| Some(height.clone()))?))])
+    }),
+    (["retract above the travel", "Rückzug über den Verfahrweg hinaus"], |program| {
+        let (line, _) = program.lift_before_rapid()?;
+        Some(vec![(
+            line,
+            Some(with_value(&program.lines[line], 'Z', |z| Some((number(z) + 100.0).to_string()))?),
+        )])
+    }),
+    (["Z ten times as deep", "zehnfache Tiefe"], |program| {
+        program.in_axis('Z', |z| (number(z) < -0.05).then(|| (number(z) * 10.0).to_string()))
+    }),
+    (["cut off halfway", "in der Mitte abgeschnitten"], |program| {
+        let laterals: Vec<usize> = program.lateral().collect();
+        let last = *laterals.get(laterals.len() / 2)?;
+        Some((last + 1..program.lines.len()).map(|line| (line, None)).collect())
+    }),
+    (["end of program in the middle", "Programmende in der Mitte"], |program| {
+        Some(program.with_line_before(program.lateral().nth(1)?, "M30"))
+    }),
+    (["G0 beside G1", "G0 neben G1"], |program| {
+        let line = program
+            .lateral()
+            .find(|line| pattern(r"G0?1([^.\d]|$)").is_match(code(&program.lines[*line])))?;
+        Some(vec![(line, Some(with_word(&program.lines[line], "G0")))])
+    }),
+    (["lost G1 after a rapid move", "verlorenes G1 nach einem Eilgang"], lost_feed_word),
+    (["letter O for 0", "Buchstabe O statt 0"], |program| {
+        program.in_plane(|value| value.contains('0').then(|| value.replacen('0', "O", 1)))
+    }),
+    (["decimal comma", "Dezimalkomma"], |program| {
+        program.in_plane(|value| value.contains('.').then(|| value.replace('.', ",")))
+    }),
+    (["arc without centre", "Bogen ohne Mittelpunkt"], |program| {
+        let line = program.arcs().next()?;
+        let text =
+            pattern(r"[IJKR]\s*(\[[^\]]*\]|[-+]?[\d.]+)").replace_all(&program.lines[line], "").into_owned();
+        Some(vec![(line, Some(text))])
+    }),
+    (["another coordinate system", "anderes Koordinatensystem"], |program| {
+        program.replaced(r"G54([^.\d]|$)", "G55$1", 1)
+    }),
+    (["length of another tool", "Länge eines anderen Werkzeugs"], |program| {
+        program.replaced(r"H\s*\d+", "H9", 1)
+    }),
+    (["tool length cancelled", "Werkzeuglänge aufgehoben"], |program| {
+        program.replaced(r"G43([^.\d]|$)", "G43$1", 1)?;
+        Some(program.with_line_before(program.lateral().nth(1)?, "G49"))
+    }),
 ];
 
 fn number(text: &str) -> f64 {
@@ -184,6 +243,14 @@ impl Program {
         (!has_motion(text)).then(|| (*next, Some(with_word(text, word))))
     }
 
+    fn with_line_before(&self, line: usize, text: &str) -> Changes {
+        vec![(line, Some(format!("{text}\n{}", self.lines[line])))]
+    }
+
+    fn is_in_inches(&self) -> bool {
+        self.lines.iter().any(|line| pattern(r"G20([^.\d]|$)").is_match(code(line)))
+    }
+
     /// Removes what raises the cutter between the last cut before a line and that line.
     fn without_lifts_before(&self, end: usize) -> Option<Changes> {
         let before = self.moves.iter().filter(|(line, _)| *line < end);
@@ -238,6 +305,22 @@ impl Program {
             .find_map(|line| Some(vec![(line, Some(with_value(&self.lines[line], axis, change)?))]))
     }
 
+    /// The first line that raises the cutter before a rapid move of more than 15 mm in the plane, with its move.
+    fn lift_before_rapid(&self) -> Option<(usize, Move)> {
+        let states_height = |line: &usize| pattern("Z").is_match(code(&self.lines[*line]));
+        let pairs = self.moves.windows(2).filter(|pair| !states_height(&pair[1].0));
+        let found = pairs.map(|pair| (pair[0], pair[1])).find(|((_, up), (_, aside))| {
+            let is_up = up.pace == Pace::Rapid && up.from.z() < self.surface && up.to.z() > self.surface;
+            let is_alone = up.from.at[..2] == up.to.at[..2];
+            is_up
+                && is_alone
+                && aside.pace == Pace::Rapid
+                && aside.length() > 15.0
+                && aside.from.z() == aside.to.z()
+        });
+        found.map(|(lift, _)| lift)
+    }
+
     fn arcs(&self) -> impl Iterator<Item = usize> {
         self.moves.iter().filter(|(_, movement)| movement.shape != MoveShape::Line).map(|(line, _)| *line)
     }
@@ -261,21 +344,58 @@ fn plunge_at_cutting_feed(program: &Program) -> Option<Changes> {
 
 /// Removes the line that raises the cutter before a rapid move of more than 15 mm in the plane.
 fn missing_retract(program: &Program) -> Option<Changes> {
-    let states_height = |line: &usize| pattern("Z").is_match(code(&program.lines[*line]));
-    let pairs = program.moves.windows(2).filter(|pair| !states_height(&pair[1].0));
-    let found = pairs.map(|pair| (pair[0], pair[1])).find(|((_, up), (_, aside))| {
-        let is_up = up.pace == Pace::Rapid && up.from.z() < program.surface && up.to.z() > program.surface;
-        let is_alone = up.from.at[..2] == up.to.at[..2];
-        is_up
-            && is_alone
-            && aside.pace == Pace::Rapid
-            && aside.length() > 15.0
-            && aside.from.z() == aside.to.z()
-    });
-    let ((line, _), _) = found?;
+    let (line, _) = program.lift_before_rapid()?;
     let mut changes = vec![(line, None)];
     changes.extend(program.motion_after(line, "G0"));
     Some(changes)
+}
+
+/// The first move, if it only states the height.
+fn first_lift(program: &Program) -> Option<usize> {
+    let line = program.moves.first()?.0;
+    let text = code(&program.lines[line]);
+    (pattern("Z").is_match(text) && !pattern(r"[XYH]|G28|G53").is_match(text)).then_some(line)
+}
+
+fn no_first_lift(program: &Program) -> Option<Changes> {
+    let line = first_lift(program)?;
+    let (next, _) = *program.moves.iter().find(|(next, _)| *next > line)?;
+    pattern(r"[XY]").captures(code(&program.lines[next]))?;
+    let mut changes = vec![(line, None)];
+    changes.extend(program.motion_after(line, "G0"));
+    Some(changes)
+}
+
+/// Moves the height of the first move into the line of the next one, which goes to X and Y.
+fn first_move_aslant(program: &Program) -> Option<Changes> {
+    let line = first_lift(program)?;
+    let height = pattern(r"Z\s*[-+]?[\d.]+").find(&program.lines[line])?.as_str();
+    let (next, _) = *program.moves.iter().find(|(next, _)| *next > line)?;
+    let text = program.motion_after(line, "G0").and_then(|(_, text)| text);
+    let text = text.unwrap_or_else(|| program.lines[next].clone());
+    let has_plane = pattern(r"[XY]").is_match(code(&text)) && !pattern("Z").is_match(code(&text));
+    let before = code(&text).len();
+    has_plane
+        .then(|| vec![(line, None), (next, Some(format!("{} {height}{}", &text[..before], &text[before..])))])
+}
+
+/// Removes the motion word of a plunge that follows a rapid move.
+fn lost_feed_word(program: &Program) -> Option<Changes> {
+    let word = pattern(r"G0?1([^.\d]|$)");
+    let mut deepest = program.surface - 0.02;
+    for pair in program.moves.windows(2) {
+        let ((rapid, before), (line, movement)) = (pair[0], pair[1]);
+        let text = &program.lines[line];
+        let is_stated_before = (rapid + 1..line).any(|line| word.is_match(code(&program.lines[line])));
+        let is_plunge = before.pace == Pace::Rapid && movement.to.z() < deepest && !is_stated_before;
+        if is_plunge && matches!(movement.pace, Pace::Feed(_)) && word.is_match(code(text)) {
+            return Some(vec![(line, Some(word.replace(text, "$1").into()))]);
+        }
+        if matches!(movement.pace, Pace::Feed(_)) {
+            deepest = deepest.min(movement.to.z());
+        }
+    }
+    None
 }
 
 /// The lines with a T word or, as FreeCAD writes it for GRBL, a comment with one.

@@ -74,7 +74,10 @@ impl Known {
             needs.feed_down * 1.05,
         );
         for (number, diameter) in self.tools {
-            _ = write!(text, "[tool.t{number}]\nnumber = {number}\ndiameter = {diameter}\n");
+            _ = write!(
+                text,
+                "[tool.t{number}]\nnumber = {number}\ndiameter = {diameter}\ndirection = \"cw\"\n"
+            );
         }
         text
     }

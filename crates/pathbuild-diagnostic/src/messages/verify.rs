@@ -372,6 +372,13 @@ messages! {
         help_en: "begin with G0 Z above the material",
         help_de: "mit G0 Z über dem Material beginnen",
     }
+    /// A first move in the plane that raises or lowers the cutter at the same time.
+    START_ASLANT: StartNotRaised {
+        en: "the first move in the plane also changes the height, which is unknown before it: on its way, the cutter may hit material or clamps",
+        de: "die erste Bewegung in der Ebene ändert zugleich die Höhe, die vorher unbekannt ist: unterwegs kann der Fräser Material oder Spannmittel treffen",
+        help_en: "begin with G0 Z above the material, then go to X and Y",
+        help_de: "mit G0 Z über dem Material beginnen, dann nach X und Y fahren",
+    }
     /// A program that ends below the surface.
     END_NOT_RAISED: EndNotRaised {
         en: "the program ends at Z {z}, below the material's surface at {surface}",
@@ -420,6 +427,34 @@ messages! {
         de: "S {speed} liegt außerhalb des Bereichs der Maschine von {least} bis {most}",
         help_en: "change S, or the spindle's range under [machine]",
         help_de: "S ändern oder den Bereich der Spindel unter [machine]",
+    }
+    /// A cut with M3 for a tool that turns counter-clockwise, or the reverse.
+    SPINDLE_DIRECTION: SpindleDirection {
+        en: "the spindle turns the wrong way in this cut: it was switched on with {found}, but the direction of the tool is {direction}",
+        de: "die Spindel dreht sich bei diesem Schnitt falsch herum: sie wurde mit {found} eingeschaltet, die Drehrichtung des Werkzeugs ist aber {direction}",
+        help_en: "write {expected}, or correct `direction` in [tool.NAME]; without it, a tool with `spindle` turns clockwise",
+        help_de: "{expected} schreiben oder `direction` in [tool.NAME] berichtigen; ohne diese Angabe dreht ein Werkzeug mit `spindle` im Uhrzeigersinn",
+    }
+    /// G43 with the H of another tool than that in the spindle.
+    LENGTH_OF_OTHER_TOOL: Disagreement {
+        en: "H{number} is not the tool in the spindle, T{tool}: it cuts with the length of another tool",
+        de: "H{number} ist nicht das eingewechselte Werkzeug T{tool}: es wird mit der Länge eines anderen Werkzeugs gefräst",
+        help_en: "write H{tool}, unless the tool's length is stored under another number",
+        help_de: "H{tool} schreiben, wenn die Länge des Werkzeugs nicht unter einer anderen Nummer gespeichert ist",
+    }
+    /// A tool change without G43 after it, in a program that uses G43.
+    LENGTH_OF_EARLIER_TOOL: Disagreement {
+        en: "T{tool} cuts here with the length of the tool before it: there is no G43 since the tool change",
+        de: "T{tool} fräst hier mit der Länge des vorigen Werkzeugs: seit dem Werkzeugwechsel steht kein G43",
+        help_en: "write G43 with its H after the tool change",
+        help_de: "nach dem Werkzeugwechsel G43 mit seinem H schreiben",
+    }
+    /// A cut after G49.
+    LENGTH_CANCELLED: Disagreement {
+        en: "this cut runs without a tool length: G49 in line {line} has cancelled it",
+        de: "dieser Schnitt läuft ohne Werkzeuglänge: G49 in Zeile {line} hat sie aufgehoben",
+        help_en: "write G43 with its H before the cut, or remove G49",
+        help_de: "vor dem Schnitt G43 mit H schreiben oder G49 entfernen",
     }
     /// A feed that exceeds the limit of an axis.
     FEED_TOO_HIGH: FeedTooHigh {

@@ -514,10 +514,9 @@ impl Stock {
         &self.pieces
     }
 
-    /// The height of the surface in mm, if it is the same everywhere.
-    pub fn common_surface(&self) -> Option<f64> {
-        let surface = self.highest?;
-        self.pieces.iter().all(|piece| piece.surface == surface).then_some(surface)
+    /// Whether the surface has the same height everywhere.
+    pub fn is_level(&self) -> bool {
+        self.pieces.iter().all(|piece| Some(piece.surface) == self.highest)
     }
 
     /// The side of a cell of the height map, in mm.

@@ -8,12 +8,14 @@ mod against;
 mod chip_load;
 mod compare;
 mod depth;
+mod direction;
 mod height_map;
 mod machine;
 mod material;
 mod rapids;
 mod rules;
 mod stated;
+mod tool_length;
 mod words;
 
 use pathbuild_diagnostic::Diagnostic;
@@ -26,11 +28,13 @@ pub use chip_load::ChipLoadRules;
 pub use compare::{Difference, DifferenceKind, Ends, Tolerance, compare};
 pub(crate) use compare::{is_near, is_same_move};
 pub use depth::DepthRules;
+pub use direction::DirectionRules;
 pub use machine::{Machine, MachineRules, Travel};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated::StatedStatistics;
+pub use tool_length::ToolLengthRules;
 pub use words::{PostWords, WordRules};
 
 use crate::interpret::Program;

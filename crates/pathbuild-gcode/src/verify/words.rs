@@ -13,8 +13,8 @@ use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::Problems;
 
-/// What the native program writes besides moves: see [`crate::native`].
-const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nF40 G38.3 Z0\nG4 P4\nM30\n";
+/// What the native program writes: see [`crate::native`].
+const NATIVE: &[u8] = b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nG00 X0 Y0\nF40 G38.3 Z0\nG4 P4\nM30\n";
 
 /// The words that a post writes.
 #[derive(Clone, Debug, Default)]
@@ -173,6 +173,8 @@ pub struct WordRules<'w> {
     is_strict: bool,
     progress: Progress,
     has_moved_in_plane: bool,
+    /// Whether a move to a machine position has left X and Y unchanged.
+    has_gone_home: bool,
     /// Words before the first cut that lead to machine positions where the post's programs do not go before it. They are harmless in
     /// programs that do not cut.
     early_places: Vec<(u32, StatedWord)>,
@@ -189,6 +191,7 @@ impl<'w> WordRules<'w> {
             is_strict: false,
             progress: Progress::Head,
             has_moved_in_plane: false,
+            has_gone_home: false,
             early_places: Vec::new(),
             found: BTreeSet::new(),
             problems: Problems::default(),
@@ -208,10 +211,11 @@ impl<'w> WordRules<'w> {
                 self.report(line, word);
             }
         }
-        if let Action::Move(movement) = &step.action
-            && moves_in_plane(movement)
-        {
-            self.first_in_plane(step.line, movement);
+        if let Action::Move(movement) = &step.action {
+            if moves_in_plane(movement) {
+                self.first_in_plane(step.line, movement);
+            }
+            self.has_gone_home |= movement.named.is_some() && movement.keeps_xy();
         }
         let Action::Word(word) = &step.action else { return };
         if !self.is_known(*word) {
@@ -242,14 +246,15 @@ impl<'w> WordRules<'w> {
     }
 
     /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. If programs of
-    /// the post raise the cutter before that move, the line that does so is missing here. (Moves at unknown height are checked in
-    /// [`super::rules`].)
+    /// the post raise the cutter before that move, the line that does so is missing here. A move to a machine position before it is
+    /// assumed to raise the cutter, unless the post does not write it. (Moves at unknown height are checked in [`super::rules`].)
     fn first_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);
-        if is_first && is_aslant && self.is_strict && self.words.raises_first == Some(true) {
-            let error = |d| Diagnostic { severity: Severity::Error, ..d };
-            self.problems.add_at_line(&say::START_NOT_RAISED, line, error);
+        let is_doubtful = is_aslant && (self.is_strict || !self.has_gone_home);
+        if is_first && is_doubtful && self.words.raises_first == Some(true) {
+            let severity = if self.is_strict { Severity::Error } else { Severity::Warning };
+            self.problems.add_at_line(&say::START_ASLANT, line, |d| Diagnostic { severity, ..d });
         }
     }
 

@@ -330,7 +330,8 @@ pub mod tables {
         /// a tool, for post-processors: found by O (and by paths, a pattern of path names); with shape = "slot" its paths
         /// are compared with parts only for cuts into them, and with shape = "other" (V-bit, drill) verify counts only the centre
         /// line of its cuts; corner-radius in mm (ball: half the diameter); length of the cutting edges in mm, for the setup sheet;
-        /// chip-load in mm per tooth: with flutes, feeds outside are a warning (PB790)
+        /// chip-load in mm per tooth: with flutes, feeds outside are a warning (PB790); a cut with the spindle turning against
+        /// direction, or counter-clockwise where only spindle is given, is an error of verify (PB783)
         tools: Vec<Tool> = "tool", TOOLS, Vec::new(),
             "[tool.2mm]\ndiameter = 2\nnumber = 1\npaths = '[A-Z]$'\nshape = \"end-mill\"\nspindle = 12000\ndirection = \"cw\"\ncoolant = \"off\"\nflutes = 2\nchip-load = [0.005, 0.02]\ncorner-radius = 0\nlength = 8", Check;
         /// texts for post-processors: a macro {$name}, or ~name~ in control texts; they take precedence over the definition's

@@ -304,6 +304,11 @@ impl Tool {
         Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
     }
 
+    /// Direction of rotation; `None` if the operator chooses it.
+    pub fn turning(&self) -> Option<Turning> {
+        self.direction.or(self.spindle.map(|_| Turning::Clockwise))
+    }
+
     /// The widths for the check of rapid moves. A tip that is not flat counts as the centre line of the moves, both in removing material
     /// and in hitting it: the tool fits into its own cut.
     pub fn cutter(&self) -> Cutter {

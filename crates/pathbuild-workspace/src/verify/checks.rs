@@ -37,8 +37,10 @@ pub struct RapidValues {
     pub cutters: Vec<f64>,
     /// Where they come from.
     pub cutter_origin: Origin,
-    /// Height of the upper face of the material, if it is the same everywhere.
-    pub surface: Option<f64>,
+    /// Height of the upper face of the material, where it is highest.
+    pub surface: f64,
+    /// Whether it has the same height everywhere.
+    pub is_level: bool,
     /// Where it comes from.
     pub surface_origin: Origin,
 }
@@ -102,7 +104,8 @@ fn rapids(sources: &Sources<'_>, is_limit_reached: bool) -> Outcome {
         return Outcome::NotMade(Reason::NoSurface);
     };
     let cutters = cutters.iter().map(|(_, cutter)| cutter.diameter).collect();
-    let values = RapidValues { cutters, cutter_origin, surface, surface_origin };
+    let values =
+        RapidValues { cutters, cutter_origin, surface, is_level: sources.is_level(), surface_origin };
     if sources.are_only_stated() { Outcome::Assumed(values) } else { Outcome::Made(Some(values)) }
 }
 
@@ -203,9 +206,8 @@ impl RapidValues {
         };
         let cutter = format!("{} mm ({})", diameters.join(", "), name(self.cutter_origin, "--cutter"));
         let material = lang.choose("and material up to", "und Material bis");
-        let height = |surface| format!(" Z {}", Number(surface).prose(lang));
-        let height = self.surface.map(height).unwrap_or_default();
-        format!("{cutter} {material}{height} ({})", name(self.surface_origin, "--surface"))
+        let surface = Number(self.surface).prose(lang);
+        format!("{cutter} {material} Z {surface} ({})", name(self.surface_origin, "--surface"))
     }
 }
 

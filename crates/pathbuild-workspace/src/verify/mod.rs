@@ -18,8 +18,8 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    Against, ChipLoadRules, DepthRules, Machine, MachineRules, PastClamps, PostWords, StatedStatistics,
-    Stock, WordRules, coarse_arcs, verify,
+    Against, ChipLoadRules, DepthRules, DirectionRules, Machine, MachineRules, PastClamps, PostWords,
+    StatedStatistics, Stock, ToolLengthRules, WordRules, coarse_arcs, verify,
 };
 use pathbuild_motion::{Move, Pace, Step};
 use pathbuild_post::ToolTable;
@@ -342,10 +342,19 @@ impl<'v> Examination<'v> {
             clamps: against.and_then(|against| against.past_clamps(program.dialect)),
         };
         let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
+        // The comparison with a drawing reports a wrong direction and a wrong tool length.
+        let mut directions = self.milled.is_none().then(|| DirectionRules::new(self.sources.directions()));
+        let mut lengths = self.milled.is_none().then(ToolLengthRules::default);
         let mut depths = DepthRules::default();
         let mut found = verify(&program.drawn(), self.sources.stock(), &mut |step| {
             nominal.step(step);
             chip_loads.step(step);
+            if let Some(directions) = &mut directions {
+                directions.step(step);
+            }
+            if let Some(lengths) = &mut lengths {
+                lengths.step(step);
+            }
             depths.step(step);
         });
         found.extend(self.sources.doubtful_rapids(depths, &found));
@@ -357,6 +366,8 @@ impl<'v> Examination<'v> {
         found.extend(coarse_arcs(program.code(), program.dialect));
         found.extend(written.limits);
         found.extend(chip_loads.finish());
+        found.extend(directions.into_iter().flat_map(DirectionRules::finish));
+        found.extend(lengths.into_iter().flat_map(ToolLengthRules::finish));
         found.extend(self.sources.unknown_tools());
         if program.dialect == Dialect::Native {
             found.extend(native::unstated_heights(&program.text));

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
 use pathbuild_gcode::verify::{Cutter, DepthRules, Stock, StockSpan};
-use pathbuild_motion::ChipLoad;
+use pathbuild_motion::{ChipLoad, Turning};
 
 use super::against::ReferenceProgram;
 use super::checks::Origin;
@@ -110,16 +110,21 @@ impl<'s> Sources<'s> {
         self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
     }
 
-    /// Where the surface comes from, with its height if it is the same everywhere.
-    pub(super) fn surface(&self) -> Option<(Origin, Option<f64>)> {
-        let common = self.stock().and_then(Stock::common_surface);
+    /// Where the surface comes from, with its height where it is highest.
+    pub(super) fn surface(&self) -> Option<(Origin, f64)> {
+        let highest = self.stock().and_then(Stock::highest);
         match (self.options().surface, self.drawn_surface()) {
-            (Some(given), _) if self.stock().is_none() || common == Some(given) => {
-                Some((Origin::Option, Some(given)))
+            (Some(given), _) if highest.is_none_or(|highest| highest == given) => {
+                Some((Origin::Option, given))
             }
-            (None, Some(drawn)) => Some((Origin::Drawing, Some(drawn))),
-            (Some(_), _) | (None, None) => self.stock().map(|_| (Origin::Program, common)),
+            (None, Some(drawn)) => Some((Origin::Drawing, drawn)),
+            (Some(_), _) | (None, None) => Some((Origin::Program, highest?)),
         }
+    }
+
+    /// Whether the surface is known and has the same height everywhere.
+    pub(super) fn is_level(&self) -> bool {
+        self.stock().is_some_and(Stock::is_level)
     }
 
     /// Whether only the program itself states the cutter or the surface.
@@ -227,12 +232,10 @@ impl<'s> Sources<'s> {
     /// Warns about tools that are not in the table, unless the table has no numbers at all.
     pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
         let table_numbers: Vec<u32> = self.tools().iter().filter_map(|tool| tool.number).collect();
-        // Layers are not tools, and native programs always say T1.
-        let is_no_tool = matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native);
         let mut unknown: Vec<(u32, u32)> = Vec::new();
         for (line, number) in &self.header.changes {
             let is_new = unknown.iter().all(|(_, met)| met != number);
-            if is_new && !table_numbers.is_empty() && !table_numbers.contains(number) && !is_no_tool {
+            if is_new && !table_numbers.is_empty() && !table_numbers.contains(number) && self.is_numbered() {
                 unknown.push((*line, *number));
             }
         }
@@ -247,15 +250,34 @@ impl<'s> Sources<'s> {
         self.tools().iter().find(|entry| entry.number.is_some() && entry.number == tool.number)
     }
 
-    /// The chip loads allowed for the tools, each with the line from which it cuts. Layers are not tools, and native programs always say
-    /// T1. In a program with subprograms, the tool of a line depends on the caller.
+    /// The chip loads allowed for the tools, each with the line from which it cuts. In a program with subprograms, the tool of a line
+    /// depends on the caller.
     pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
-        let is_numbered = !matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native);
-        if !is_numbered || self.header.has_calls && self.header.tools.len() > 1 {
+        if !self.is_numbered() || self.header.has_calls && self.header.tools.len() > 1 {
             return Vec::new();
         }
         let load = |tool: &CuttingTool| (tool.line, self.entry(tool).and_then(Tool::chip_load));
         self.header.tools.iter().map(load).collect()
+    }
+
+    /// The directions of the tools, each with the line from which it cuts. Where the tool is not known, as in programs without T, the
+    /// direction common to all configured tools.
+    pub(super) fn directions(&self) -> Vec<(u32, Option<Turning>)> {
+        let all: Vec<Option<Turning>> = self.tools().iter().map(Tool::turning).collect();
+        let common =
+            all.first().copied().flatten().filter(|first| all.iter().all(|turning| *turning == Some(*first)));
+        let is_mixed = self.header.has_calls && self.header.tools.len() > 1;
+        let direction =
+            |tool: &CuttingTool| match self.entry(tool).filter(|_| self.is_numbered() && !is_mixed) {
+                Some(entry) => (tool.line, entry.turning()),
+                None => (tool.line, common),
+            };
+        self.header.tools.iter().map(direction).collect()
+    }
+
+    /// Whether T is the number of a tool: layers are not tools, and native programs always say T1.
+    fn is_numbered(&self) -> bool {
+        !matches!(self.program.dialect, Dialect::Xpertmill | Dialect::Native)
     }
 
     /// The configured tools.
