@@ -23,6 +23,7 @@ macro_rules! words {
     };
 }
 
+mod ambiguous;
 mod arcs;
 mod built_in;
 mod cad6;

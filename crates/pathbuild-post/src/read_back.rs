@@ -10,6 +10,7 @@ use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, Named, Pace, Position, Step, ToolLength, Turning, WorkSystem,
 };
 
+use crate::ambiguous;
 use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
 use crate::shadow::{Doubt, TranslatedText};
@@ -48,7 +49,7 @@ pub(super) fn check(
     if !problems.is_empty() && target.is_some() {
         return if tolerance.is_some() { Err(problems) } else { Ok(Vec::new()) };
     }
-    problems.clear();
+    problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, *machine);
     if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
         // The words may not be meant for the spindle, or the operator switches it and the final M5 is only for safety.

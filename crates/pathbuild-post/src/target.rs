@@ -244,7 +244,7 @@ impl Checker<'_> {
         match letter {
             b'G' => tenths(value).is_some_and(|code| words.has_g(code)),
             b'M' => tenths(value).is_some_and(|code| words.has_m(code)),
-            b'N' => self.target.spelling.block_numbers.is_some(),
+            b'N' => self.target.spelling.block_numbers.is_some() && !self.target.spelling.checksums,
             letter => words.letters.contains(letter),
         }
     }

@@ -547,6 +547,27 @@ messages! {
         help_en: "change the post's text, or name the dialect that the control really has",
         help_de: "den Text im Postprozessor ändern oder den Dialekt nennen, den die Steuerung wirklich hat",
     }
+    /// Two words of a group in one line, such as G0 and G1, in the output of a definition without a dialect.
+    WORDS_EXCLUDE: RejectedWord {
+        en: "{first} and {second} exclude each other in one line: controls refuse it, or obey only one of the two",
+        de: "{first} und {second} schließen einander in einer Zeile aus: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
+        help_en: "write them in lines of their own, or remove one",
+        help_de: "sie in eigene Zeilen schreiben oder eines entfernen",
+    }
+    /// A repeated letter in the output of a definition without a dialect.
+    LETTER_REPEATED: RejectedWord {
+        en: "{letter} occurs twice in one line: controls refuse it, or obey only one of the two",
+        de: "{letter} kommt in einer Zeile zweimal vor: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
+        help_en: "remove one, or write it in a line of its own",
+        help_de: "eines entfernen oder in eine eigene Zeile schreiben",
+    }
+    /// P beside G54 to G59 in the output of a definition without a dialect.
+    SYSTEM_WITH_P: RejectedWord {
+        en: "{word} with P is another coordinate system on some controls, and an error on others",
+        de: "{word} mit P ist bei manchen Steuerungen ein anderes Koordinatensystem, bei anderen ein Fehler",
+        help_en: "remove P, or name the control: <Dialect> or dialect =, see the book, program/posts",
+        help_de: "P entfernen oder die Steuerung nennen: <Dialect> oder dialect =, siehe im Buch program/posts",
+    }
     /// A line of output that is too long.
     LINE_TOO_LONG: LineTooLong {
         en: "line {line} of the output has {length} characters; {dialect} accepts {longest}",

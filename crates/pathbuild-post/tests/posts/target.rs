@@ -62,6 +62,8 @@ fn words_that_the_target_does_not_know_are_errors() {
     assert_eq!(refused("grbl", "G81 X1 Z-1 R1"), [rejected(1, "grbl", "G81")]);
     assert_eq!(refused("linuxcnc", "M30 G22.5"), [rejected(1, "linuxcnc", "G22.5")]);
     assert_eq!(refused("marlin", "M30"), [rejected(1, "marlin", "M30")]);
+    assert_eq!(refused("marlin", "N5 G1 X2"), [rejected(1, "marlin", "N5")]);
+    assert_eq!(written("grbl", "N5 G1 X2"), "N5 G1 X2\n");
     assert_eq!(refused("fanuc", "G90.1"), [rejected(1, "fanuc", "G90.1")]);
     assert_eq!(
         refused("xpertmill", "G00 X1\nM3\nG90"),
@@ -334,6 +336,16 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
     {
         let message = refused(&format!("M3 S1000\n{word}"));
         assert!(message.starts_with("PB767"), "{word}: {message}");
+    }
+    for line in [
+        "G0 G1 X5", "G0 X0 X5", "G17 G18", "G20 G21", "G90 G91", "G54 G55", "M3 M4", "M3 M5", "G54 P2",
+        "G59.1 P2",
+    ] {
+        let message = refused(&format!("M3 S1000\n{line}"));
+        assert!(message.starts_with("PB762"), "{line}: {message}");
+    }
+    for line in ["G80 G0", "G21 G71", "G90 G90", "M7 M8", "M9 M5\nM3", "G54"] {
+        assert!(written(&format!("M3 S1000\n{line}"), &default).is_ok(), "{line}");
     }
     for (words, code) in
         [("", "PB767"), ("S1000", "PB767"), ("M4 S1000", "PB767"), ("M3", "PB745"), ("M3 S1000\nM5", "PB745")]

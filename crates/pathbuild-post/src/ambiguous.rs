@@ -1,0 +1,54 @@
+//! Finds lines of a definition without a dialect that no control reads in one way. (book: program/posts, "Before a program is written")
+
+use pathbuild_diagnostic::messages::{gcode, posts};
+use pathbuild_diagnostic::{Diagnostic, Value};
+
+/// The errors among the problems that were found in the translation of a text. Others only mean that the translation is read as RS274.
+pub(super) fn errors(problems: &[Diagnostic], translation: &[u8]) -> Vec<Diagnostic> {
+    problems.iter().filter_map(|problem| error(problem, translation)).collect()
+}
+
+fn error(problem: &Diagnostic, translation: &[u8]) -> Option<Diagnostic> {
+    let line = problem.place.line?;
+    let message = problem.message;
+    let found = if message == &gcode::SAME_GROUP {
+        let [first, second] = [quoted(problem, "first")?, quoted(problem, "second")?];
+        if !is_exclusive(first, second) {
+            return None;
+        }
+        Diagnostic::new(&posts::WORDS_EXCLUDE).quoting("first", first).quoting("second", second)
+    } else if message == &gcode::LETTER_TWICE {
+        let letter = problem.arguments.iter().find(|(name, _)| *name == "letter")?.1.clone();
+        Diagnostic::new(&posts::LETTER_REPEATED).with("letter", letter)
+    } else if message == &gcode::UNUSED {
+        let index = usize::try_from(line).ok()?.checked_sub(1)?;
+        let words = translation.split(|byte| *byte == b'\n').nth(index)?;
+        let system = words.split(|byte| *byte == b' ').find(|word| is_system(word))?;
+        let is_p = problem.arguments.contains(&("word", Value::from('P')));
+        let system = String::from_utf8_lossy(system);
+        is_p.then(|| Diagnostic::new(&posts::SYSTEM_WITH_P).quoting("word", system))?
+    } else {
+        return None;
+    };
+    Some(found.at_line(line, None))
+}
+
+fn quoted<'d>(problem: &'d Diagnostic, name: &str) -> Option<&'d str> {
+    problem.arguments.iter().find(|(known, _)| *known == name).and_then(|(_, value)| match value {
+        Value::Quoted(text) => Some(&**text),
+        _ => None,
+    })
+}
+
+/// Whether two words of a group contradict each other on every control. G80 may stand beside a motion, some controls take M7 and M8 in one
+/// line, and a repeated word says nothing new.
+fn is_exclusive(first: &str, second: &str) -> bool {
+    let words = [first, second];
+    let is_switch = words.iter().all(|word| matches!(*word, "M3" | "M4" | "M5"));
+    first != second && !words.contains(&"G80") && (first.starts_with('G') || is_switch)
+}
+
+/// Whether a word selects a coordinate system: with P, that is another one on Fanuc, and an error elsewhere.
+fn is_system(word: &[u8]) -> bool {
+    matches!(word, [b'G', b'5', b'4'..=b'9'] | [b'G', b'5', b'4'..=b'9', b'.', ..])
+}
