@@ -1,8 +1,13 @@
 //! `machine import`: descriptions of machines in every known form, all written to the forms that their documentation describes. (book:
 //! howto/machine)
 
+use std::io::Write;
+
 use crate::support::{Place, Run, runs};
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
 use insta::assert_snapshot;
+use rawzip::{CompressionMethod, ZipArchiveWriter};
 
 const GRBL: &str = include_str!("machine_import/grbl.txt");
 const GRBLHAL: &str = include_str!("machine_import/grblhal.txt");
@@ -191,4 +196,109 @@ fn a_corner_radius_above_half_of_the_diameter_is_refused() {
     let run = import("0.126");
     assert!(run.status == Some(1) && run.stderr.contains("tool 4 (1/4 bull nose)"), "{run}");
     assert!(run.stdout.is_empty() || !run.stdout.contains("corner-radius"), "{run}");
+}
+
+/// An archive of these files, compressed or not.
+fn archive(files: &[(&str, &[u8])], method: CompressionMethod) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut archive = ZipArchiveWriter::new(&mut bytes);
+    for (name, content) in files {
+        let (mut entry, config) = archive.new_file(name).compression_method(method).start().unwrap();
+        let descriptor = if method == CompressionMethod::DEFLATE {
+            let mut writer = config.wrap(DeflateEncoder::new(&mut entry, Compression::default()));
+            writer.write_all(content).unwrap();
+            let (encoder, descriptor) = writer.finish().unwrap();
+            encoder.finish().unwrap();
+            descriptor
+        } else {
+            let mut writer = config.wrap(&mut entry);
+            writer.write_all(content).unwrap();
+            writer.finish().unwrap().1
+        };
+        entry.finish(descriptor).unwrap();
+    }
+    archive.finish().unwrap();
+    bytes
+}
+
+#[test]
+fn the_archive_of_fusion_is_read_like_its_library() {
+    let import = |name: &str, content: &[u8]| {
+        Place::new().file(name, content).run(&format!("machine import {name} --format concise"))
+    };
+    let expected = import("fusion.json", FUSION.as_bytes());
+    let same = |run: &Run| run.stdout.replace("fusion.tools", "fusion.json") == expected.stdout;
+    for method in [CompressionMethod::STORE, CompressionMethod::DEFLATE] {
+        let run = import("fusion.tools", &archive(&[("tools.json", FUSION.as_bytes())], method));
+        assert!(same(&run) && run.status == expected.status, "{run}");
+    }
+    // A library of 4 MB is read, whatever its compressed size; a larger one is not.
+    let padded = |length: usize| format!("{FUSION}{}", " ".repeat(length - FUSION.len())).into_bytes();
+    let packed = |length| archive(&[("tools.json", &padded(length))], CompressionMethod::DEFLATE);
+    let run = import("fusion.tools", &packed(4 << 20));
+    assert!(same(&run), "{run}");
+    let whole = archive(&[("tools.json", FUSION.as_bytes())], CompressionMethod::DEFLATE);
+    let mut altered = whole.clone();
+    let middle = altered.len() / 4;
+    altered[middle] ^= 1;
+    let json = FUSION.as_bytes();
+    for refused in [
+        packed((4 << 20) + 1),
+        archive(&[], CompressionMethod::STORE),
+        archive(&[("tools.json", json), ("more.json", json)], CompressionMethod::DEFLATE),
+        archive(&[("tools.json", b"\xff")], CompressionMethod::STORE),
+        whole[..whole.len() / 2].to_vec(),
+        altered,
+    ] {
+        let run = import("fusion.tools", &refused);
+        assert!(run.status == Some(1) && run.stderr.contains("PB612") && run.stdout.is_empty(), "{run}");
+    }
+}
+
+/// A library whose tools 3 and 4 get other numbers and descriptions.
+fn numbered(third: (u32, &str), fourth: (u32, &str)) -> String {
+    let tool = |(number, keys): (u32, &str)| {
+        format!(
+            "{{\"description\": \"6 mm flat\", \"geometry\": {{{keys}}}, \"post-process\": {{\"number\": {number}}},\n\"type\": \"flat end mill\", \"unit\": \"millimeters\"}}"
+        )
+    };
+    format!("{{\n\"data\": [\n{},\n{}\n], \"version\": 36\n}}\n", tool(third), tool(fourth))
+}
+
+#[test]
+fn tools_with_one_number_are_not_mixed() {
+    let import =
+        |library: &str| Place::new().file("a.json", library).run("machine import a.json --format concise");
+    let run = import(&numbered((3, "\"DC\": 6, \"NOF\": 2"), (3, "\"DC\": 6, \"LCF\": 20")));
+    assert!(
+        run.stderr.contains("a.json:5: warning[PB613]") && run.stderr.contains("line 3 of a.json"),
+        "{run}"
+    );
+    assert!(run.status == Some(0) && !run.stdout.contains('+'), "{run}");
+    let run = import(&numbered((3, "\"DC\": 6"), (4, "\"DC\": 6")));
+    assert!(!run.stderr.contains("PB613"), "{run}");
+    assert!(
+        run.stdout.contains("[tool.\"6 mm flat\"]") && run.stdout.contains("[tool.\"6 mm flat (T4)\"]"),
+        "{run}"
+    );
+    // The same tool twice says nothing new.
+    let run = import(&numbered((3, "\"DC\": 6"), (3, "\"DC\": 6")));
+    assert!(!run.stderr.contains("PB613") && run.stdout.matches("diameter").count() == 1, "{run}");
+}
+
+/// Two files may complete each other, but not contradict each other.
+#[test]
+fn tools_of_several_files_are_combined_by_their_number() {
+    let import = |table: &str| {
+        let place = Place::new().file("a.json", numbered((3, "\"DC\": 6, \"NOF\": 2"), (4, "\"DC\": 8")));
+        place.file("tool.tbl", table).run("machine import a.json tool.tbl --units mm --format concise")
+    };
+    let run = import("T3 P1 D6 ;flat\n");
+    assert!(!run.stderr.contains("PB613") && run.stdout.matches("+ diameter = 6 ").count() == 1, "{run}");
+    let run = import("T3 P1 D5 ;flat\n");
+    assert!(
+        run.stderr.contains("tool.tbl:1: warning[PB613]") && run.stderr.contains("line 3 of a.json"),
+        "{run}"
+    );
+    assert!(!run.stdout.contains("diameter = 6") && run.stdout.contains("+ diameter = 8 "), "{run}");
 }

@@ -5,8 +5,8 @@ messages! {
     UNKNOWN_FORMAT: UnreadableDescription {
         en: "the file describes neither a machine nor tools in a known format",
         de: "die Datei beschreibt weder Maschine noch Werkzeuge in einem bekannten Format",
-        help_en: "known are the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 as JSON; unpack a .tools archive first",
-        help_de: "bekannt sind die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 als JSON; ein .tools-Archiv vorher entpacken",
+        help_en: "known are the answer of GRBL and grblHAL to $$, FluidNC's YAML, LinuxCNC's ini file and tool table, and tools of FreeCAD and Fusion 360 (.json, .tools)",
+        help_de: "bekannt sind die Antwort von GRBL und grblHAL auf $$, FluidNCs YAML, ini-Datei und Werkzeugtabelle von LinuxCNC sowie Werkzeuge von FreeCAD und Fusion 360 (.json, .tools)",
     }
     /// The file cannot be read.
     DESCRIPTION_UNREADABLE: UnreadableDescription {
@@ -98,6 +98,20 @@ messages! {
         de: "der Durchmesser von Werkzeug {number} ({name}) oder seine Einheit ist unbekannt; es wird nicht übernommen",
         help_en: "set the diameter in the library, and export it again",
         help_de: "den Durchmesser in der Bibliothek setzen und sie noch einmal exportieren",
+    }
+    /// Two tools with one number.
+    TOOL_TWICE_AT_LINE: UnusableValue {
+        en: "tool {number} ({name}) is described differently in line {line} of {file} ({earlier}); neither is imported",
+        de: "Werkzeug {number} ({name}) ist in Zeile {line} von {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",
+        help_en: "give each tool a number of its own in the library, and export it again",
+        help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
+    }
+    /// Two tools with one number, in a file whose lines are not known.
+    TOOL_TWICE: UnusableValue {
+        en: "tool {number} ({name}) is described differently in {file} ({earlier}); neither is imported",
+        de: "Werkzeug {number} ({name}) ist in {file} ({earlier}) anders beschrieben; keines von beiden wird übernommen",
+        help_en: "give each tool a number of its own in the library, and export it again",
+        help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und sie noch einmal exportieren",
     }
     /// A tool bit that a library names.
     BIT_UNREADABLE: UnusableValue {

@@ -160,7 +160,7 @@ impl Entries {
     pub(super) fn finish(self, format: &'static str) -> Description {
         let unused = self.list.into_iter().zip(self.is_used).filter(|(_, is_used)| !is_used);
         let unused = unused.map(|(entry, _)| entry).collect();
-        Description { format, values: self.values, unused, problems: self.problems }
+        Description { format, values: self.values, tools: Vec::new(), unused, problems: self.problems }
     }
 }
 

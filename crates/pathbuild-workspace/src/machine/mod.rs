@@ -1,19 +1,25 @@
 //! Descriptions of machines and tools that controllers and CAM programs keep, turned into `[machine]` and `[tool]`. (book: howto/machine)
 
+mod archive;
 mod edit;
 mod entries;
 mod fluidnc;
 mod grbl;
 mod linuxcnc;
+mod merge;
 mod tools;
 
 use camino::Utf8Path;
+use pathbuild_db::System;
 use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Value as Shown};
+
+use crate::files::utf_8;
 
 pub use self::edit::{Change, edit};
 use self::entries::Entries;
 pub use self::entries::Entry;
+pub use self::merge::merge;
 
 /// Upper bound on the size of a description in bytes. The settings of a machine take a few kilobytes.
 pub const LARGEST: u64 = 4 << 20;
@@ -42,12 +48,27 @@ impl LengthUnit {
 pub struct Description {
     /// The controller or program that writes this format.
     pub format: &'static str,
-    /// The values that a key of the configuration takes.
+    /// The values that a key of `[machine]` takes.
     pub values: Vec<DescribedValue>,
+    /// The tools.
+    pub tools: Vec<DescribedTool>,
     /// The entries for which there is no key.
     pub unused: Vec<Entry>,
     /// Entries that a key should take, but whose values it cannot.
     pub problems: Vec<Diagnostic>,
+}
+
+/// A tool of a description.
+#[derive(Debug)]
+pub struct DescribedTool {
+    /// Its number in the machine.
+    pub number: Option<u32>,
+    /// Its name, which may be empty or that of another tool.
+    pub name: String,
+    /// The line of the file, if known.
+    pub line: Option<u32>,
+    /// The values that a key of its table takes.
+    pub values: Vec<DescribedValue>,
 }
 
 /// A value for the configuration.
@@ -95,6 +116,16 @@ pub fn machine_unit(text: &str) -> Option<LengthUnit> {
     if linuxcnc::is_ini(text) { linuxcnc::length_unit(text) } else { None }
 }
 
+/// The text of a description, which may be in an archive of Fusion 360.
+///
+/// # Errors
+/// The reason why it cannot be read.
+pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
+    let bytes = system.read(file, LARGEST).map_err(|error| error.reason(LARGEST))?;
+    let bytes = if archive::is_archive(&bytes) { archive::unpack(&bytes, LARGEST)? } else { bytes };
+    utf_8(bytes)
+}
+
 /// Reads a description. The format is recognized by the content. `unit` is that of a tool table, and `bit` gives the text of a tool bit that
 /// a FreeCAD library names.
 ///
@@ -126,6 +157,13 @@ pub fn read(
             Ok(Description { problems, ..description })
         }
         Err(problem) => Err(Box::new(place(*problem))),
+    }
+}
+
+fn at(problem: Diagnostic, line: Option<u32>) -> Diagnostic {
+    match line {
+        Some(line) => problem.at_line(line, None),
+        None => problem,
     }
 }
 

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Value as Shown};
 use serde_json::{Map, Value};
 
 use super::entries::rounded;
-use super::{DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken};
+use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, at, broken};
 use crate::config::is_too_round;
 
 /// Gives the text of a tool bit that a FreeCAD library names.
@@ -63,30 +63,59 @@ fn number_after(word: &str, letter: char) -> Option<f64> {
 pub(super) fn read_json(text: &str, bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
     let root: Value = serde_json::from_str(text).map_err(|error| broken(&error.to_string(), error.line()))?;
     if let Some(library) = root.get("data").and_then(Value::as_array) {
-        Ok(fusion(library))
+        Ok(fusion(library, &object_lines(text)))
     } else if let Some(list) = root.get("tools").and_then(Value::as_array) {
-        freecad_library(list, bit)
+        freecad_library(list, &object_lines(text), bit)
     } else if root.get("parameter").is_some_and(Value::is_object) {
         let mut tools = Tools::new("FreeCAD");
-        freecad_bit(&root, None, &mut tools);
+        freecad_bit(&root, None, None, &mut tools);
         Ok(tools.finish())
     } else {
         Err(Box::new(Diagnostic::new(&say::UNKNOWN_FORMAT)))
     }
 }
 
-fn fusion(library: &[Value]) -> Description {
+/// The lines of the objects in the arrays of the root object.
+fn object_lines(text: &str) -> Vec<u32> {
+    let (mut lines, mut line, mut depth, mut is_string, mut is_escaped) =
+        (Vec::new(), 1_u32, 0_u32, false, false);
+    for byte in text.bytes() {
+        match byte {
+            _ if std::mem::take(&mut is_escaped) => {}
+            b'\\' => is_escaped = is_string,
+            b'"' => is_string = !is_string,
+            b'\n' => line = line.saturating_add(1),
+            b'{' | b'[' if !is_string => {
+                if byte == b'{' && depth == 2 {
+                    lines.push(line);
+                }
+                depth = depth.saturating_add(1);
+            }
+            b'}' | b']' if !is_string => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    lines
+}
+
+/// The line of an entry of a library, unless the file has other objects beside its entries.
+fn line_of(index: usize, library: &[Value], lines: &[u32]) -> Option<u32> {
+    lines.get(index).copied().filter(|_| lines.len() == library.len())
+}
+
+fn fusion(library: &[Value], lines: &[u32]) -> Description {
     let mut tools = Tools::new("Fusion 360");
-    for entry in library {
+    for (index, entry) in library.iter().enumerate() {
+        let line = line_of(index, library, lines);
         let mut fields = Fields::new(entry);
         let kind = fields.text("type").unwrap_or_default();
         if matches!(&*kind, "holder" | "probe") {
             tools.unused.extend(fields.unused());
             continue;
         }
-        let mut tool = ToolDescription::new(&fields.text("description").unwrap_or_default(), None);
+        let mut tool = ToolDescription::new(&fields.text("description").unwrap_or_default(), line);
         let number = fields.take("post-process/number").map(|number| shown(&number));
-        tool.number = tools.tool_number("post-process/number", number.as_deref(), None);
+        tool.number = tools.tool_number("post-process/number", number.as_deref(), line);
         let unit = match fields.text("unit").as_deref() {
             Some("inches") => Some(LengthUnit::Inch),
             Some("millimeters") => Some(LengthUnit::Millimetre),
@@ -115,12 +144,13 @@ fn fusion(library: &[Value]) -> Description {
     tools.finish()
 }
 
-fn freecad_library(list: &[Value], bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
+fn freecad_library(list: &[Value], lines: &[u32], bit: ReadBit<'_>) -> Result<Description, Box<Diagnostic>> {
     let mut tools = Tools::new("FreeCAD");
-    for entry in list {
+    for (index, entry) in list.iter().enumerate() {
+        let line = line_of(index, list, lines);
         let mut fields = Fields::new(entry);
         let number = fields.take("nr").map(|number| shown(&number));
-        let number = tools.tool_number("nr", number.as_deref(), None);
+        let number = tools.tool_number("nr", number.as_deref(), line);
         let Some(name) = fields.text("path") else {
             tools.unused.extend(fields.unused());
             continue;
@@ -133,7 +163,7 @@ fn freecad_library(list: &[Value], bit: ReadBit<'_>) -> Result<Description, Box<
             Ok(text) => {
                 let bit: Value = serde_json::from_str(&text)
                     .map_err(|error| Box::new(unreadable(Shown::foreign(error.to_string()))))?;
-                freecad_bit(&bit, number, &mut tools);
+                freecad_bit(&bit, number, line, &mut tools);
             }
             Err(reason) => tools.problems.push(unreadable(reason)),
         }
@@ -142,10 +172,10 @@ fn freecad_library(list: &[Value], bit: ReadBit<'_>) -> Result<Description, Box<
     Ok(tools.finish())
 }
 
-fn freecad_bit(bit: &Value, number: Option<u32>, tools: &mut Tools) {
+fn freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut Tools) {
     let mut fields = Fields::new(bit);
     let mut tool =
-        ToolDescription { number, ..ToolDescription::new(&fields.text("name").unwrap_or_default(), None) };
+        ToolDescription { number, ..ToolDescription::new(&fields.text("name").unwrap_or_default(), line) };
     let shape = fields.text("shape-type").or_else(|| fields.text("shape")).unwrap_or_default();
     let shape = shape.to_ascii_lowercase();
     let shape = shape.strip_suffix(".fcstd").unwrap_or(&shape);
@@ -284,15 +314,14 @@ impl ToolDescription {
 /// The tools of a description.
 struct Tools {
     format: &'static str,
-    values: Vec<DescribedValue>,
+    tools: Vec<DescribedTool>,
     unused: Vec<Entry>,
     problems: Vec<Diagnostic>,
-    names: Vec<String>,
 }
 
 impl Tools {
     fn new(format: &'static str) -> Self {
-        Self { format, values: Vec::new(), unused: Vec::new(), problems: Vec::new(), names: Vec::new() }
+        Self { format, tools: Vec::new(), unused: Vec::new(), problems: Vec::new() }
     }
 
     /// Reads the number of a tool. 0 stands for none.
@@ -327,15 +356,7 @@ impl Tools {
             self.problems.push(at(problem.with("radius", radius).with("diameter", diameter), tool.line));
             return;
         }
-        let number = tool.number.map(|number| format!("T{number}"));
-        let name = Some(tool.name).filter(|name| !name.is_empty()).or(number.clone());
-        let mut name = name.unwrap_or_else(|| "tool".to_owned());
-        if self.names.contains(&name) {
-            let suffix = number.unwrap_or_else(|| self.names.len().to_string());
-            name = format!("{name} ({suffix})");
-        }
-        self.names.push(name.clone());
-        let target = Target::Tool { number: tool.number, name };
+        let target = Target::Tool { number: tool.number, name: tool.name.clone() };
         let value = |key, value, source, is_for_new_tools| DescribedValue {
             target: target.clone(),
             key,
@@ -349,18 +370,12 @@ impl Tools {
         let shape = tool.shape.map(|shape| value("shape", shape, "type".to_owned(), true));
         let values =
             tool.values.into_iter().map(|(key, quantity, source)| value(key, quantity, source, false));
-        self.values.extend(values.chain(number).chain(shape));
+        let values = values.chain(number).chain(shape).collect();
+        self.tools.push(DescribedTool { number: tool.number, name: tool.name, line: tool.line, values });
     }
 
     fn finish(self) -> Description {
-        let Self { format, values, unused, problems, .. } = self;
-        Description { format, values, unused, problems }
-    }
-}
-
-fn at(problem: Diagnostic, line: Option<u32>) -> Diagnostic {
-    match line {
-        Some(line) => problem.at_line(line, None),
-        None => problem,
+        let Self { format, tools, unused, problems } = self;
+        Description { format, values: Vec::new(), tools, unused, problems }
     }
 }

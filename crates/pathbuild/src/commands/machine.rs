@@ -8,7 +8,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_workspace::config::{FILE_NAME, faults};
 use pathbuild_workspace::files;
-use pathbuild_workspace::machine::{self, Change, DescribedValue, Entry};
+use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, Entry};
 use serde_json::json;
 
 use crate::args::{MachineArgs, MachineCommand};
@@ -22,25 +22,26 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     let mut diagnostics = Vec::new();
     let mut texts = Vec::new();
     for file in files {
-        match text(context, &context.working_directory.join(file)) {
+        match machine::text(&*context.system, &context.working_directory.join(file)) {
             Ok(text) => texts.push((file.as_path(), text)),
             Err(reason) => diagnostics.push(unreadable(file, reason)),
         }
     }
     let unit = units.or_else(|| texts.iter().find_map(|(_, text)| machine::machine_unit(text)));
-    let (mut values, mut unused) = (Vec::new(), Vec::new());
+    let mut descriptions = Vec::new();
     for (file, text) in &texts {
         match machine::read(file, text, unit, &|name| bit(context, file, name)) {
-            Ok(description) => {
-                values.extend(description.values);
-                diagnostics.extend(description.problems);
-                unused.push((*file, description.format, description.unused));
+            Ok(mut description) => {
+                diagnostics.append(&mut description.problems);
+                descriptions.push((*file, description));
             }
             Err(problem) => diagnostics.push(*problem),
         }
     }
+    let (values, problems) = machine::merge(&descriptions);
+    diagnostics.extend(problems);
     if !diagnostics.iter().any(Diagnostic::is_error)
-        && let Err(problems) = compare(context, &values, &unused, *write)
+        && let Err(problems) = compare(context, &values, &descriptions, *write)
     {
         diagnostics.extend(problems);
     }
@@ -66,14 +67,14 @@ fn bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String, Valu
         .or_else(|reason| sibling.map_or(Err(reason), |file| text(context, &file)))
 }
 
-/// Entries without a key: the file, its format, and the entries.
-type UnusedEntries<'f> = (&'f Utf8Path, &'static str, Vec<Entry>);
+/// A file with its description.
+type Described<'f> = (&'f Utf8Path, Description);
 
 /// Shows the values beside those of the configuration, and writes them if requested.
 fn compare(
     context: &Context,
     values: &[DescribedValue],
-    unused: &[UnusedEntries<'_>],
+    descriptions: &[Described<'_>],
     write: bool,
 ) -> Result<(), Vec<Diagnostic>> {
     let file = configuration(context);
@@ -88,7 +89,7 @@ fn compare(
     if problems.iter().any(Diagnostic::is_error) {
         return Err(problems);
     }
-    show(context, &file, &changes, unused);
+    show(context, &file, &changes, descriptions);
     if new == old {
         context.printer.status(context.choose("nothing differs", "nichts weicht ab"));
     } else if !write {
@@ -107,14 +108,14 @@ fn configuration(context: &Context) -> Utf8PathBuf {
     context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
 }
 
-fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[UnusedEntries<'_>]) {
+fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[Described<'_>]) {
     if context.format == Format::Json {
         for Change { table, key, old, new, source, is_new } in changes {
             let row = json!({ "table": table, "key": key, "old": old, "new": new, "from": source, "differs": is_new });
             context.row("value", row);
         }
-        for (file, format, entries) in unused {
-            for Entry { name, value, line } in entries {
+        for (file, Description { format, unused, .. }) in descriptions {
+            for Entry { name, value, line } in unused {
                 let row = json!({ "file": context.file(file), "format": format, "line": line, "name": name, "value": value });
                 context.row("unused", row);
             }
@@ -130,10 +131,11 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], unused: &[Unused
         }
         change_lines(&mut text, change);
     }
-    for (file, format, entries) in unused.iter().filter(|(_, _, entries)| !entries.is_empty()) {
+    let has_unused = |(_, description): &&Described<'_>| !description.unused.is_empty();
+    for (file, Description { format, unused, .. }) in descriptions.iter().filter(has_unused) {
         // All tools of a library have the same entries: name each once.
         let mut names: Vec<&str> = Vec::new();
-        for entry in entries {
+        for entry in unused {
             if !names.contains(&entry.name.as_str()) {
                 names.push(&entry.name);
             }
