@@ -77,6 +77,27 @@ fn a_rounded_corner_clears_less() {
     assert!(!rapid_beside_a_cut(&tool("shape = \"other\"\n"), 0.0));
 }
 
+/// Two parallel cuts, then a rapid move from the second one to the first, at their depth.
+fn rapid_between_cuts(tool: &str, distance: f64) -> bool {
+    let program = format!(
+        "G17 G21 G90 G94\nT4 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG0 Z5\nG0 Y{distance}\n\
+         G1 Z-1\nG1 X20\nG0 Y0\nG0 Z5\nM5\nM30\n"
+    );
+    verify(tool, &program, "--surface 0").stderr.contains("PB740")
+}
+
+/// Between cuts that are farther apart than the flat part of the tip, a ridge remains.
+#[test]
+fn a_round_tip_leaves_a_ridge_between_cuts() {
+    let tool = |radius: u32| format!("[tool.mill]\ndiameter = 6\nnumber = 4\ncorner-radius = {radius}\n");
+    assert!(rapid_between_cuts(&tool(2), 4.0));
+    assert!(!rapid_between_cuts(&tool(2), 2.0));
+    assert!(!rapid_between_cuts(&tool(0), 4.0));
+    // A ball.
+    assert!(rapid_between_cuts(&tool(3), 2.0));
+    assert!(!rapid_between_cuts(&tool(3), 0.5));
+}
+
 #[test]
 fn a_corner_is_not_rounder_than_the_tool() {
     let found = |diameter: &str, radius: &str| {
@@ -86,6 +107,8 @@ fn a_corner_is_not_rounder_than_the_tool() {
     for (diameter, radius) in [("6", "3"), ("3.175", "1.5875"), ("6.35", "3.175001")] {
         assert_eq!(found(diameter, radius).status, Some(0), "{radius}");
     }
+    assert!(found("6", "0.5").stdout.contains("corner-radius = 0.5"));
+    assert!(!found("6", "0").stdout.contains("corner-radius"));
     let run = found("6", "3.00001");
     let shown = format!("{}{}", run.stdout, run.stderr);
     assert!(run.status == Some(2) && shown.contains("pathbuild.toml:3:"), "{run}");

@@ -202,6 +202,38 @@ fn what_was_emitted_is_what_the_drawing_says() {
     assert_snapshot!(cut_off);
 }
 
+/// A drawing with several paths does not say which of them is meant.
+#[test]
+fn a_program_is_compared_with_one_path() {
+    let path = |name: &str, y: u32| {
+        format!("layer {name}\nstart 0,{y} \"T5 O2 I1 B4\"\nmill 0,{y} 40,{y}\nend 40,{y}\n")
+    };
+    let against = |paths: &[String]| {
+        let drawing = format!("== a.nc ==\nG17 G21 G90 G94\nM30\n== 1234.dxf ==\n{}", paths.concat());
+        Place::of(&drawing).run("verify a.nc --against 1234.dxf --feed 150 --rapid 1000 --sweep-height 20")
+    };
+    let said = |paths: &[String]| against(paths).stderr.contains("several paths: 1234.1P, 1234.2P");
+    assert!(said(&[path("1234.1P", 0), path("1234.2P", 50)]));
+    assert!(!said(&[path("1234.1P", 0)]));
+}
+
+/// Comments are compared if the program was written with the present options.
+#[test]
+fn a_comment_that_emit_does_not_write_is_found() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let other = place.read("parts/1234_Milling.gcode").replace("drawing 1234.dxf", "drawing 4321.dxf");
+    let place = place.file("other.gcode", other);
+    let is_found = |place: &Place| {
+        let run = place.run("verify other.gcode --against 1234.1P --format concise");
+        assert_eq!(run.status, Some(0), "{run}");
+        run.stderr.contains("PB777] emit writes `(Path 1234.1P, drawing 1234.dxf)` here")
+    };
+    assert!(is_found(&place));
+    let configuration = place.read("pathbuild.toml").replace("rapid = 1000", "rapid = 2000");
+    assert!(!is_found(&place.file("pathbuild.toml", configuration)));
+}
+
 /// The cut is within rounding, but the number is different.
 #[test]
 fn an_arc_that_goes_on_into_the_next_line_is_another() {

@@ -73,6 +73,13 @@ fn without_a_surface_a_rapid_move_at_cutting_depth_is_doubtful() {
     assert_eq!(codes(&slots(&low, THROUGH), ""), ["PB781"]);
 }
 
+#[test]
+fn an_error_on_another_line_hides_no_doubtful_move() {
+    let program = slots("G90 G21\nT1 M6\n", "G0 Y35");
+    let stopped = program.replace("G0 Z5\nM5\n", "G0 Z5\nM5\nG1 Z-2\nG0 Z5\n");
+    assert_eq!(codes(&stopped, ""), ["PB781", "PB745"]);
+}
+
 /// Where no cutter is known, one of 50 mm may have cleared the material between two slots.
 #[test]
 fn without_a_cutter_only_what_no_cutter_can_have_cleared_is_doubtful() {

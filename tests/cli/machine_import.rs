@@ -110,6 +110,18 @@ fn values_that_no_key_can_take_are_said() {
 }
 
 #[test]
+fn a_speed_map_has_finite_numbers() {
+    let said = |map: &str| {
+        let description = FLUIDNC.replace("0=0.000% 1000=0.000% 24000=100.000%", map);
+        Place::new().file("a.yaml", description).run("machine import a.yaml --format concise").to_string()
+    };
+    assert!(said("0=0% 24000=100%").contains("spindle-speeds = [0, 24000]"));
+    for map in ["0=0% inf=100%", "0=0% 24000=nan%"] {
+        assert!(said(map).contains(&format!("is `{map}`, but a map such as")), "{map}");
+    }
+}
+
+#[test]
 fn nothing_is_written_if_a_file_cannot_be_read() {
     let place = Place::new().file("grbl.txt", GRBL).file("other.txt", "M3 S1000\n");
     let run = place.run("machine import grbl.txt other.txt --write");

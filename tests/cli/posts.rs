@@ -173,6 +173,23 @@ fn the_feed_of_paths_without_f_is_held_against_the_machine_s() {
     ));
 }
 
+/// Windows takes such a name for a device, whatever follows its first point.
+#[test]
+fn a_joined_program_is_not_named_like_a_device() {
+    let is_device = |name: &str| {
+        let run = library("").run(&format!("emit --join {name} 1234.1P --post linuxcnc --lang en"));
+        let is_refused = run.stderr.contains("means a device");
+        assert_eq!(run.status, Some(i32::from(is_refused)), "{run}");
+        is_refused
+    };
+    for name in ["nul.x", "Com1.x", "lpt9.tap", "AUX.1.2"] {
+        assert!(is_device(name), "{name}");
+    }
+    for name in ["nul", "Com0.x", "Com10.x", "x.nul", "Auxiliary.x"] {
+        assert!(!is_device(name), "{name}");
+    }
+}
+
 #[test]
 fn paths_are_joined_with_tool_changes_in_the_order_of_the_arguments() {
     let place = library("");

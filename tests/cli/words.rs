@@ -35,6 +35,26 @@ fn mistakes_of_draughtsmen_are_named() {
     assert_snapshot!(mistakes.map(said).join("\n"));
 }
 
+/// What lies on a wrong layer is named if it is what is missing, on whichever side.
+#[test]
+fn elements_on_a_wrong_layer_are_named() {
+    let said = |own: &str, other: &str| {
+        let place = Place::of(&format!("== 1234.1P.dxf ==\nlayer 1234.1P\n{own}\nlayer Notes\n{other}\n"));
+        place.run("check 1234.1P.dxf").stderr
+    };
+    let groove = "mill 0,0 20,0 \"B0\"\nend 20,0";
+    let is_start = |circle: &str| said(groove, circle).contains("has a start marker at (0, 0)");
+    assert!(is_start("circle PHANTOM 0,0 d 1"));
+    assert!(!is_start("circle PHANTOM 0,0 d 1.2"));
+    assert!(!is_start("mill circle 0,0 d 1"));
+
+    let stray = format!("{START}\n{groove}\ntext 50,50 \"B2\" height 2 align centre middle");
+    let near = |circle: &str| said(&stray, &format!("mill circle {circle} d 1")).contains("by mistake?");
+    for beside in [["53,50", "55,50"], ["47,50", "45,50"], ["50,53", "50,55"], ["50,47", "50,45"]] {
+        assert_eq!(beside.map(near), [true, false], "{beside:?}");
+    }
+}
+
 /// A different cutter, thickness or material than that of the embedded path: each has its own advice.
 #[test]
 fn what_differs_from_an_embedded_path_has_its_own_advice() {

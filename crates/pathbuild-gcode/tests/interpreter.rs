@@ -358,7 +358,9 @@ fn linuxcnc_counts_turns_and_takes_absolute_centres() {
     let shifted = run(LinuxCnc, "G0 X11 Y7 Z0\nG92 X1 Y0\nG90.1 G2 X0 Y-1 I0 J0 F10");
     assert_eq!(shifted[1], "4 feed 10 to 10 6 0 cw round 10 7 by 90");
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG90.1 G2 X0 Y-1 I0 F10"), ["3 missing-word"]);
-    assert_eq!(wrong(LinuxCnc, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P0 F10"), ["3 value-out-of-range"]);
+    let no_turn = "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P0 F10";
+    assert_eq!(wrong(LinuxCnc, no_turn), ["3 value-out-of-range"]);
+    assert_eq!(run(LinuxCnc, no_turn)[1], "3 feed 10 to 0 -1 0 cw round 0 0 by 90", "as without P");
     assert_eq!(wrong(Grbl, "G0 X1 Y0 Z0\nG2 X0 Y-1 I-1 P3 F10"), ["3 unused-word"]);
 }
 
@@ -465,6 +467,8 @@ fn g92_renames_where_the_tool_is() {
         ["2 rapid to 1 1 1", "4 rapid to 2 1 1", "6 rapid to 1 1 1"]
     );
     assert_eq!(run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.2\nG0 X1\nG92.3\nX1")[2], "7 rapid to 2 1 1");
+    // G92.1 leaves nothing that G92.3 could restore.
+    assert_eq!(run(LinuxCnc, "G0 X1 Y1 Z1\nG92 X0\nG92.1\nG0 X1\nG92.3\nX1")[2], "7 rapid to 1 1 1");
     assert_eq!(wrong(Native, "G92"), ["2 missing-word"]);
 }
 
@@ -765,6 +769,7 @@ fn expressions_without_a_value_leave_out_their_line() {
 #[test]
 fn a_parameter_that_only_the_machine_sets_is_said() {
     assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\nX[#5001]"), ["3 machine-value"]);
+    assert_eq!(run(LinuxCnc, "G0 X0 Y0 Z0\nX[#5001+2]")[1], "3 rapid to 2 0 0", "0 is assumed");
     assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z0\n#5001=2\nX[#5001]"), [""; 0]);
 }
 

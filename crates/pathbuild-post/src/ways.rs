@@ -461,6 +461,19 @@ mod tests {
     }
 
     #[test]
+    fn a_way_is_judged_wherever_the_part_lies() {
+        let [to, between, away] = JOB;
+        let to = to.replace("Y0", "Y100");
+        let job = moves(&program([&to, between, away]));
+        let may_go = |between: &str| {
+            let found = moves(&program([&to, between, away]));
+            check(&found, &job, CLEARANCE, &Tolerance::of_decimals(3)).is_ok()
+        };
+        assert!(may_go("G0 Z12, G0 X50, G0 Z5"));
+        assert!(!may_go("G0 Z11.9, G0 X50, G0 Z5"));
+    }
+
+    #[test]
     fn a_way_may_be_higher_or_leave_out_steps() {
         assert!(may_go("G0 Z20, G0 X50, G0 Z5"));
         assert!(may_go("G0 Z12, G0 X50, G0 Z5"));

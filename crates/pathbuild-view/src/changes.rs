@@ -436,6 +436,15 @@ mod tests {
     }
 
     #[test]
+    fn arcs_between_the_same_ends_differ_by_their_way() {
+        let arc = |words: &str| format!("G1 Z-1 F150\n{words} F150\nG0 Z5\n");
+        let said = |other: &str| said(&arc("G2 X10 Y0 I5 J0"), &arc(other)).len();
+        assert_eq!(said("G2 X10.0002 Y0 I5 J0"), 0);
+        assert_ne!(said("G3 X10 Y0 I5 J0"), 0, "the other half of the circle");
+        assert_ne!(said("G2 X10 Y0 I5 J-2"), 0, "another centre");
+    }
+
+    #[test]
     fn added_and_removed() {
         let both = format!("{LINE}{OTHER}");
         assert_eq!(said(LINE, &both)[0], "added 2 16");

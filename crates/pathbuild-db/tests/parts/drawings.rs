@@ -487,6 +487,65 @@ fn a_part_is_loose_wherever_the_ring_runs() {
     assert!(!codes(&drawing("sweep")).contains(&"PB217".to_owned()));
 }
 
+/// Bars within a ring that is milled all round, however far away, hold the part to what comes loose itself.
+#[test]
+fn bars_within_a_closed_ring_hold_nothing() {
+    let drawing = |last: &str| {
+        format!(
+            "{START}sweep -5,-5 0,0\nbars 0,0 40,0\nsweep 40,0 -60,-60\n\
+             mill -60,-60 100,-60 100,80 -60,80\n\
+             {last} -60,80 -60,-60\nsweep -60,-60 -70,-70\nend -70,-70\n{EDGE}"
+        )
+    };
+    assert!(codes(&drawing("mill")).contains(&"PB217".to_owned()));
+    assert!(!codes(&drawing("bars")).contains(&"PB217".to_owned()));
+}
+
+/// The lines of the contour pass each other at the corners. The last one ends `height` mm above the first, both of them 2 mm wide.
+#[test]
+fn cuts_that_cross_or_overlap_close_a_ring() {
+    let is_loose = |height: f64| {
+        codes(&format!(
+            "{START}sweep -5,-5 -5,0\nmill -5,0 47,0\nsweep 47,0 42,-5\nmill 42,-5 42,32\nsweep 42,32 47,27\n\
+             mill 47,27 -5,27\nsweep -5,27 0,32\nmill 0,32 0,{height}\nsweep 0,{height} 50,-8\nend 50,-8\n{PLATE}"
+        ))
+        .contains(&"PB217".to_owned())
+    };
+    assert!(is_loose(-5.0), "the lines cross");
+    assert!(is_loose(1.99), "they overlap");
+    assert!(!is_loose(2.0), "they touch");
+}
+
+/// A cut that comes nearer and nearer to the edge leaves a wedge, whichever way it runs.
+#[test]
+fn a_wedge_is_as_thick_in_both_directions() {
+    let thickness = |from: f64, to: f64| {
+        let drawing = format!(
+            "{START}sweep -5,-5 0,{from}\nmill 0,{from} 40,{to}\nsweep 40,{to} 50,-5\nend 50,-5\n{EDGE}"
+        );
+        let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        number(found.iter().find(|found| found.code().to_string() == "PB215").expect("a wedge"), "thickness")
+    };
+    let [rising, falling] = [thickness(-2.0, 0.0), thickness(0.0, -2.0)];
+    assert!((rising - falling).abs() < 1e-6 && (0.9..=1.0).contains(&rising), "{rising} {falling}");
+}
+
+/// The cutter of 2 mm passes 0.6 mm below a corner of the part.
+#[test]
+fn a_gouge_at_a_corner_is_as_deep_as_the_corner_is_overlapped() {
+    for corner in [17.0, 17.3, 17.45, 17.8] {
+        let found = PartTest::default().diagnostics(&[(
+            "1234.1P.dxf",
+            &format!(
+                "{START}sweep -5,-5 0,0\nmill 0,0 40,0\nsweep 40,0 50,-5\nend 50,-5\n\
+                 layer Part\npolyline 0,2 {corner},0.6 40,8 40,20 0,20 closed\n"
+            ),
+        )]);
+        let gouge = found.iter().find(|found| found.code().to_string() == "PB213").expect("a gouge");
+        assert!((number(gouge, "depth") - 0.4).abs() < 1e-4, "{corner}: {gouge:?}");
+    }
+}
+
 /// A slot cutter, by the name and O of its path, cuts beside what the outline shows: it leaves nothing, cuts nothing out, and holds back
 /// no remark about what others leave.
 #[test]

@@ -260,6 +260,8 @@ fn settings_hold() {
     let crlf = "[post]\nend-of-line = \"crlf\"\nextension = \".din\"\nnumber-lines = false\ndecimals = 1\nunits = \"inch\"\n[text]\nprogram-start = '{.~ZClearance~} {~Units~}'";
     let output = output(crlf, &job(vec![]), &PostOptions::default()).unwrap();
     assert_eq!((output.text.as_slice(), &*output.extension), (b"0.2 2\r\n".as_slice(), "din"));
+    assert_eq!(written(&crlf.replace("crlf", "lf"), &job(vec![])), "0.2 2\n");
+    assert!(Post::read(crlf.replace("crlf", "cr").as_bytes(), Utf8Path::new("t.toml")).is_err());
     let inches = Job { units: Units::Inches, ..job(vec![]) };
     assert_eq!(written(&crlf.replace("units = \"inch\"\n", ""), &inches), "0.2 2\r\n", "else the program's");
 }

@@ -2,9 +2,11 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_motion::{Coolant, Turning};
-use pathbuild_post::{Job, JobStep, PostMacro, PostOptions, Stock, Texts, Units, VelocityMode};
+use pathbuild_post::{
+    Hole, HoleKind, Job, JobStep, PostMacro, PostOptions, Stock, Texts, Units, VelocityMode,
+};
 
-use crate::support::{bare, definition, feed, job, lines, lines_with, operation, output, rapid, texts};
+use crate::support::{bare, definition, feed, job, lines, lines_with, operation, output, rapid, read, texts};
 
 #[test]
 fn lines_are_trimmed_and_blank_ones_dropped() {
@@ -204,6 +206,26 @@ fn lines_that_are_no_gcode_are_warnings_unless_suppressed() {
     assert_eq!(warnings("<SuppressParserErrors>true</SuppressParserErrors>"), [""; 0]);
 }
 
+/// The blank of a Heidenhain program: its corners are not approached. G31 alone is a probing move.
+#[test]
+fn corners_of_the_blank_are_no_moves() {
+    let post = read(&definition("<PostFile>M30</PostFile>")).unwrap();
+    let moves = |program: &str| {
+        let translated = post.translate(program.as_bytes()).text;
+        translated
+            .lines()
+            .skip(1)
+            .filter(|line| line.contains('X'))
+            .map(str::trim)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let blank = "G30 G17 X+0 Y+0 Z-40\nG31 G90 X+100 Y+100 Z+0\n";
+    assert_eq!(moves(&format!("%\n{blank}G0 X5 Y5")), "G0 X5 Y5");
+    assert_ne!(moves("%\nG31 G90 X+100 Y+100 Z+0\nG0 X5 Y5"), "G0 X5 Y5");
+    assert_ne!(moves(&format!("%\n{blank}G31 G90 X+100 Y+100 Z+0\nG0 X5 Y5")), "G0 X5 Y5", "it has ended");
+}
+
 #[test]
 fn a_post_s_own_comments_are_not_read_back() {
     let text = definition(
@@ -268,6 +290,23 @@ fn every_value_has_its_macro() {
         "M0 M47 M30",
     ];
     assert_eq!(lines(&text, &job), expected);
+}
+
+#[test]
+fn the_first_point_of_a_drilling_is_above_its_first_hole() {
+    let hole = Hole {
+        at: [1.0, 2.0],
+        level: 4.0,
+        retract: 1.0,
+        bottom: -3.0,
+        exit: 5.0,
+        feed: Some(60.0),
+        kind: HoleKind::Plain,
+    };
+    let text = definition(
+        "<PostFile>{$mop.first.x} {$mop.first.y} {$mop.first.z}</PostFile><SuppressParserErrors>true</SuppressParserErrors>",
+    );
+    assert_eq!(lines(&text, &job(vec![JobStep::Hole(hole)])), ["1.0 2.0 4.0"]);
 }
 
 #[test]

@@ -99,6 +99,10 @@ fn a_helix_without_z_is_mended_in_the_text_of_arcs() {
     assert!(found[0].contains("the text arc has no ~Z1~"), "{found:?}");
     let with_line = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
     assert!(read_toml(&with_line).write(&job, &PostOptions::default()).is_ok(), "lines have Z");
+    // Without a text of arcs, lines stand for the helix.
+    let lines_only = both.lines().filter(|line| !line.starts_with("arc = ")).collect::<Vec<_>>().join("\n");
+    let found = texts(&read_toml(&lines_only).write(&job, &PostOptions::default()).unwrap_err());
+    assert!(found[0].contains("has no ~Z1~") && !found[0].contains("the text arc"), "{found:?}");
 }
 
 #[test]

@@ -655,3 +655,27 @@ fn depth_color(share: f64) -> String {
     });
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{SHARPEST, sharpness};
+
+    /// A round cutter touches the sides of a right angle at its radius from the corner, however the part lies.
+    #[test]
+    fn the_reach_of_a_corner_does_not_depend_on_directions() {
+        for turned in 0..12 {
+            let along = |degrees: f64| {
+                let (sin, cos) = libm::sincos((f64::from(turned) * 30.0 + degrees).to_radians());
+                [cos, sin]
+            };
+            let reach = |degrees: f64| sharpness(along(0.0), along(-degrees));
+            assert!(reach(90.0).is_some_and(|reach| (reach - 1.0).abs() < 1e-9), "{turned}");
+            assert!(
+                reach(60.0).is_some_and(|reach| (reach - libm::sqrt(1.0 / 3.0)).abs() < 1e-9),
+                "{turned}"
+            );
+            assert_eq!(reach(170.0), Some(SHARPEST));
+            assert_eq!([reach(0.5), reach(-90.0)], [None; 2], "smooth, or to the other side");
+        }
+    }
+}
