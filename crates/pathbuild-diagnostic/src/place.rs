@@ -252,19 +252,19 @@ impl Ord for Number {
 }
 
 /// Displays at most three decimals without trailing zeros, the precision of a drawing. Very small values that would appear as 0, such as a
-/// gap of 0.0004 mm, are displayed with two significant digits.
+/// gap of 0.0004 mm, are displayed with two significant digits, and rounding errors below a millionth of a micrometre as 0.
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.0;
         if value != 0.0 && value.abs() < 0.0005 {
             let mut scaled = value.abs();
-            let first_digit = (1..MOST_DECIMALS).find(|_| {
+            let first_digit = (1..=MOST_DECIMALS).find(|_| {
                 scaled *= 10.0;
                 scaled >= 1.0
             });
             return match first_digit {
                 Some(places) => f.write_str(trimmed(&format!("{value:.*}", places + 1))),
-                None => write!(f, "{value:.1e}"),
+                None => f.write_str("0"),
             };
         }
         let text = format!("{value:.3}");

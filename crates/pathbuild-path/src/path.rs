@@ -255,6 +255,11 @@ impl Path {
         self.faults.is_some()
     }
 
+    /// Whether its errors, if it has any, leave no doubt about where and how deep it cuts.
+    pub fn are_cuts_known(&self) -> bool {
+        self.faults.as_ref().is_none_or(|faults| faults.are_cuts_known)
+    }
+
     /// Whether the path or any of its segments gives I.
     pub(crate) fn gives_infeed(&self) -> bool {
         self.cuts.iter().any(|cut| cut.chain.infeed.is_some())

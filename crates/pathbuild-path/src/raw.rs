@@ -190,6 +190,8 @@ pub(crate) struct Faults {
     pub(crate) letters: Letters,
     /// Whether an error may hide I of a segment.
     pub(crate) is_infeed_unknown: bool,
+    /// Whether all cuts are known nevertheless: the only errors are texts without an element, none of which may belong to a cut.
+    pub(crate) are_cuts_known: bool,
     /// Whether the walk cannot be checked, because its start, its order or a segment is unknown.
     pub(crate) is_walk_unknown: bool,
     /// Possible ends of the path; empty if the end is unknown.

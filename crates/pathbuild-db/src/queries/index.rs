@@ -295,7 +295,7 @@ impl Content {
 }
 
 impl PathIndex {
-    /// `use_path`: called if the path has no errors.
+    /// `use_path`: called if the cuts of the path are known.
     fn new(
         db: &dyn Db,
         raw: &RawPath,
@@ -339,7 +339,7 @@ pub struct PathSummary {
 }
 
 impl PathSummary {
-    /// Binds and walks a path. Calls `use_path` if it has no errors.
+    /// Binds and walks a path. Calls `use_path` if its cuts are known.
     pub(super) fn new(
         db: &dyn Db,
         raw: &RawPath,
@@ -358,8 +358,7 @@ impl PathSummary {
         }
         let signature = PathSignature::of(&path);
         let moves = if path.has_faults() { 0 } else { own_moves(&path, &walked) };
-        if problems.iter().chain(&walked.diagnostics).all(|problem| !problem.is_error()) && !path.has_faults()
-        {
+        if path.are_cuts_known() && !walked.diagnostics.iter().any(Diagnostic::is_error) {
             use_path(&path, &walked);
         }
         let walk_problems = walked.diagnostics.into_iter().map(with_hint).collect();
@@ -460,7 +459,8 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
 pub(super) struct FileParts {
     /// The finished parts.
     pub(super) parts: Vec<Part>,
-    /// The cuts of the sound paths with example values, in order of name. Without parts, only those of paths that embed others.
+    /// The cuts of the paths with example values, as far as they are known, in order of name. Without parts, only those of paths that embed
+    /// others.
     pub(super) cuts: Vec<PathCuts>,
     /// Whether the cuts of all its paths are known.
     pub(super) is_complete: bool,

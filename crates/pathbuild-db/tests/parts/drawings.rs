@@ -615,3 +615,28 @@ fn beside_a_path_with_errors_only_gouges_are_found() {
     assert_eq!(path(-0.5, &other("x")), [""; 0]);
     assert_eq!(path(0.5, &other("x")), ["PB213"]);
 }
+
+#[test]
+fn a_hole_in_the_part_is_told_without_a_length() {
+    let found = messages(
+        &plate("bars").replace("sweep 31,13 0,0", "sweep 31,13 25,20\ncircle 25,20 d 2\nsweep 25,20 0,0"),
+    );
+    assert_eq!(found, ["PB213 the hole, O2, goes 7 mm into the part at (25, 20)"]);
+}
+
+/// A text that belongs to nothing hides nothing else, unless it may be the depth of the cut.
+#[test]
+fn a_stray_text_hides_no_cut_into_the_part() {
+    let with = |text: &str| {
+        let cut = "sweep 31,13 0,0.5\nmill 0,0.5 42,0.5\nmill to 42,27 0,27 0,0.5\nsweep 0,0.5 50,-5";
+        let drawing = plate("mill");
+        let begin = drawing.find("sweep 31,13").unwrap();
+        let end = drawing.find("end 50,-5").unwrap();
+        codes(&format!("{}{cut}\n{text}\n{}", &drawing[..begin], &drawing[end..]))
+    };
+    let cut = ["PB212", "PB213", "PB217"];
+    assert_eq!(with(""), cut);
+    assert_eq!(with("text 80,80 \"Deckel links\""), [&["PB107"], &cut[..]].concat());
+    assert_eq!(with("text 80,80 \"F90\""), [&["PB107"], &cut[..]].concat());
+    assert_eq!(with("text 80,80 \"B0.5\""), ["PB107", "PB212"], "it may be a groove");
+}

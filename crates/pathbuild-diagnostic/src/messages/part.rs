@@ -8,6 +8,13 @@ messages! {
         help_en: "draw the path half of O away from the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen oder den Umriss berichtigen; `part-tolerance` in pathbuild.toml erlaubt kleine Abweichungen",
     }
+    /// A hole drilled into the part.
+    GOUGE_BY_HOLE: GougedPart {
+        en: "the hole, O{tool}, goes {depth} mm into the part at {point}",
+        de: "das Bohrloch, O{tool}, gerät bei {point} {depth} mm weit in das Teil",
+        help_en: "move the hole, or draw its circle on the layer of the part as well",
+        help_de: "das Bohrloch versetzen oder seinen Kreis auch auf dem Layer des Teils zeichnen",
+    }
     /// A cut into a part that another path brings.
     GOUGED_NEIGHBOUR: GougedNeighbour {
         en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
@@ -54,8 +61,22 @@ messages! {
     OUTLINE_GAP: DoubtfulOutline {
         en: "the outline of the part has a gap: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss des Teils hat eine Lücke: er endet bei {point} und bei {other}, {distance} mm auseinander",
-        help_en: "let the ends meet: the CAD's object snap joins them; what is not closed is not checked",
-        help_de: "die Enden zusammenführen, der Objektfang im CAD verbindet sie; was nicht geschlossen ist, wird nicht geprüft",
+        help_en: "let the ends meet: the CAD's object snap joins them; an outline that is not closed is not checked, nor what lies inside it",
+        help_de: "die Enden zusammenführen, der Objektfang im CAD verbindet sie; ein offener Umriss wird nicht geprüft, und nichts darin",
+    }
+    /// An outline that crosses itself.
+    OUTLINE_CROSSES_ITSELF: DoubtfulOutline {
+        en: "the outline of the part crosses itself at {point}",
+        de: "der Umriss des Teils kreuzt sich bei {point} selbst",
+        help_en: "trim it there, so that its ends meet in one point; an outline that crosses itself is not checked, nor what lies inside it",
+        help_de: "ihn dort stutzen, sodass sich seine Enden in einem Punkt treffen; ein Umriss, der sich kreuzt, wird nicht geprüft, und nichts darin",
+    }
+    /// An outline that crosses the rim of a part.
+    OUTLINE_CROSSES_RIM: DoubtfulOutline {
+        en: "this outline crosses the rim of the part at {point}, so it is neither an opening nor a part",
+        de: "dieser Umriss kreuzt bei {point} den Rand des Teils und ist deshalb weder ein Ausschnitt noch ein Teil",
+        help_en: "trim the two to one outline; give it another layer or line type if it only shows something, for example a counterbore",
+        help_de: "beide zu einem Umriss stutzen; zeigt er nur etwas an, zum Beispiel eine Senkung, ihm einen anderen Layer oder Linientyp geben",
     }
     /// A layer with parts, none of which has a closed outline.
     NO_CLOSED_OUTLINE: DoubtfulOutline {

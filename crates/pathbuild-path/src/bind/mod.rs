@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_motion::ChipLoad;
 use regex::Regex;
 use smol_str::SmolStr;
@@ -211,6 +211,7 @@ impl<'a> Binder<'a> {
                 .filter(is_unknown)
                 .fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
             is_infeed_unknown: self.unknown.infeed || self.values.is_unknown(Letter::I),
+            are_cuts_known: self.are_cuts_known(),
             is_walk_unknown: self.raw.start.is_none()
                 || *has_broken_entity
                 || *has_second_start
@@ -219,6 +220,13 @@ impl<'a> Binder<'a> {
             unclear_circles: unclear_circles.clone(),
         }));
         self.add_unclear_curves(path);
+    }
+
+    fn are_cuts_known(&self) -> bool {
+        let mut errors = self.raw.diagnostics.iter().chain(&self.problems).filter(|found| found.is_error());
+        !self.unknown.needed
+            && !self.raw.faults.stray_letters.has_any(CUT_LETTERS)
+            && errors.all(|error| error.code() == Code::TextWithoutElement)
     }
 
     /// Adds lines and arcs of unknown line types as sweeps, since the path runs along them too.
@@ -378,6 +386,25 @@ pub fn regex_reason(error: &regex::Error) -> Value {
     let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
     Value::foreign(last.trim().trim_start_matches("error: "))
 }
+
+/// Letters that decide where and how deep a path cuts.
+const CUT_LETTERS: Letters = Letters::of(&[
+    Letter::B,
+    Letter::D,
+    Letter::I,
+    Letter::C,
+    Letter::W,
+    Letter::P,
+    Letter::U,
+    Letter::N,
+    Letter::T,
+    Letter::O,
+    Letter::A,
+    Letter::H,
+    Letter::Embed,
+    Letter::Variable,
+    Letter::At,
+]);
 
 /// Order of elements without N. (book: language/chains-and-passes)
 const UNNUMBERED: f64 = 9998.0;

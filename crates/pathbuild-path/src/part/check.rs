@@ -150,7 +150,8 @@ impl<'s> PartCheck<'s> {
     fn gouged(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
         let gouges = gouges(self.part, self.judged.values());
         gouges.into_iter().map(|((path, element), gouge)| {
-            (path, self.cuts.paths[path].at_element(element, gouge_problem(&gouge)))
+            let path_cuts = self.cuts.paths[path];
+            (path, path_cuts.at_element(element, gouge_problem(&gouge, path_cuts.radius)))
         })
     }
 
@@ -225,11 +226,13 @@ fn near_paths(part: &Part, ring: &[Curve], cuts: &CutIndex<'_>) -> Vec<bool> {
     is_near
 }
 
-fn gouge_problem(gouge: &Gouge) -> Diagnostic {
-    let mut problem = Diagnostic::new(&messages::GOUGE)
-        .with("depth", gouge.depth)
-        .with("point", shown(gouge.at))
-        .with("length", gouge.length);
+fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
+    let problem = if gouge.length == 0.0 {
+        Diagnostic::new(&messages::GOUGE_BY_HOLE).with("tool", 2.0 * radius)
+    } else {
+        Diagnostic::new(&messages::GOUGE).with("length", gouge.length)
+    };
+    let mut problem = problem.with("depth", gouge.depth).with("point", shown(gouge.at));
     if gouge.depth <= SHALLOW {
         problem.severity = Severity::Warning;
     }

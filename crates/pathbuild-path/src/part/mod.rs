@@ -20,6 +20,9 @@ use smol_str::SmolStr;
 use crate::geometry::{Curve, Placement};
 use crate::names::{LayerPattern, PathName};
 
+pub(crate) use boxes::{BoxIndex, square};
+pub(crate) use intervals::{Stretch, at as at_along, joined, within};
+
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts, check_path};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH};

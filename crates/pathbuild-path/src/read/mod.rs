@@ -2,11 +2,13 @@
 //! reference/dxf)
 
 mod assign;
+mod broken_outlines;
 mod candidates;
 mod collect;
 mod entities;
 mod keep_outs;
 mod listing;
+mod outline_graph;
 mod parameters;
 mod parts;
 mod stray;

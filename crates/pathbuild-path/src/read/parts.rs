@@ -9,21 +9,16 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use smol_str::SmolStr;
 
-use crate::element::shown;
-use crate::geometry::{Arc, Curve, Xy};
+use crate::geometry::{Arc, Curve};
 use crate::keep_out::Outline;
 use crate::language::Language;
 use crate::line_type::{LineType, LineTypes};
 use crate::names::LayerPattern;
 use crate::part::{DrawnParts, Part, PartRing};
+use crate::read::broken_outlines::{SortedOutlines, area, curves_of, gap_problem};
 use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
+use crate::read::outline_graph::{Graph, JOINED};
 use crate::read::stray::may_be_stray_text;
-
-/// Largest distance in mm of ends that join.
-const JOINED: f64 = 0.01;
-
-/// Largest distance in mm of two loose ends that were probably meant to meet.
-const NEARLY_JOINED: f64 = 0.5;
 
 /// The parts of a drawing. At least the layers with parts must have been read.
 pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
@@ -33,14 +28,19 @@ pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
     found.problems.extend(layers.unreadable());
     for (paths, curves) in &layers.curves {
         let graph = Graph::new(curves.iter().map(|drawn| drawn.curve).collect());
+        let outlines = SortedOutlines::new(&graph);
         for (end, other) in graph.near_misses() {
-            let problem = Diagnostic::new(&messages::OUTLINE_GAP)
-                .with("point", shown(end.1))
-                .with("other", shown(other))
-                .with("distance", (other - end.1).norm());
-            found.problems.push(at_entity(drawing, curves[end.0].entity, end.1, problem));
+            let (at, other) = (graph.end(end), graph.end(other));
+            if !outlines.are_overlong(at, other) {
+                found.problems.push(at_entity(drawing, curves[end / 2].entity, at, gap_problem(at, other)));
+            }
         }
-        layers.add_parts(paths.as_ref(), curves, graph.rings(), &mut found);
+        for broken in &outlines.broken {
+            let problem = broken.problem.clone();
+            let place = |problem| at_entity(drawing, curves[broken.curve].entity, broken.at, problem);
+            found.problems.extend(problem.map(place));
+        }
+        layers.add_parts(paths.as_ref(), curves, &outlines, &mut found);
     }
     found.problems.extend(layers.without_rings(&found));
     found
@@ -110,10 +110,12 @@ impl<'d> OutlineLayers<'d> {
         })
     }
 
-    /// PB219 for layers of which no curve belongs to a closed ring.
+    /// PB219 for layers of which no curve belongs to a closed ring, and about which nothing else is reported.
     fn without_rings(&self, found: &DrawnParts) -> Vec<Diagnostic> {
-        let closed: Vec<&str> =
-            found.places.iter().flatten().filter_map(|place| place.layer.as_deref()).collect();
+        let reported =
+            found.problems.iter().filter(|problem| problem.message != &messages::OUTLINE_UNREADABLE);
+        let places = found.places.iter().flatten().chain(reported.map(|problem| &problem.place));
+        let closed: Vec<&str> = places.filter_map(|place| place.layer.as_deref()).collect();
         let layers = self.drawing.layers.iter().zip(&self.layers).enumerate();
         let without = layers.filter(|(_, (layer, is_part))| **is_part && !closed.contains(&&*layer.name));
         let problem = |(number, (layer, _)): (usize, (&pathbuild_dxf::Layer, _))| {
@@ -127,17 +129,17 @@ impl<'d> OutlineLayers<'d> {
         without.filter_map(problem).collect()
     }
 
-    /// Adds the parts that rings form: each ring in no other one, with all rings inside it.
+    /// Adds the parts that rings form: each ring in no other one, with all rings inside it. Rings inside a broken outline are openings of a
+    /// part that is not known.
     fn add_parts(
         &self,
         paths: Option<&SmolStr>,
         curves: &[OutlineCurve],
-        mut rings: Vec<Vec<(usize, Curve)>>,
+        outlines: &SortedOutlines,
         found: &mut DrawnParts,
     ) {
-        rings.sort_by_key(|ring| ring[0].0);
-        let bare: Vec<Vec<Curve>> =
-            rings.iter().map(|ring| ring.iter().map(|(_, curve)| *curve).collect()).collect();
+        let rings = &outlines.rings;
+        let bare: Vec<Vec<Curve>> = rings.iter().map(curves_of).collect();
         let nesting = nesting(&bare);
         let place = |ring: usize| {
             let (number, curve) = &rings[ring][0];
@@ -150,7 +152,8 @@ impl<'d> OutlineLayers<'d> {
             )
             .place
         };
-        for outer in (0..bare.len()).filter(|ring| nesting[*ring].is_none()) {
+        let is_rim = |ring: &usize| nesting[*ring].is_none() && !outlines.is_enclosed(&bare[*ring]);
+        for outer in (0..bare.len()).filter(is_rim) {
             let mut part = Part {
                 layer: place(outer).layer.unwrap_or_default().into(),
                 paths: paths.cloned(),
@@ -164,7 +167,9 @@ impl<'d> OutlineLayers<'d> {
             for opening in openings {
                 let top = nesting[opening].map_or(opening, |(_, top)| top);
                 let curves = bare[opening].iter().rev().map(|curve| curve.reversed()).collect();
-                part.rings.push(PartRing { curves, nest: numbers[&top] });
+                // Where openings cross each other, the outer one may be in another part.
+                let nest = numbers.get(&top).copied().unwrap_or(part.rings.len());
+                part.rings.push(PartRing { curves, nest });
                 places.push(place(opening));
             }
             found.parts.push(part);
@@ -174,7 +179,7 @@ impl<'d> OutlineLayers<'d> {
 }
 
 /// For each ring inside others: the outermost of them, and the second outermost, or itself if there is no other.
-fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
+pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     if rings.len() == 1 {
         return vec![None];
     }
@@ -182,12 +187,15 @@ fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     let boxes = outlines.iter().enumerate();
     let boxes = boxes.map(|(n, outline)| GeomWithData::new(Rectangle::from_aabb(outline.extent()), n));
     let boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>> = RTree::bulk_load(boxes.collect());
+    // Rings that cross may contain points of each other: only the larger one is around the other.
+    let areas: Vec<f64> = rings.iter().map(|ring| area(ring)).collect();
+    let is_larger = |other: usize, ring: usize| (areas[other], other) > (areas[ring], ring);
     let around: Vec<Vec<usize>> = (0..rings.len())
         .map(|ring| {
             let curve = &rings[ring][0];
             let point = curve.section(0.0, curve.length() / 2.0).end();
             let near = boxes.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
-            let others = near.map(|near| near.data).filter(|other| *other != ring);
+            let others = near.map(|near| near.data).filter(|other| is_larger(*other, ring));
             let mut around: Vec<usize> = others.filter(|other| outlines[*other].contains(point)).collect();
             around.sort_unstable();
             around
@@ -200,165 +208,4 @@ fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
         Some((outer, *between.iter().min_by_key(|other| around[**other].len())?))
     };
     (0..rings.len()).map(outermost).collect()
-}
-
-/// Curves that meet at nodes. Half-edge `2 * n` runs along curve n, `2 * n + 1` against it.
-struct Graph {
-    curves: Vec<Curve>,
-    /// The node at which each half-edge begins.
-    tails: Vec<usize>,
-    /// Indices of the curves that have not been dropped.
-    numbers: Vec<usize>,
-}
-
-impl Graph {
-    fn new(curves: Vec<Curve>) -> Self {
-        let ends: Vec<Xy> = curves.iter().flat_map(|curve| [curve.start(), curve.end()]).collect();
-        let numbered = ends.iter().enumerate().map(|(end, at)| GeomWithData::new([at.x, at.y], end));
-        let tree = RTree::bulk_load(numbered.collect());
-        let mut tails = vec![usize::MAX; ends.len()];
-        for first in 0..ends.len() {
-            if tails[first] != usize::MAX {
-                continue;
-            }
-            tails[first] = first;
-            let mut open = vec![first];
-            while let Some(end) = open.pop() {
-                let near = tree.locate_within_distance([ends[end].x, ends[end].y], JOINED * JOINED);
-                for other in near.map(|near| near.data) {
-                    if tails[other] == usize::MAX {
-                        tails[other] = first;
-                        open.push(other);
-                    }
-                }
-            }
-        }
-        let mut graph = Self { numbers: (0..curves.len()).collect(), curves, tails };
-        graph.drop_duplicates();
-        graph
-    }
-
-    /// Drops curves that are drawn twice: curves are equal if their nodes and their middles are.
-    fn drop_duplicates(&mut self) {
-        let middle = |curve: &Curve| curve.section(0.0, curve.length() / 2.0).end();
-        let mut known: BTreeMap<(usize, usize), Vec<Xy>> = BTreeMap::new();
-        self.numbers.retain(|number| {
-            let (one, other) = (self.tails[2 * number], self.tails[2 * number + 1]);
-            let at = middle(&self.curves[*number]);
-            let middles = known.entry((one.min(other), one.max(other))).or_default();
-            let is_new = middles.iter().all(|middle| (middle - at).norm() > JOINED);
-            if is_new {
-                middles.push(at);
-            }
-            is_new
-        });
-    }
-
-    fn end(&self, half_edge: usize) -> Xy {
-        let curve = &self.curves[half_edge / 2];
-        if half_edge.is_multiple_of(2) { curve.start() } else { curve.end() }
-    }
-
-    /// Pairs of loose ends that almost meet: the curve and the position of one end, and the position of the other.
-    fn near_misses(&self) -> Vec<((usize, Xy), Xy)> {
-        let mut degrees = vec![0; self.tails.len()];
-        let ends = || self.numbers.iter().flat_map(|number| [2 * number, 2 * number + 1]);
-        for end in ends() {
-            degrees[self.tails[end]] += 1;
-        }
-        let loose: Vec<usize> = ends().filter(|end| degrees[self.tails[*end]] == 1).collect();
-        let numbered = loose.iter().map(|end| GeomWithData::new([self.end(*end).x, self.end(*end).y], *end));
-        let tree = RTree::bulk_load(numbered.collect());
-        let nearest = |end: usize| {
-            let at = self.end(end);
-            let near = tree.locate_within_distance([at.x, at.y], NEARLY_JOINED * NEARLY_JOINED);
-            let others = near.map(|near| near.data).filter(|other| *other != end);
-            let distance = |other: &usize| (self.end(*other) - at).norm();
-            others.min_by(|one, other| distance(one).total_cmp(&distance(other)).then(one.cmp(other)))
-        };
-        let pairs = loose.iter().filter_map(|end| Some((*end, nearest(*end)?)));
-        let mut pairs: Vec<(usize, usize)> =
-            pairs.map(|(one, other)| (one.min(other), one.max(other))).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
-        pairs.into_iter().map(|(one, other)| ((one / 2, self.end(one)), self.end(other))).collect()
-    }
-
-    /// The outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
-    /// dropped: dangling chains, and lines from one ring to another.
-    fn rings(&self) -> Vec<Vec<(usize, Curve)>> {
-        let faces = self.faces(&self.numbers);
-        let mut face_of = vec![0; 2 * self.curves.len()];
-        for (number, face) in faces.iter().enumerate() {
-            for half_edge in face {
-                face_of[*half_edge] = number;
-            }
-        }
-        let divides = |curve: &usize| face_of[2 * curve] != face_of[2 * curve + 1];
-        let kept: Vec<usize> = self.numbers.iter().copied().filter(divides).collect();
-        let outer = self.faces(&kept).into_iter().filter(|face| self.area(face) < -JOINED * JOINED);
-        let ring = |face: Vec<usize>| {
-            let backwards = face.into_iter().rev().map(|half_edge| half_edge ^ 1);
-            backwards.map(|half_edge| (half_edge / 2, self.directed(half_edge))).collect()
-        };
-        outer.map(ring).collect()
-    }
-
-    fn directed(&self, half_edge: usize) -> Curve {
-        let curve = self.curves[half_edge / 2];
-        if half_edge.is_multiple_of(2) { curve } else { curve.reversed() }
-    }
-
-    /// The faces of the kept curves, each on the left of its half-edges.
-    fn faces(&self, curves: &[usize]) -> Vec<Vec<usize>> {
-        let half_edges = || curves.iter().flat_map(|curve| [2 * curve, 2 * curve + 1]);
-        let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for half_edge in half_edges() {
-            outgoing.entry(self.tails[half_edge]).or_default().push(half_edge);
-        }
-        for edges in outgoing.values_mut() {
-            let shortest =
-                edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOINED, f64::min);
-            let angle = |half_edge: usize| {
-                let curve = self.directed(half_edge);
-                let way = curve.section(0.0, shortest / 2.0).end() - curve.start();
-                libm::atan2(way.y, way.x)
-            };
-            edges.sort_by(|one, other| angle(*one).total_cmp(&angle(*other)).then(one.cmp(other)));
-        }
-        let next = |half_edge: usize| {
-            let back = half_edge ^ 1;
-            let edges = &outgoing[&self.tails[back]];
-            let place = edges.iter().position(|edge| *edge == back).unwrap_or_default();
-            edges[(place + edges.len() - 1) % edges.len()]
-        };
-        let mut is_done = vec![false; self.tails.len()];
-        let mut faces = Vec::new();
-        for first in half_edges() {
-            let mut face = Vec::new();
-            let mut half_edge = first;
-            while !std::mem::replace(&mut is_done[half_edge], true) {
-                face.push(half_edge);
-                half_edge = next(half_edge);
-            }
-            if !face.is_empty() {
-                faces.push(face);
-            }
-        }
-        faces
-    }
-
-    /// The area inside half-edges in mm², positive if they run counterclockwise.
-    fn area(&self, face: &[usize]) -> f64 {
-        let origin = self.end(face[0]);
-        let area = |half_edge: &usize| {
-            let curve = self.directed(*half_edge);
-            let below = (curve.start() - origin).perp(&(curve.end() - origin)) / 2.0;
-            let Curve::Arc(arc) = curve else { return below };
-            let angle = arc.degrees.to_radians();
-            let segment = arc.radius * arc.radius * (angle - libm::sin(angle)) / 2.0;
-            below + if arc.clockwise { -segment } else { segment }
-        };
-        face.iter().map(area).sum()
-    }
 }

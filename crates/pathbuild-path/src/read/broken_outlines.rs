@@ -1,0 +1,285 @@
+//! Outlines of finished parts that are open or cross themselves or others. (book: language/part)
+
+use std::cell::Cell;
+use std::collections::BTreeSet;
+
+use pathbuild_diagnostic::messages::part as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, Point};
+use rstar::Envelope as _;
+
+use crate::element::shown;
+use crate::geometry::{Curve, Line, Xy};
+use crate::keep_out::{Outline, around};
+use crate::part::{BoxIndex, Stretch, at_along, joined, square, within};
+use crate::read::outline_graph::{Chain, Graph, JOINED, NEARLY_JOINED};
+use crate::read::parts::nesting;
+
+/// Largest gap of an outline, relative to its length. Arcs that stand for threads, leaders and letters are open by more.
+const LARGEST_GAP: f64 = 0.1;
+
+/// Share of a chain that lies between its crossing with itself if the two ends are overlong.
+const MOST_OF_CHAIN: f64 = 0.9;
+
+/// Upper bound on the pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand
+/// short lines. Only long lines close beside each other have more, and these outlines then count as sound.
+const MOST_COMPARED: usize = 1_000_000;
+
+/// An outline that cannot be compared with cuts.
+pub(super) struct BrokenOutline {
+    /// The number of a curve at the place of the problem.
+    pub(super) curve: usize,
+    pub(super) at: Xy,
+    /// `None` for ends that almost meet, which are reported in pairs.
+    pub(super) problem: Option<Diagnostic>,
+    /// The ends of a chain that crosses itself.
+    overlong: Option<(Point, Point)>,
+    border: Border,
+}
+
+/// The area inside a closed sequence of curves.
+struct Border(Outline);
+
+/// The outlines of a layer: those that can be compared with cuts, and those that cannot.
+pub(super) struct SortedOutlines {
+    pub(super) rings: Vec<Chain>,
+    pub(super) broken: Vec<BrokenOutline>,
+    /// The boxes of the broken outlines.
+    boxes: BoxIndex,
+    /// The ends of chains that cross themselves.
+    overlong: BTreeSet<(Point, Point)>,
+}
+
+impl SortedOutlines {
+    pub(super) fn new(graph: &Graph) -> Self {
+        let mut rings = graph.rings();
+        rings.sort_by_key(|ring| ring[0].0);
+        let nesting = nesting(&rings.iter().map(curves_of).collect::<Vec<_>>());
+        let is_outermost: Vec<bool> = nesting.iter().map(Option::is_none).collect();
+        let mut broken = Vec::new();
+        let mut is_left_out = vec![false; rings.len()];
+        for (number, ring) in rings.iter().enumerate() {
+            let Some(crossing) = self_crossing(&curves_of(ring)) else { continue };
+            is_left_out[number] = is_outermost[number];
+            broken.push(BrokenOutline::ring(&messages::OUTLINE_CROSSES_ITSELF, ring, &crossing));
+        }
+        for (number, crossing) in rims_crossed(&rings, &is_outermost) {
+            if !std::mem::replace(&mut is_left_out[number], true) {
+                broken.push(BrokenOutline::ring(&messages::OUTLINE_CROSSES_RIM, &rings[number], &crossing));
+            }
+        }
+        let outermost = rings.iter().zip(&is_outermost).filter(|(_, is_outermost)| **is_outermost);
+        let rims = Rims::new(outermost.map(|(ring, _)| curves_of(ring)).collect());
+        broken.extend(graph.open_chains().iter().filter_map(|chain| BrokenOutline::of_chain(chain, &rims)));
+        let mut is_kept = is_left_out.into_iter().map(|is_left_out| !is_left_out);
+        rings.retain(|_| is_kept.next().unwrap_or(true));
+        let boxes = BoxIndex::new(broken.iter().map(|broken| broken.border.0.extent()));
+        let overlong = broken.iter().filter_map(|broken| broken.overlong).collect();
+        Self { rings, broken, boxes, overlong }
+    }
+
+    /// Whether a broken outline is drawn round a ring, which is then no rim of a part.
+    pub(super) fn is_enclosed(&self, ring: &[Curve]) -> bool {
+        let near = self.boxes.near(square(ring[0].start(), 0.0));
+        near.into_iter().any(|number| self.broken[number].border.encloses(ring))
+    }
+
+    /// Whether these are the ends of a chain that crosses itself: they are too long, and there is no gap.
+    pub(super) fn are_overlong(&self, one: Xy, other: Xy) -> bool {
+        self.overlong.contains(&sorted(one, other))
+    }
+}
+
+impl BrokenOutline {
+    /// A ring that crosses itself or another one.
+    fn ring(message: &'static Message, ring: &Chain, crossing: &Crossing) -> Self {
+        Self {
+            curve: ring[crossing.first.0].0,
+            at: crossing.at,
+            problem: Some(Diagnostic::new(message).with("point", shown(crossing.at))),
+            overlong: None,
+            border: Border::new(&curves_of(ring)),
+        }
+    }
+
+    /// The outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
+    fn of_chain(chain: &Chain, rims: &Rims) -> Option<Self> {
+        Self::crossing(chain, rims).or_else(|| Self::with_gap(chain, rims))
+    }
+
+    fn crossing(chain: &Chain, rims: &Rims) -> Option<Self> {
+        let own = curves_of(chain);
+        let crossing = self_crossing(&own)?;
+        let between = crossing.between(&own);
+        let border = Border::new(&between);
+        let is_most = length(&between) >= MOST_OF_CHAIN * length(&own);
+        (is_most || rims.has_any_inside(&border)).then(|| Self {
+            overlong: own.first().zip(own.last()).map(|(first, last)| sorted(first.start(), last.end())),
+            border,
+            ..Self::ring(&messages::OUTLINE_CROSSES_ITSELF, chain, &crossing)
+        })
+    }
+
+    fn with_gap(chain: &Chain, rims: &Rims) -> Option<Self> {
+        let own = curves_of(chain);
+        let (first, last) = (chain.first()?, chain.last()?);
+        let (start, end) = (first.1.start(), last.1.end());
+        let gap = (start - end).norm();
+        let border = Border::new(&[&own[..], &[Curve::Line(Line { start: end, end: start })]].concat());
+        if gap > NEARLY_JOINED && gap > LARGEST_GAP * length(&own) && !rims.has_any_inside(&border) {
+            return None;
+        }
+        let (curve, at, other) = if first.0 < last.0 { (first.0, start, end) } else { (last.0, end, start) };
+        let problem = (gap > NEARLY_JOINED).then(|| gap_problem(at, other));
+        Some(Self { curve, at, problem, overlong: None, border })
+    }
+}
+
+/// PB219 for two ends that should meet.
+pub(super) fn gap_problem(end: Xy, other: Xy) -> Diagnostic {
+    Diagnostic::new(&messages::OUTLINE_GAP)
+        .with("point", shown(end))
+        .with("other", shown(other))
+        .with("distance", (other - end).norm())
+}
+
+impl Border {
+    fn new(curves: &[Curve]) -> Self {
+        Self(Outline::new(curves))
+    }
+
+    /// Whether all of a ring lies inside.
+    fn encloses(&self, ring: &[Curve]) -> bool {
+        let extent = self.0.extent();
+        let quarters =
+            |curve: &Curve| [0.0, 0.25, 0.5, 0.75].map(|share| at_along(curve, share * curve.length()));
+        let mut points = ring.iter().flat_map(quarters);
+        points.all(|at| extent.contains_point(&[at.x, at.y]) && self.0.contains(at))
+    }
+}
+
+/// The rings that are in no other one.
+struct Rims {
+    rings: Vec<Vec<Curve>>,
+    /// A point of each.
+    points: BoxIndex,
+    /// Number of comparisons that are left.
+    budget: Cell<usize>,
+}
+
+impl Rims {
+    fn new(rings: Vec<Vec<Curve>>) -> Self {
+        let points = BoxIndex::new(rings.iter().map(|ring| square(ring[0].start(), 0.0)));
+        Self { rings, points, budget: Cell::new(MOST_COMPARED) }
+    }
+
+    fn has_any_inside(&self, border: &Border) -> bool {
+        let near = self.points.near(border.0.extent());
+        self.budget.set(self.budget.get().saturating_sub(near.len()));
+        self.budget.get() > 0 && near.into_iter().any(|ring| border.encloses(&self.rings[ring]))
+    }
+}
+
+/// Two points in an order of their own.
+fn sorted(one: Xy, other: Xy) -> (Point, Point) {
+    let (one, other) = (shown(one), shown(other));
+    (one.min(other), one.max(other))
+}
+
+/// A place where two curves of a sequence cross: their indices, each with the distance in mm along it.
+pub(super) struct Crossing {
+    at: Xy,
+    first: (usize, f64),
+    second: (usize, f64),
+}
+
+impl Crossing {
+    /// The curves from the first passage to the second.
+    fn between(&self, curves: &[Curve]) -> Vec<Curve> {
+        let ((first, from), (second, to)) = (self.first, self.second);
+        let begin = curves[first].section(from, curves[first].length());
+        let end = curves[second].section(0.0, to);
+        [&[begin], &curves[first + 1..second], &[end]].concat()
+    }
+}
+
+/// The first curve of a sequence that crosses a later one, and the last that it crosses.
+pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
+    let boxes = BoxIndex::new(curves.iter().map(|curve| around(curve, 0.0)));
+    let mut compared = 0;
+    (0..curves.len()).find_map(|first| {
+        let near = boxes.near(around(&curves[first], JOINED)).into_iter().rev();
+        let mut later = near.take_while(|second| *second > first);
+        later.find_map(|second| {
+            compared += 1;
+            if compared > MOST_COMPARED {
+                return None;
+            }
+            let (from, to) =
+                (crossing(&curves[first], &curves[second])?, crossing(&curves[second], &curves[first])?);
+            let at = at_along(&curves[first], from);
+            Some(Crossing { at, first: (first, from), second: (second, to) })
+        })
+    })
+}
+
+/// The rings that cross the rim of a larger one, each with the place in its own curves.
+fn rims_crossed(rings: &[Chain], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
+    let all: Vec<(usize, usize, Curve)> = (0..)
+        .zip(rings)
+        .flat_map(|(ring, chain)| (0..).zip(chain).map(move |(place, (_, curve))| (ring, place, *curve)))
+        .collect();
+    let boxes = BoxIndex::new(all.iter().map(|(.., curve)| around(curve, 0.0)));
+    let areas: Vec<f64> = rings.iter().map(|ring| area(&curves_of(ring))).collect();
+    let mut compared = 0;
+    let mut found = Vec::new();
+    for (ring, place, curve) in &all {
+        for other in boxes.near(around(curve, JOINED)) {
+            let (rim, _, rim_curve) = &all[other];
+            let is_smaller = (areas[*ring], *ring) < (areas[*rim], *rim);
+            if ring == rim || !is_outermost[*rim] || !is_smaller || compared > MOST_COMPARED {
+                continue;
+            }
+            compared += 1;
+            if let (Some(along), Some(_)) = (crossing(curve, rim_curve), crossing(rim_curve, curve)) {
+                let place = (*place, along);
+                found.push((*ring, Crossing { at: at_along(curve, along), first: place, second: place }));
+            }
+        }
+    }
+    found
+}
+
+fn length(curves: &[Curve]) -> f64 {
+    curves.iter().map(Curve::length).sum()
+}
+
+/// The area of a ring in mm².
+pub(super) fn area(ring: &[Curve]) -> f64 {
+    let origin = ring[0].start();
+    ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
+}
+
+/// The place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
+fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
+    let mut near: Vec<Stretch> = Vec::new();
+    within(along, other, JOINED, &mut near);
+    let length = along.length();
+    let crosses = |(from, to): &Stretch| {
+        *from > 0.0
+            && *to < length
+            && side(other, at_along(along, *from)) != side(other, at_along(along, *to))
+    };
+    joined(near, JOINED).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
+}
+
+/// Whether a point is on the left of a line, or inside the circle of an arc.
+fn side(curve: &Curve, at: Xy) -> bool {
+    match curve {
+        Curve::Line(line) => (line.end - line.start).perp(&(at - line.start)) > 0.0,
+        Curve::Arc(arc) => (at - arc.centre).norm() < arc.radius,
+    }
+}
+
+pub(super) fn curves_of(chain: &Chain) -> Vec<Curve> {
+    chain.iter().map(|(_, curve)| *curve).collect()
+}

@@ -1,0 +1,279 @@
+//! The graph of the curves on a layer with parts: rings, and chains that are not closed. (book: language/part)
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use crate::geometry::{Curve, Xy};
+use crate::read::broken_outlines::self_crossing;
+
+/// Largest distance in mm of ends that join.
+pub(super) const JOINED: f64 = 0.01;
+
+/// Largest distance in mm of two loose ends that were probably meant to meet.
+pub(super) const NEARLY_JOINED: f64 = 0.5;
+
+/// Consecutive curves, each with its number.
+pub(super) type Chain = Vec<(usize, Curve)>;
+
+/// Curves that meet at nodes. Half-edge `2 * n` runs along curve n, `2 * n + 1` against it.
+pub(super) struct Graph {
+    curves: Vec<Curve>,
+    /// The node at which each half-edge begins.
+    tails: Vec<usize>,
+    /// Indices of the curves that have not been dropped.
+    numbers: Vec<usize>,
+}
+
+impl Graph {
+    pub(super) fn new(curves: Vec<Curve>) -> Self {
+        let ends: Vec<Xy> = curves.iter().flat_map(|curve| [curve.start(), curve.end()]).collect();
+        let numbered = ends.iter().enumerate().map(|(end, at)| GeomWithData::new([at.x, at.y], end));
+        let tree = RTree::bulk_load(numbered.collect());
+        let mut tails = vec![usize::MAX; ends.len()];
+        for first in 0..ends.len() {
+            if tails[first] != usize::MAX {
+                continue;
+            }
+            tails[first] = first;
+            let mut open = vec![first];
+            while let Some(end) = open.pop() {
+                let near = tree.locate_within_distance([ends[end].x, ends[end].y], JOINED * JOINED);
+                for other in near.map(|near| near.data) {
+                    if tails[other] == usize::MAX {
+                        tails[other] = first;
+                        open.push(other);
+                    }
+                }
+            }
+        }
+        let mut graph = Self { numbers: (0..curves.len()).collect(), curves, tails };
+        graph.drop_duplicates();
+        graph
+    }
+
+    /// Drops curves that are drawn twice: curves are equal if their nodes and their middles are.
+    fn drop_duplicates(&mut self) {
+        let middle = |curve: &Curve| curve.section(0.0, curve.length() / 2.0).end();
+        let mut known: BTreeMap<(usize, usize), Vec<Xy>> = BTreeMap::new();
+        self.numbers.retain(|number| {
+            let (one, other) = (self.tails[2 * number], self.tails[2 * number + 1]);
+            let at = middle(&self.curves[*number]);
+            let middles = known.entry((one.min(other), one.max(other))).or_default();
+            let is_new = middles.iter().all(|middle| (middle - at).norm() > JOINED);
+            if is_new {
+                middles.push(at);
+            }
+            is_new
+        });
+    }
+
+    /// The point where a half-edge begins.
+    pub(super) fn end(&self, half_edge: usize) -> Xy {
+        let curve = &self.curves[half_edge / 2];
+        if half_edge.is_multiple_of(2) { curve.start() } else { curve.end() }
+    }
+
+    /// Pairs of loose ends that almost meet, each as the half-edges that begin there.
+    pub(super) fn near_misses(&self) -> Vec<(usize, usize)> {
+        let mut degrees = vec![0; self.tails.len()];
+        let ends = || self.numbers.iter().flat_map(|number| [2 * number, 2 * number + 1]);
+        for end in ends() {
+            degrees[self.tails[end]] += 1;
+        }
+        let loose: Vec<usize> = ends().filter(|end| degrees[self.tails[*end]] == 1).collect();
+        let numbered = loose.iter().map(|end| GeomWithData::new([self.end(*end).x, self.end(*end).y], *end));
+        let tree = RTree::bulk_load(numbered.collect());
+        let nearest = |end: usize| {
+            let at = self.end(end);
+            let near = tree.locate_within_distance([at.x, at.y], NEARLY_JOINED * NEARLY_JOINED);
+            let others = near.map(|near| near.data).filter(|other| *other != end);
+            let distance = |other: &usize| (self.end(*other) - at).norm();
+            others.min_by(|one, other| distance(one).total_cmp(&distance(other)).then(one.cmp(other)))
+        };
+        let pairs = loose.iter().filter_map(|end| Some((*end, nearest(*end)?)));
+        let mut pairs: Vec<(usize, usize)> =
+            pairs.map(|(one, other)| (one.min(other), one.max(other))).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
+    }
+
+    /// The outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
+    /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
+    pub(super) fn rings(&self) -> Vec<Chain> {
+        let outer = self.faces(&self.dividing()).into_iter().filter(|face| {
+            let area = self.area(face);
+            area < -JOINED * JOINED || area <= JOINED * JOINED && self.is_figure_of_eight(face)
+        });
+        let ring = |face: Vec<usize>| {
+            let backwards = face.into_iter().rev().map(|half_edge| half_edge ^ 1);
+            backwards.map(|half_edge| (half_edge / 2, self.directed(half_edge))).collect()
+        };
+        outer.map(ring).collect()
+    }
+
+    /// Whether a face without an area is one of the two sides of a ring whose halves cancel out. Only one of the two sides counts.
+    fn is_figure_of_eight(&self, face: &[usize]) -> bool {
+        let curves: Vec<Curve> = face.iter().map(|half_edge| self.directed(*half_edge)).collect();
+        face[0].is_multiple_of(2) && self_crossing(&curves).is_some()
+    }
+
+    /// The numbers of the curves with different faces on their sides.
+    fn dividing(&self) -> Vec<usize> {
+        let faces = self.faces(&self.numbers);
+        let mut face_of = vec![0; 2 * self.curves.len()];
+        for (number, face) in faces.iter().enumerate() {
+            for half_edge in face {
+                face_of[*half_edge] = number;
+            }
+        }
+        let divides = |curve: &usize| face_of[2 * curve] != face_of[2 * curve + 1];
+        self.numbers.iter().copied().filter(divides).collect()
+    }
+
+    /// The longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the
+    /// two ends of a chain.
+    pub(super) fn open_chains(&self) -> Vec<Chain> {
+        let dividing: BTreeSet<usize> = self.dividing().into_iter().collect();
+        let open = || self.numbers.iter().copied().filter(|number| !dividing.contains(number));
+        let mut groups: Vec<usize> = (0..self.tails.len()).collect();
+        for number in open() {
+            unite(&mut groups, self.tails[2 * number], self.tails[2 * number + 1]);
+        }
+        let mut joints: Vec<usize> = (0..self.tails.len()).collect();
+        for (one, other) in self.near_misses() {
+            let is_open = |end: usize| !dividing.contains(&(end / 2));
+            if is_open(one) && is_open(other) && unite(&mut groups, self.tails[one], self.tails[other]) {
+                unite(&mut joints, self.tails[one], self.tails[other]);
+            }
+        }
+        let nodes: Vec<usize> = self.tails.iter().map(|tail| root(&mut joints, *tail)).collect();
+        let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for half_edge in open().flat_map(|number| [2 * number, 2 * number + 1]) {
+            outgoing.entry(nodes[half_edge]).or_default().push(half_edge);
+        }
+        let forest = Forest { graph: self, nodes, outgoing };
+        let mut known = BTreeSet::new();
+        let roots = open().map(|number| root(&mut groups, self.tails[2 * number]));
+        let roots: Vec<usize> = roots.filter(|root| known.insert(*root)).collect();
+        roots.into_iter().map(|root| forest.longest_chain(root)).collect()
+    }
+
+    fn directed(&self, half_edge: usize) -> Curve {
+        let curve = self.curves[half_edge / 2];
+        if half_edge.is_multiple_of(2) { curve } else { curve.reversed() }
+    }
+
+    /// The faces of the kept curves, each on the left of its half-edges.
+    fn faces(&self, curves: &[usize]) -> Vec<Vec<usize>> {
+        let half_edges = || curves.iter().flat_map(|curve| [2 * curve, 2 * curve + 1]);
+        let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for half_edge in half_edges() {
+            outgoing.entry(self.tails[half_edge]).or_default().push(half_edge);
+        }
+        for edges in outgoing.values_mut() {
+            let shortest =
+                edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOINED, f64::min);
+            let angle = |half_edge: usize| {
+                let curve = self.directed(half_edge);
+                let way = curve.section(0.0, shortest / 2.0).end() - curve.start();
+                libm::atan2(way.y, way.x)
+            };
+            edges.sort_by(|one, other| angle(*one).total_cmp(&angle(*other)).then(one.cmp(other)));
+        }
+        let next = |half_edge: usize| {
+            let back = half_edge ^ 1;
+            let edges = &outgoing[&self.tails[back]];
+            let place = edges.iter().position(|edge| *edge == back).unwrap_or_default();
+            edges[(place + edges.len() - 1) % edges.len()]
+        };
+        let mut is_done = vec![false; self.tails.len()];
+        let mut faces = Vec::new();
+        for first in half_edges() {
+            let mut face = Vec::new();
+            let mut half_edge = first;
+            while !std::mem::replace(&mut is_done[half_edge], true) {
+                face.push(half_edge);
+                half_edge = next(half_edge);
+            }
+            if !face.is_empty() {
+                faces.push(face);
+            }
+        }
+        faces
+    }
+
+    /// The area inside half-edges in mm², positive if they run counterclockwise.
+    fn area(&self, face: &[usize]) -> f64 {
+        let origin = self.end(face[0]);
+        let area = |half_edge: &usize| {
+            let curve = self.directed(*half_edge);
+            let below = (curve.start() - origin).perp(&(curve.end() - origin)) / 2.0;
+            let Curve::Arc(arc) = curve else { return below };
+            let angle = arc.degrees.to_radians();
+            let segment = arc.radius * arc.radius * (angle - libm::sin(angle)) / 2.0;
+            below + if arc.clockwise { -segment } else { segment }
+        };
+        face.iter().map(area).sum()
+    }
+}
+
+/// Groups of curves without rings.
+struct Forest<'g> {
+    graph: &'g Graph,
+    /// The node at which each half-edge begins.
+    nodes: Vec<usize>,
+    /// The half-edges that begin at each node.
+    outgoing: BTreeMap<usize, Vec<usize>>,
+}
+
+impl Forest<'_> {
+    /// The longest chain in the tree that contains a node.
+    fn longest_chain(&self, node: usize) -> Chain {
+        let one_end = self.way_to_farthest(self.nodes[node]).last().map_or(node, |last| last ^ 1);
+        let way = self.way_to_farthest(self.nodes[one_end]);
+        way.into_iter().map(|half_edge| (half_edge / 2, self.graph.directed(half_edge))).collect()
+    }
+
+    /// The half-edges from a node to the one that is farthest along the curves.
+    fn way_to_farthest(&self, node: usize) -> Vec<usize> {
+        let mut reached: BTreeMap<usize, Option<usize>> = BTreeMap::from([(node, None)]);
+        let (mut open, mut farthest) = (vec![(node, 0.0)], (node, 0.0));
+        while let Some((node, length)) = open.pop() {
+            if length > farthest.1 {
+                farthest = (node, length);
+            }
+            for half_edge in self.outgoing.get(&node).into_iter().flatten() {
+                let next = self.nodes[half_edge ^ 1];
+                if !reached.contains_key(&next) {
+                    reached.insert(next, Some(*half_edge));
+                    open.push((next, length + self.graph.curves[half_edge / 2].length()));
+                }
+            }
+        }
+        let back = |half_edge: &usize| reached.get(&self.nodes[*half_edge]).copied().flatten();
+        let last = reached.get(&farthest.0).copied().flatten();
+        let mut way: Vec<usize> = std::iter::successors(last, back).collect();
+        way.reverse();
+        way
+    }
+}
+
+/// Unites the groups of two nodes. Returns whether they were different.
+fn unite(groups: &mut [usize], one: usize, other: usize) -> bool {
+    let (one, other) = (root(groups, one), root(groups, other));
+    groups[one.max(other)] = one.min(other);
+    one != other
+}
+
+/// The first node of a group.
+fn root(groups: &mut [usize], node: usize) -> usize {
+    let mut root = node;
+    while groups[root] != root {
+        groups[root] = groups[groups[root]];
+        root = groups[root];
+    }
+    root
+}
